@@ -1,0 +1,377 @@
+//! The checked scene: plain data in SI units, ready to be lowered.
+//!
+//! Everything a `.rts` text says has been resolved when a `Scene` exists: names are indices, `like`
+//! chains and indexed instances are expanded, expressions are numbers, units are metres, radians,
+//! seconds and kelvins, colours are linear Rec. 709. It does not know files, meshes or the pack:
+//! whether an asset can be read and has the named part is the compiler's business, and each item
+//! carries the `Span` that such a later complaint must point at.
+//!
+//! Lists are sorted by name, so that the order of declarations in the text does not matter.
+
+use crate::source::Span;
+
+/// A whole checked scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Mesh files, sorted by name.
+    pub assets: Vec<Asset>,
+    /// Images, sorted by name.
+    pub textures: Vec<Texture>,
+    /// Materials, sorted by name.
+    pub materials: Vec<Material>,
+    /// Things in the world, fully expanded (`beams[0]`, `beams[1]`, …), sorted by name, index order.
+    pub instances: Vec<Instance>,
+    /// Sphere lights declared with `light`, sorted by name.
+    pub lights: Vec<Light>,
+    /// What is seen where nothing is; `None` is black.
+    pub sky: Option<Sky>,
+    /// The camera that `render` names.
+    pub camera: Camera,
+    /// The film that `render` names.
+    pub film: Film,
+    /// The one `render` declaration.
+    pub render: Render,
+}
+
+/// A name with the place where it was declared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Name {
+    /// The name as other declarations use it; imported names carry their prefix (`lantern.body`).
+    pub text: String,
+    /// Where it is declared.
+    pub span: Span,
+}
+
+/// A mesh file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asset {
+    /// Declared name.
+    pub name: Name,
+    /// Path relative to the directory of the `.rts` file that declares it, as written.
+    pub path: String,
+    /// The path literal.
+    pub path_span: Span,
+    /// Which importer reads it.
+    pub format: AssetFormat,
+}
+
+/// What a mesh file needs to be told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AssetFormat {
+    /// Wavefront OBJ: metres per unit of the file, and which axis points up.
+    Obj {
+        /// Metres per unit.
+        metres_per_unit: f64,
+        /// Up axis of the file.
+        up: Axis,
+    },
+    /// glTF 2.0, text or binary: metres and +Y up by its specification.
+    Gltf,
+}
+
+/// A signed coordinate axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// +x.
+    PlusX,
+    /// −x.
+    MinusX,
+    /// +y.
+    PlusY,
+    /// −y.
+    MinusY,
+    /// +z.
+    PlusZ,
+    /// −z.
+    MinusZ,
+}
+
+/// An image file used by materials.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Texture {
+    /// Declared name.
+    pub name: Name,
+    /// Path relative to the declaring `.rts` file, as written.
+    pub path: String,
+    /// The path literal.
+    pub path_span: Span,
+    /// How its numbers are to be read.
+    pub space: ColorSpace,
+    /// Outside 0..1 along u and v.
+    pub wrap: [Wrap; 2],
+}
+
+/// Encoding of an image's colour channels; alpha is always linear.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ColorSpace {
+    /// sRGB transfer curve.
+    Srgb,
+    /// Linear colour.
+    Linear,
+    /// Linear numbers that are not colours: roughness, normals.
+    Data,
+}
+
+/// What lies outside 0..1 of a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wrap {
+    /// The image repeats.
+    Repeat,
+    /// The edge texel goes on.
+    Clamp,
+    /// The image repeats mirrored.
+    Mirror,
+}
+
+/// Linear Rec. 709 triple.
+pub type Rgb = [f64; 3];
+
+/// A colour that may come from an image.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Color {
+    /// The same everywhere.
+    Constant(Rgb),
+    /// `.rgb` of a texture, index into `Scene::textures`.
+    Texture(usize),
+}
+
+/// A number that may come from one channel of an image.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scalar {
+    /// The same everywhere.
+    Constant(f64),
+    /// One channel (0 red … 3 alpha) of a texture.
+    Texture {
+        /// Index into `Scene::textures`.
+        texture: usize,
+        /// 0 red, 1 green, 2 blue, 3 alpha.
+        channel: u8,
+    },
+}
+
+/// A material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// Declared name.
+    pub name: Name,
+    /// Model and parameters.
+    pub model: MaterialModel,
+}
+
+/// How a material scatters and emits.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MaterialModel {
+    /// Lambert.
+    Diffuse {
+        /// Reflectance, 0 ..= 1.
+        color: Color,
+    },
+    /// Mirror blurred by a ball of radius `fuzz`.
+    Metal {
+        /// Reflectance, 0 ..= 1.
+        color: Color,
+        /// 0 ..= 1.
+        fuzz: f64,
+    },
+    /// Smooth glass.
+    Dielectric {
+        /// Refractive index, >= 1.
+        ior: f64,
+    },
+    /// Light source without scattering.
+    Emissive {
+        /// Colour, any non-negative value.
+        color: Color,
+        /// Factor on `color`: radiance in W/(m2 sr) up to the scene's own scale.
+        strength: f64,
+        /// Emits from the back side too.
+        both_sides: bool,
+    },
+    /// glTF metallic-roughness.
+    Principled(Principled),
+}
+
+/// Parameters of `MaterialModel::Principled`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Principled {
+    /// Base colour.
+    pub color: Color,
+    /// 0 dielectric … 1 metal.
+    pub metallic: Scalar,
+    /// Perceptual roughness 0 ..= 1.
+    pub roughness: Scalar,
+    /// Refractive index of the dielectric part.
+    pub ior: f64,
+    /// Emitted colour.
+    pub emission: Color,
+    /// Factor on `emission`.
+    pub emission_strength: f64,
+    /// Coverage.
+    pub alpha: Scalar,
+    /// Alpha below this is not there; `None` ignores alpha.
+    pub alpha_clip: Option<f64>,
+}
+
+/// A thing in the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Instance {
+    /// Name, with its index for indexed instances.
+    pub name: Name,
+    /// What it is.
+    pub shape: Shape,
+    /// Where the shape expression stands in the text.
+    pub shape_span: Span,
+    /// Index into `Scene::materials`; `None` takes the asset's own materials.
+    pub material: Option<usize>,
+    /// Where the material is named, if it is.
+    pub material_span: Option<Span>,
+    /// Rows of the 3x4 matrix `world_from_object`, metres: scale first, then rotate (about x, then
+    /// y, then z), then translate; the objects an instance is nested in come after.
+    pub world_from_object: [[f64; 4]; 3],
+}
+
+/// Geometry of an instance, object frame, metres.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// Sphere around the origin.
+    Sphere {
+        /// Radius, > 0.
+        radius: f64,
+    },
+    /// Rectangle in the xz plane around the origin, normal +y.
+    Rectangle {
+        /// Sizes along x and z.
+        size: [f64; 2],
+    },
+    /// Box around the origin.
+    Box {
+        /// Sizes along x, y, z.
+        size: [f64; 3],
+    },
+    /// A mesh file, or one named part of it (OBJ group or object; glTF node or mesh).
+    Mesh {
+        /// Index into `Scene::assets`.
+        asset: usize,
+        /// Name of the part as written after the dot; `None` is the whole file.
+        part: Option<String>,
+    },
+}
+
+/// A sphere light.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Light {
+    /// Declared name.
+    pub name: Name,
+    /// Centre, world frame, metres.
+    pub center: [f64; 3],
+    /// Radius, metres, > 0.
+    pub radius: f64,
+    /// Radiance, W/(m2 sr) up to the scene's own scale.
+    pub radiance: Rgb,
+}
+
+/// What a ray sees that leaves the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sky {
+    /// Declared name.
+    pub name: Name,
+    /// Constant or gradient.
+    pub model: SkyModel,
+}
+
+/// Sky models; all colours are radiance.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SkyModel {
+    /// One radiance for every direction.
+    Constant(Rgb),
+    /// Bands over the sine of the elevation: `zenith` at 1, `middle` at `blend_high`, `horizon` at
+    /// 0, `ground` at and below `blend_low`; plus glow and disc around `sun_direction`.
+    Gradient {
+        /// Straight up.
+        zenith: Rgb,
+        /// At sine `blend_high`.
+        middle: Rgb,
+        /// At the horizon.
+        horizon: Rgb,
+        /// Below sine `blend_low`.
+        ground: Rgb,
+        /// Sine of the elevation, in (0, 1).
+        blend_high: f64,
+        /// Sine of the elevation, in (-1, 0).
+        blend_low: f64,
+        /// Unit vector towards the sun.
+        sun_direction: [f64; 3],
+        /// Added radiance, times `cos^glow_power`.
+        glow: Rgb,
+        /// Exponent, >= 1.
+        glow_power: f64,
+        /// Added radiance, times `cos^disc_power`.
+        disc: Rgb,
+        /// Exponent, >= 1.
+        disc_power: f64,
+    },
+}
+
+/// A perspective camera.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Camera {
+    /// Declared name.
+    pub name: Name,
+    /// Eye, metres.
+    pub from: [f64; 3],
+    /// Point in the middle of the image, metres.
+    pub to: [f64; 3],
+    /// Which way is up in the image; not parallel to the view.
+    pub up: [f64; 3],
+    /// Horizontal field of view at the film's aspect ratio, radians.
+    pub fov_horizontal: f64,
+    /// Vertical field of view at the film's aspect ratio, radians.
+    pub fov_vertical: f64,
+    /// Radius of the lens, metres; 0 is a pinhole.
+    pub lens_radius: f64,
+    /// Distance to the plane of focus, metres, > 0.
+    pub focus_distance: f64,
+    /// Shutter opens and closes, seconds relative to the frame.
+    pub shutter: [f64; 2],
+}
+
+/// What the picture is written to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    /// Declared name.
+    pub name: Name,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Stops; the PNG is multiplied by `2^exposure`.
+    pub exposure: f64,
+    /// Response of the PNG.
+    pub tone_map: ToneMap,
+}
+
+/// Film response of the PNG; the EXR is always linear.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ToneMap {
+    /// sRGB encoding only.
+    None,
+    /// `x / (1 + x)`.
+    Reinhard,
+    /// Filmic.
+    Aces,
+}
+
+/// How the picture is made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Render {
+    /// Declared name.
+    pub name: Name,
+    /// Samples per pixel.
+    pub samples: u32,
+    /// Longest path in segments.
+    pub max_depth: u32,
+    /// Bounce from which Russian roulette may end a path.
+    pub roulette_depth: u32,
+    /// Seed of the image.
+    pub seed: u32,
+    /// Where the picture goes, as written; relative to the working directory of `rtr`.
+    pub output: Option<String>,
+}

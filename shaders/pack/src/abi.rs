@@ -1,0 +1,61 @@
+//! The records that `rtc` writes and the kernel reads, field by field.
+//!
+//! Turns: nothing; it is the shared vocabulary of compiler, shaders and runtime. Every record is a
+//! multiple of 16 bytes, little-endian, and reaches the kernel as `array<vec4<u32>>` words which
+//! generated loaders decode. `shaders::layout` proves that each WGSL struct of the same name has
+//! these fields at these offsets.
+//!
+//! It does not know naga, wgpu, files or the language.
+
+mod camera;
+mod field;
+mod film;
+mod frame;
+mod geometry;
+mod light;
+mod material;
+mod render;
+mod sky;
+mod texture;
+
+pub use camera::Camera;
+pub use field::{AbiRecord, Field, FieldType};
+pub use film::FilmPixel;
+pub use frame::Frame;
+pub use geometry::{
+    CHILD_INNER, CHILD_SPHERES, ChildRef, MAX_DEPTH, MAX_LEAF, Node, Sphere, TriShade, Triangle,
+};
+pub use light::{Light, LightKind};
+pub use material::{Material, MaterialKind, material_flag};
+pub use render::{RenderSettings, ToneMap};
+pub use sky::{Sky, SkyKind};
+pub use texture::{Texture, TextureFormat, Wrap};
+
+/// "No such element" wherever an index is optional: texture ids, light ids.
+pub const NONE: u32 = u32::MAX;
+
+/// Samples in one canonical batch: `f32` sums cover sample indices `[16k, 16k + 16)`, and batches
+/// are added in `f64` in ascending order. Fixed, so that tile size, thread count and device do not
+/// change the image.
+pub const BATCH: u32 = 16;
+
+/// Every record that the kernel knows, in the order in which tables are printed.
+#[must_use]
+pub fn records() -> Vec<(&'static str, &'static [Field], usize)> {
+    fn row<R: AbiRecord>() -> (&'static str, &'static [Field], usize) {
+        (R::NAME, R::FIELDS, size_of::<R>())
+    }
+    vec![
+        row::<Frame>(),
+        row::<Camera>(),
+        row::<Sky>(),
+        row::<Node>(),
+        row::<Triangle>(),
+        row::<TriShade>(),
+        row::<Sphere>(),
+        row::<Material>(),
+        row::<Light>(),
+        row::<Texture>(),
+        row::<FilmPixel>(),
+    ]
+}

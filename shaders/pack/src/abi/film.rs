@@ -1,0 +1,21 @@
+//! What the kernel returns.
+
+use super::field::abi_struct;
+
+abi_struct! {
+    /// One pixel of a tile after one dispatch, 32 bytes.
+    pub struct FilmPixel {
+        /// Sum of radiance over the samples of this dispatch; bad samples add 0.
+        pub sum: [f32; 3],
+        /// Rays traced: camera, bounce and shadow.
+        pub rays: u32,
+        /// Samples whose radiance was not finite.
+        pub bad: u32,
+        /// Index of the first bad sample; meaningful when `bad > 0`.
+        pub first_bad: u32,
+        /// Longest path of this dispatch in segments.
+        pub depth: u32,
+        /// Unused.
+        pub _pad0: u32,
+    }
+}

@@ -1,0 +1,43 @@
+//! What changes from dispatch to dispatch: the kernel's only uniform, written by the runtime.
+
+use super::field::abi_struct;
+
+abi_struct! {
+    /// One dispatch: which pixels, which samples, and where the heap's tables begin.
+    pub struct Frame {
+        /// First pixel of the tile, image coordinates, origin top left.
+        pub tile_origin: [u32; 2],
+        /// Tile size in pixels; film word index is `(y * tile_size.x + x) * 2` inside the tile.
+        pub tile_size: [u32; 2],
+        /// Whole image in pixels.
+        pub image_size: [u32; 2],
+        /// First sample index of this dispatch.
+        pub sample_first: u32,
+        /// Samples in this dispatch, 1 ..= `BATCH`; never crosses a multiple of `BATCH`.
+        pub sample_count: u32,
+        /// Seed of the whole image; a coordinate of every random number.
+        pub seed: u32,
+        /// Longest path in segments; 1 sees emission only.
+        pub max_depth: u32,
+        /// Bounce from which Russian roulette may end a path.
+        pub roulette_depth: u32,
+        /// Number of lights in the selection table; 0 switches next-event estimation off.
+        pub n_lights: u32,
+        /// First heap word (16 bytes each) of the `Camera`.
+        pub camera_at: u32,
+        /// First heap word of the `Sky`; unused without a sky.
+        pub sky_at: u32,
+        /// First heap word of the `Material` table.
+        pub material_at: u32,
+        /// First heap word of the `Light` table.
+        pub light_at: u32,
+        /// First heap word of the `Texture` table.
+        pub texture_at: u32,
+        /// First heap word of the 256-entry sRGB decoding table, four entries a word.
+        pub srgb_at: u32,
+        /// BVH root: a `ChildRef` as in `Node`; `NONE` for a scene without geometry.
+        pub root: u32,
+        /// Estimator switch for tests: 0 MIS (balance), 1 light samples only, 2 BSDF samples only.
+        pub estimator: u32,
+    }
+}

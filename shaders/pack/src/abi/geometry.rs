@@ -1,0 +1,158 @@
+//! BVH nodes and primitives.
+//!
+//! Primitives are stored in leaf order, so a leaf is a range. Leaves are not nodes: a child
+//! reference says directly which primitives it stands for.
+
+use super::field::abi_struct;
+
+/// Bit 31 of a child reference: the other 31 bits are a node index, greater than the parent's.
+pub const CHILD_INNER: u32 = 1 << 31;
+/// Bit 30 of a leaf reference: the range is of `Sphere`, otherwise of `Triangle`.
+pub const CHILD_SPHERES: u32 = 1 << 30;
+/// Most primitives in a leaf.
+pub const MAX_LEAF: u32 = 8;
+/// Deepest inner node allowed in one mesh's tree; the root has depth 0.
+pub const MAX_DEPTH: u32 = 48;
+
+/// A decoded child reference. Layout of the word: inner `1iii…` (31-bit node index); leaf
+/// `0s ccc i…`: `s` spheres, `ccc` count − 1, 27-bit first primitive; `NONE` is no child at all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ChildRef {
+    /// Index of an inner node.
+    Inner(u32),
+    /// Triangles `first .. first + count`, `count` in 1 ..= 8.
+    Triangles {
+        /// First triangle.
+        first: u32,
+        /// How many.
+        count: u32,
+    },
+    /// Spheres `first .. first + count`, `count` in 1 ..= 8.
+    Spheres {
+        /// First sphere.
+        first: u32,
+        /// How many.
+        count: u32,
+    },
+    /// No child: the reference of an empty tree.
+    Empty,
+}
+
+impl ChildRef {
+    const FIRST_MASK: u32 = (1 << 27) - 1;
+
+    /// Decodes a reference word; every word decodes to something.
+    #[must_use]
+    pub fn decode(word: u32) -> Self {
+        if word == super::NONE {
+            return Self::Empty;
+        }
+        if word & CHILD_INNER != 0 {
+            return Self::Inner(word & !CHILD_INNER);
+        }
+        let first = word & Self::FIRST_MASK;
+        let count = ((word >> 27) & 7) + 1;
+        if word & CHILD_SPHERES != 0 {
+            Self::Spheres { first, count }
+        } else {
+            Self::Triangles { first, count }
+        }
+    }
+
+    /// The reference word, or `None` when an index or a count does not fit.
+    #[must_use]
+    pub fn encode(self) -> Option<u32> {
+        let leaf = |first: u32, count: u32, kind: u32| {
+            let fits = first <= Self::FIRST_MASK && (1..=MAX_LEAF).contains(&count);
+            fits.then(|| kind | ((count - 1) << 27) | first)
+        };
+        match self {
+            // The all-ones word means `Empty`, so the largest index is not usable.
+            Self::Inner(index) => (index < CHILD_INNER - 1).then_some(index | CHILD_INNER),
+            Self::Triangles { first, count } => leaf(first, count, 0),
+            Self::Spheres { first, count } => leaf(first, count, CHILD_SPHERES),
+            Self::Empty => Some(super::NONE),
+        }
+    }
+}
+
+abi_struct! {
+    /// Inner node of the binary BVH, 64 bytes: the boxes of both children and where they are.
+    /// Normalised world frame.
+    pub struct Node {
+        /// Lower corner of the left child's box.
+        pub left_lo: [f32; 3],
+        /// `ChildRef` word of the left child.
+        pub left: u32,
+        /// Upper corner of the left child's box.
+        pub left_hi: [f32; 3],
+        /// `ChildRef` word of the right child.
+        pub right: u32,
+        /// Lower corner of the right child's box.
+        pub right_lo: [f32; 3],
+        /// Unused.
+        pub _pad0: u32,
+        /// Upper corner of the right child's box.
+        pub right_hi: [f32; 3],
+        /// Unused.
+        pub _pad1: u32,
+    }
+}
+
+abi_struct! {
+    /// A triangle's corners, 48 bytes, in leaf order. Normalised world frame; the geometric normal
+    /// is `cross(v1 - v0, v2 - v0)`.
+    pub struct Triangle {
+        /// First corner.
+        pub v0: [f32; 3],
+        /// Id of the first corner after welding by position: equal bits, equal id.
+        pub id0: u32,
+        /// Second corner.
+        pub v1: [f32; 3],
+        /// Welded id of the second corner.
+        pub id1: u32,
+        /// Third corner.
+        pub v2: [f32; 3],
+        /// Welded id of the third corner.
+        pub id2: u32,
+    }
+}
+
+abi_struct! {
+    /// What shading needs of a triangle, 48 bytes, same index as its `Triangle`.
+    pub struct TriShade {
+        /// Shading normals of the three corners, octahedral, x and y as 16-bit signed normalised
+        /// integers (x in the low half); world frame, not necessarily on the geometric side.
+        pub normals: [u32; 3],
+        /// Index of the `Material`.
+        pub material: u32,
+        /// Texture coordinates of the first corner; v points up.
+        pub uv0: [f32; 2],
+        /// Texture coordinates of the second corner.
+        pub uv1: [f32; 2],
+        /// Texture coordinates of the third corner.
+        pub uv2: [f32; 2],
+        /// Index of the `Light` this triangle belongs to, or `NONE`.
+        pub light: u32,
+        /// Bit 0: interpolate `normals`; otherwise the triangle is flat.
+        pub flags: u32,
+    }
+}
+
+abi_struct! {
+    /// A sphere, 32 bytes, in leaf order. Normalised world frame.
+    pub struct Sphere {
+        /// Centre.
+        pub center: [f32; 3],
+        /// Radius, > 0.
+        pub radius: f32,
+        /// Index of the `Material`.
+        pub material: u32,
+        /// Index of the `Light`, or `NONE`.
+        pub light: u32,
+        /// Unused.
+        pub _pad0: u32,
+        /// Unused.
+        pub _pad1: u32,
+    }
+}

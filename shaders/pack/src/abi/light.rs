@@ -1,0 +1,41 @@
+//! What next-event estimation may sample. Emission itself is the material's.
+
+use super::field::abi_struct;
+
+/// Shape of a `Light`. The numbers are part of the pack format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u32)]
+pub enum LightKind {
+    /// Sphere `primitive`, sampled by its visible cone.
+    Sphere = 0,
+    /// Parallelogram `origin + u edge1 + v edge2`, sampled by area; two triangles in the BVH.
+    Rectangle = 1,
+    /// Triangle `primitive`, sampled by area.
+    Triangle = 2,
+}
+
+abi_struct! {
+    /// An emitter in the selection table, 64 bytes. Normalised world frame.
+    pub struct Light {
+        /// Centre (sphere), corner (rectangle), first vertex (triangle).
+        pub origin: [f32; 3],
+        /// `LightKind`.
+        pub kind: u32,
+        /// First edge; x is the radius for a sphere.
+        pub edge1: [f32; 3],
+        /// Area in square normalised units; unused for a sphere.
+        pub area: f32,
+        /// Second edge.
+        pub edge2: [f32; 3],
+        /// Index of the sphere, of the triangle, or of the rectangle's first triangle.
+        pub primitive: u32,
+        /// Probability of choosing this light, > 0; all of them sum to 1.
+        pub pmf: f32,
+        /// Sum of `pmf` up to and including this light; the last is exactly 1.
+        pub cdf: f32,
+        /// Index of the `Material` that emits.
+        pub material: u32,
+        /// Unused.
+        pub _pad0: u32,
+    }
+}

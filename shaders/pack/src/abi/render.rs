@@ -1,0 +1,53 @@
+//! Settings that the runtime needs and the kernel does not.
+
+use super::field::abi_struct;
+
+/// Film response of the PNG. The numbers are part of the pack format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
+pub enum ToneMap {
+    /// Exposure and sRGB encoding only.
+    None = 0,
+    /// `x / (1 + x)` a channel.
+    Reinhard = 1,
+    /// A filmic curve fitted to the ACES reference (Narkowicz 2015).
+    Aces = 2,
+}
+
+abi_struct! {
+    /// The RENDER section: exactly one element, 96 bytes.
+    pub struct RenderSettings {
+        /// Image size in pixels.
+        pub image_size: [u32; 2],
+        /// Samples per pixel.
+        pub samples: u32,
+        /// Longest path in segments, >= 1.
+        pub max_depth: u32,
+        /// Bounce from which Russian roulette may end a path.
+        pub roulette_depth: u32,
+        /// Seed of the image.
+        pub seed: u32,
+        /// Exposure in stops: the PNG is multiplied by `2^exposure`.
+        pub exposure: f32,
+        /// `ToneMap`.
+        pub tone_map: u32,
+        /// Root of the BVH: a `ChildRef` word, `NONE` without geometry.
+        pub root: u32,
+        /// Entries that the traversal stack needs, exactly, over all rays.
+        pub stack_need: u32,
+        /// Lower and upper half of the `f64` scale: normalised = (world - center) * scale, a power of two.
+        pub scale_bits: [u32; 2],
+        /// Halves of the `f64` x of the world's centre, metres.
+        pub center_x_bits: [u32; 2],
+        /// Halves of the `f64` y of the world's centre.
+        pub center_y_bits: [u32; 2],
+        /// Halves of the `f64` z of the world's centre.
+        pub center_z_bits: [u32; 2],
+        /// Number of lights in the selection table.
+        pub n_lights: u32,
+        /// Unused.
+        pub _pad0: u32,
+        /// Unused.
+        pub _pad1: [u32; 4],
+    }
+}
