@@ -1,1 +1,1 @@
-//! (to be written)
+//! Everything that crosses crates: see `tests/tests`.
