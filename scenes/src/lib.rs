@@ -1,1 +1,4 @@
-//! (to be written)
+//! The example scenes: one folder each, and generators for the meshes they use.
+
+pub mod catalog;
+pub mod generate;

@@ -1,0 +1,62 @@
+//! The table of example scenes: name, what it shows, and the assets to generate first.
+
+use std::path::{Path, PathBuf};
+
+/// An example scene: `scenes/NAME/NAME.rts`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Example {
+    /// Folder and file stem.
+    pub name: &'static str,
+    /// One line for `demo --list` and the README.
+    pub about: &'static str,
+    /// Files to generate into `scenes/NAME/generated`.
+    pub assets: &'static [&'static str],
+}
+
+/// Every example, in the order in which a newcomer should try them.
+pub const EXAMPLES: &[Example] = &[
+    Example {
+        name: "weekend",
+        about: "many spheres in the three classic materials, under a gradient sky",
+        assets: &[],
+    },
+    Example { name: "cornell", about: "the classic box with a rectangle light", assets: &[] },
+    Example {
+        name: "cornell_sphere",
+        about: "the box lit by a sphere, with glass and metal",
+        assets: &[],
+    },
+    Example {
+        name: "mesh",
+        about: "a knotted rope of 256,000 triangles, generated and read as OBJ",
+        assets: &["knot.obj"],
+    },
+    Example {
+        name: "gltf",
+        about: "a tea table from a generated GLB: textures, brass, alpha, a glowing lamp",
+        assets: &["tea_table.glb"],
+    },
+];
+
+/// The example called `name`.
+#[must_use]
+pub fn find(name: &str) -> Option<&'static Example> {
+    EXAMPLES.iter().find(|example| example.name == name)
+}
+
+impl Example {
+    /// The scene text below the folder of all scenes.
+    #[must_use]
+    pub fn source(&self, scenes: &Path) -> PathBuf {
+        scenes.join(self.name).join(format!("{}.rts", self.name))
+    }
+
+    /// Writes what the scene needs and does not have yet; returns the files written.
+    ///
+    /// # Errors
+    /// Any failure to write a file.
+    pub fn generate(&self, scenes: &Path) -> std::io::Result<Vec<PathBuf>> {
+        let dir = scenes.join(self.name).join("generated");
+        self.assets.iter().map(|asset| crate::generate::generate(asset, &dir)).collect()
+    }
+}

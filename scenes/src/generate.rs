@@ -1,0 +1,39 @@
+//! Procedural assets: parameters become OBJ and GLB files beside the scene that uses them.
+//!
+//! The same code gives the same bytes on every machine: all transcendental functions are `libm`'s,
+//! and nothing depends on time, threads or directories. It does not know the renderer.
+
+mod glb;
+mod knot;
+mod lathe;
+mod obj;
+mod tea_table;
+mod vector;
+
+use std::path::{Path, PathBuf};
+
+pub use glb::{Glb, MaterialSpec, MeshData, NodeSpec};
+
+/// Writes the asset `name` under `dir`; an unknown name is a bug of the scene table.
+///
+/// # Errors
+/// Any failure to create or write the file.
+pub fn generate(name: &str, dir: &Path) -> std::io::Result<PathBuf> {
+    let path = dir.join(name);
+    match name {
+        "knot.obj" => write_atomically(&path, &knot::obj(knot::Resolution::FULL)),
+        "tea_table.glb" => write_atomically(&path, &tea_table::glb()),
+        _ => Err(std::io::Error::other(format!("no generator makes `{name}`"))),
+    }?;
+    Ok(path)
+}
+
+/// Writes a sibling temporary file and renames it: a reader sees the old file or the new one.
+fn write_atomically(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let dir = path.parent().unwrap_or(Path::new("."));
+    std::fs::create_dir_all(dir)?;
+    let mut file = tempfile::NamedTempFile::new_in(dir)?;
+    std::io::Write::write_all(&mut file, bytes)?;
+    file.persist(path)?;
+    Ok(())
+}
