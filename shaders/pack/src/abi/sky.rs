@@ -3,13 +3,24 @@
 use super::field::abi_struct;
 
 /// How `Sky` is to be read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u32)]
 pub enum SkyKind {
     /// `zenith` in every direction.
     Constant = 0,
     /// Three-band gradient with glow and disc around `sun_direction`.
     Gradient = 1,
+}
+
+impl SkyKind {
+    /// Every kind, in tag order.
+    pub const ALL: [Self; 2] = [Self::Constant, Self::Gradient];
+
+    /// The kind with this tag.
+    #[must_use]
+    pub fn from_tag(tag: u32) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| *kind as u32 == tag)
+    }
 }
 
 abi_struct! {
