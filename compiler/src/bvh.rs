@@ -1,0 +1,73 @@
+//! Bounding volume hierarchies: binned surface-area heuristic, binary, leaves of at most 8.
+//!
+//! Turns boxes of primitives into flat arrays of `pack::abi::Node` in depth-first order. Keeps these
+//! invariants: every primitive is in exactly one leaf (checked after each build), leaf ranges tile
+//! the primitives, a child's index is greater than its parent's, no path has more than
+//! `pack::abi::MAX_DEPTH` nodes, and the bytes depend on the boxes alone, not on threads.
+//! It does not know the scene language, materials or files; `cache` keeps trees on disk.
+
+mod binned;
+mod build;
+mod check;
+mod fragment;
+mod sweep;
+mod words;
+
+use pack::abi::{NONE, Node};
+use thiserror::Error;
+
+pub use check::TreeFault;
+pub use fragment::{Bounds, COORD_MAX, Fragment, MAX_PRIMITIVES};
+
+/// Name and version of the builder. Any change of its results must change this.
+pub const BUILDER: &str = "binned16-sweep24-v1";
+
+/// The tree of one group of primitives, with indices local to the group. Leaves are written as
+/// triangles whatever they hold.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tree {
+    /// Inner nodes in depth-first order.
+    pub nodes: Vec<Node>,
+    /// Reference to the root: `NONE` for no primitives, a leaf for few of them.
+    pub root: u32,
+    /// Primitive indices in leaf order, a permutation of `0 .. n`.
+    pub order: Vec<u32>,
+    /// Box of everything; `Bounds::EMPTY` for no primitives.
+    pub bounds: Bounds,
+    /// Most inner nodes on a path from the root to a leaf, at most 47.
+    pub depth: u32,
+}
+
+/// Why no tree was built.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+pub enum BvhError {
+    /// More primitives than leaf references can address.
+    #[error("{count} primitives of one kind, but at most {MAX_PRIMITIVES} are possible")]
+    TooMany {
+        /// How many there are.
+        count: usize,
+    },
+    /// The builder made something that is no tree: a bug of ours.
+    #[error("the tree builder failed its own check: {0}")]
+    Fault(#[from] TreeFault),
+}
+
+/// Builds the tree of a group. `fragments[i]` must have index `i`.
+pub fn build(mut fragments: Vec<Fragment>) -> Result<Tree, BvhError> {
+    let count = fragments.len();
+    if count > MAX_PRIMITIVES {
+        return Err(BvhError::TooMany { count });
+    }
+    if count == 0 {
+        let (nodes, order, bounds) = (Vec::new(), Vec::new(), Bounds::EMPTY);
+        return Ok(Tree { nodes, root: NONE, order, bounds, depth: 0 });
+    }
+    let built = build::build(&mut fragments);
+    let order: Vec<u32> = fragments.iter().map(Fragment::index).collect();
+    drop(fragments);
+    let bounds = built.bounds;
+    let (nodes, root) = built.flatten();
+    check::permutation(&order)?;
+    let depth = check::tree_depth(nodes.len(), count, root, |i| [nodes[i].left, nodes[i].right])?;
+    Ok(Tree { nodes, root, order, bounds, depth })
+}
