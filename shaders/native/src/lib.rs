@@ -1,1 +1,80 @@
-//! (to be written)
+//! A WGSL compute kernel → the text of a Rust module that computes the same, on the CPU.
+//!
+//! naga parses and validates; this crate walks naga's IR once and writes one Rust method for every
+//! WGSL function. The walk is the same for both precisions: the f64 twin differs from the f32 kernel
+//! in its type aliases, its literals, and where 32-bit words become floats.
+//!
+//! The promise is *faithful or refused*: a construct is either translated with WGSL's meaning or is
+//! an error that names it and its line and column. Nothing is approximated in silence.
+//!
+//! # The generated module
+//! Text for `include!` inside a module of its own; it needs `glam` and nothing else. It holds
+//! - `Bindings`, one slice or reference for every global resource, named as in WGSL;
+//! - `Kernel`, the resources and the `var<private>` variables;
+//! - one public method of `Kernel` for every WGSL function, entry points included;
+//! - one struct for every WGSL struct, one constant for every module-scope `const`.
+//!
+//! An entry point resets the private variables first, so one `Kernel` serves many invocations.
+//!
+//! # Where WGSL leaves a choice
+//! - A read outside an array gives its last element (of an empty array zero); a write is dropped.
+//! - `min`, `max`, `clamp` compare once and say nothing about NaN.
+//! - Sums of products (`dot`, matrices) have one written order; nothing is fused.
+//! - An `override` takes its default; without one it is refused.
+//! - A resource shorter than its fixed-size array reads as zeros.
+//!
+//! This crate knows nothing of the scene, of the pack, or of what the kernel computes.
+
+mod builtins;
+mod constants;
+mod context;
+mod conversions;
+mod decimals;
+mod error;
+mod expressions;
+mod functions;
+mod matrices;
+mod names;
+mod operators;
+mod places;
+mod resources;
+mod statements;
+mod text;
+mod types;
+
+#[cfg(test)]
+mod prelude_tests;
+
+pub use error::NativeError;
+
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+
+/// The type that stands for WGSL's `f32` in the generated text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Precision {
+    /// `f32`: the same bits as a GPU that rounds as IEEE 754 says.
+    F32,
+    /// `f64`: the twin that shows where rounding matters.
+    F64,
+}
+
+/// Translates a WGSL text.
+pub fn generate(source: &str, precision: Precision) -> Result<String, NativeError> {
+    let module = naga::front::wgsl::parse_str(source)
+        .map_err(|error| NativeError::parse(&error, source))?;
+    let info = Validator::new(ValidationFlags::all(), Capabilities::all())
+        .validate(&module)
+        .map_err(|error| NativeError::invalid(&error, source))?;
+    generate_module(&module, &info, source, precision)
+}
+
+/// Translates a module that is already parsed and validated. `source` is the text that its spans
+/// point into; the f64 twin also reads the decimals of literals from it.
+pub fn generate_module(
+    module: &naga::Module,
+    info: &ModuleInfo,
+    source: &str,
+    precision: Precision,
+) -> Result<String, NativeError> {
+    context::Context::new(module, info, source, precision).write()
+}

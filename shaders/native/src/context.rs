@@ -1,0 +1,175 @@
+//! One module on its way to Rust: what naga knows of it, the names it gets, and the order in which
+//! its parts are written.
+
+use crate::functions::FunctionWriter;
+use crate::names::{Names, TYPE_NAMES};
+use crate::text::Text;
+use crate::{NativeError, Precision};
+use naga::valid::ModuleInfo;
+use naga::{
+    Constant, Function, GlobalVariable, Handle, Module, Override, Span, Type, TypeInner,
+};
+
+/// What every part of the walk needs to know.
+pub(crate) struct Context<'a> {
+    pub(crate) module: &'a Module,
+    pub(crate) info: &'a ModuleInfo,
+    pub(crate) source: &'a str,
+    pub(crate) precision: Precision,
+    structs: Vec<String>,
+    fields: Vec<Vec<String>>,
+    constants: Vec<Option<String>>,
+    overrides: Vec<String>,
+    globals: Vec<String>,
+    functions: Vec<String>,
+    entry_points: Vec<String>,
+}
+
+impl<'a> Context<'a> {
+    /// Gives every item of the module its Rust name.
+    pub(crate) fn new(
+        module: &'a Module,
+        info: &'a ModuleInfo,
+        source: &'a str,
+        precision: Precision,
+    ) -> Self {
+        let mut types = Names::with(TYPE_NAMES.iter().copied());
+        let mut structs = Vec::new();
+        let mut fields = Vec::new();
+        for (_, ty) in module.types.iter() {
+            let (name, members) = match &ty.inner {
+                TypeInner::Struct { members, .. } => {
+                    let mut names = Names::default();
+                    let members = members
+                        .iter()
+                        .map(|m| names.add(m.name.as_deref().unwrap_or("member")))
+                        .collect();
+                    (types.add(ty.name.as_deref().unwrap_or("Unnamed")), members)
+                }
+                _ => (String::new(), Vec::new()),
+            };
+            structs.push(name);
+            fields.push(members);
+        }
+        let mut values = Names::default();
+        let constants = module
+            .constants
+            .iter()
+            .map(|(_, constant)| {
+                let inner = &module.types[constant.ty].inner;
+                let name = constant.name.as_ref()?;
+                (!inner.is_abstract(&module.types)).then(|| values.add(name))
+            })
+            .collect();
+        let overrides = module
+            .overrides
+            .iter()
+            .map(|(_, constant)| values.add(constant.name.as_deref().unwrap_or("override_")))
+            .collect();
+        let mut members = Names::with(["unused"]);
+        let globals = module
+            .global_variables
+            .iter()
+            .map(|(_, global)| members.add(global.name.as_deref().unwrap_or("global")))
+            .collect();
+        let mut methods = Names::with(["new"]);
+        let entry_points = module.entry_points.iter().map(|e| methods.add(&e.name)).collect();
+        let functions = module
+            .functions
+            .iter()
+            .map(|(_, function)| methods.add(function.name.as_deref().unwrap_or("function")))
+            .collect();
+        Self {
+            module,
+            info,
+            source,
+            precision,
+            structs,
+            fields,
+            constants,
+            overrides,
+            globals,
+            functions,
+            entry_points,
+        }
+    }
+
+    /// Writes the whole module.
+    pub(crate) fn write(&self) -> Result<String, NativeError> {
+        let mut out = Text::default();
+        out.line("// Generated from WGSL by the crate `native`. Do not edit.");
+        self.write_aliases(&mut out);
+        self.write_structs(&mut out)?;
+        self.write_constants(&mut out)?;
+        out.line("");
+        self.write_resources(&mut out)?;
+        out.open("impl<'a> Kernel<'a> {");
+        self.write_constructor(&mut out)?;
+        for (index, entry) in self.module.entry_points.iter().enumerate() {
+            out.line("");
+            let info = self.info.get_entry_point(index);
+            let name = &self.entry_points[index];
+            let body = FunctionWriter::new(self, &entry.function, info, Span::UNDEFINED)
+                .write_entry(entry, name)?;
+            out.raw(&body);
+        }
+        for (handle, function) in self.module.functions.iter() {
+            out.line("");
+            let span = self.module.functions.get_span(handle);
+            let writer = FunctionWriter::new(self, function, &self.info[handle], span);
+            out.raw(&writer.write_function(self.function_name(handle))?);
+        }
+        out.close("}");
+        out.line("");
+        out.line("mod wgsl {");
+        out.raw(prelude());
+        out.line("}");
+        Ok(out.finish())
+    }
+
+    /// The error for a construct that has no faithful translation.
+    pub(crate) fn refuse(&self, span: Span, construct: &str) -> NativeError {
+        NativeError::at(span, self.source, format!("{construct} has no CPU translation"))
+    }
+
+    /// The Rust name of a struct.
+    pub(crate) fn struct_name(&self, ty: Handle<Type>) -> &str {
+        &self.structs[ty.index()]
+    }
+
+    /// The Rust names of a struct's members.
+    pub(crate) fn field_names(&self, ty: Handle<Type>) -> &[String] {
+        &self.fields[ty.index()]
+    }
+
+    /// The Rust name of a constant, if it is one in Rust too.
+    pub(crate) fn constant_name(&self, constant: Handle<Constant>) -> Option<&str> {
+        self.constants[constant.index()].as_deref()
+    }
+
+    /// The Rust name of an override.
+    pub(crate) fn override_name(&self, constant: Handle<Override>) -> &str {
+        &self.overrides[constant.index()]
+    }
+
+    /// The member of `Kernel` that holds a global variable.
+    pub(crate) fn global_name(&self, global: Handle<GlobalVariable>) -> &str {
+        &self.globals[global.index()]
+    }
+
+    /// The method of `Kernel` that a function becomes.
+    pub(crate) fn function_name(&self, function: Handle<Function>) -> &str {
+        &self.functions[function.index()]
+    }
+
+    /// All names that a local variable must not take.
+    pub(crate) fn value_names(&self) -> impl Iterator<Item = &str> {
+        self.constants.iter().flatten().chain(&self.overrides).map(String::as_str)
+    }
+}
+
+/// The scalar rules of WGSL without their header, which speaks of this crate.
+fn prelude() -> &'static str {
+    let text = include_str!("prelude.rs");
+    text.find("use super::Real;").map_or(text, |start| &text[start..])
+}

@@ -1,0 +1,844 @@
+// Generated from WGSL by the crate `native`. Do not edit.
+
+/// WGSL's `f32`.
+pub type Real = f32;
+pub type Vec2 = glam::Vec2;
+pub type Vec3 = glam::Vec3;
+pub type Vec4 = glam::Vec4;
+pub type Mat2 = glam::Mat2;
+pub type Mat3 = glam::Mat3;
+pub type Mat4 = glam::Mat4;
+pub use glam::{BVec2, BVec3, BVec4, IVec2, IVec3, IVec4, UVec2, UVec3, UVec4};
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leaf {
+    pub weight: Real,
+    pub count: u32,
+}
+
+impl Leaf {
+    /// All members zero.
+    pub const ZERO: Self = Leaf { weight: 0.0f32, count: 0u32 };
+}
+
+impl Default for Leaf {
+    fn default() -> Self {
+        Self::ZERO
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tree {
+    pub left: Leaf,
+    pub right: Leaf,
+    pub table: [u32; 3],
+    pub axis: Vec3,
+}
+
+impl Tree {
+    /// All members zero.
+    pub const ZERO: Self = Tree { left: Leaf::ZERO, right: Leaf::ZERO, table: [0u32; 3], axis: Vec3::ZERO };
+}
+
+impl Default for Tree {
+    fn default() -> Self {
+        Self::ZERO
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tree2 {
+    pub gain: Real,
+    pub offset: Vec3,
+}
+
+impl Tree2 {
+    /// All members zero.
+    pub const ZERO: Self = Tree2 { gain: 0.0f32, offset: Vec3::ZERO };
+}
+
+impl Default for Tree2 {
+    fn default() -> Self {
+        Self::ZERO
+    }
+}
+
+pub const PRIMES: [u32; 5] = [2u32, 3u32, 5u32, 7u32, 11u32];
+pub const CORNERS: [Vec2; 3] = [Vec2::new(0.0f32, 0.1f32), Vec2::new(1.0f32, 0.2f32), Vec2::new(2.0f32, 0.3f32)];
+pub const STACK_SIZE: u32 = 8u32;
+
+/// What the kernel reads and writes, one member a WGSL resource.
+pub struct Bindings<'a> {
+    pub frame_words: &'a [UVec4],
+    pub node_words: &'a [UVec4],
+    pub weights: &'a [Real],
+    pub leaves: &'a [Leaf],
+    pub film_words: &'a mut [UVec4],
+    pub sums: &'a mut [Real],
+    pub total: &'a mut Leaf,
+    pub setting: &'a Tree2,
+    pub points: &'a [Vec2],
+}
+
+/// The resources and the private variables of one invocation after another.
+pub struct Kernel<'a> {
+    pub frame_words: &'a [UVec4; 2],
+    pub node_words: &'a [UVec4],
+    pub weights: &'a [Real],
+    pub leaves: &'a [Leaf],
+    pub film_words: &'a mut [UVec4],
+    pub sums: &'a mut [Real],
+    pub total: &'a mut Leaf,
+    pub setting: &'a Tree2,
+    pub points: &'a [Vec2],
+    pub stack: [u32; 8],
+    pub top: u32,
+    pub rng: UVec4,
+}
+
+impl<'a> Kernel<'a> {
+    /// Binds the resources; the private variables get their initial values.
+    pub fn new(bindings: Bindings<'a>) -> Self {
+        Self {
+            frame_words: bindings.frame_words.first_chunk().unwrap_or(&[UVec4::ZERO; 2]),
+            node_words: bindings.node_words,
+            weights: bindings.weights,
+            leaves: bindings.leaves,
+            film_words: bindings.film_words,
+            sums: bindings.sums,
+            total: bindings.total,
+            setting: bindings.setting,
+            points: bindings.points,
+            stack: [0u32; 8],
+            top: 3u32,
+            rng: UVec4::new(1u32, 2u32, 3u32, 4u32),
+        }
+    }
+    
+    pub fn render(&mut self, gid: UVec3) {
+        self.stack = [0u32; 8];
+        self.top = 3u32;
+        self.rng = UVec4::new(1u32, 2u32, 3u32, 4u32);
+        let e2 = gid.x;
+        let e5 = self.top;
+        let e8 = self.stack[0];
+        if (e2 as usize) < self.film_words.len() {
+            self.film_words[e2 as usize] = UVec4::new(e5, e8, self.rng.w, gid.y);
+        }
+        let e15 = self.top;
+        self.top = e15.wrapping_add(10u32);
+        self.stack[0] = 77u32;
+        self.rng = UVec4::splat(9u32);
+        return;
+    }
+    
+    /// WGSL line 35.
+    #[inline]
+    pub fn set_count(&mut self, leaf: &mut Leaf, count: u32) {
+        leaf.count = count;
+        let e4 = leaf.weight;
+        leaf.weight = e4 + 0.5f32;
+        return;
+    }
+    
+    /// WGSL line 40.
+    #[inline]
+    pub fn bump(&mut self, x: &mut u32) -> u32 {
+        let e1 = *x;
+        *x = e1.wrapping_add(1u32);
+        return *x;
+    }
+    
+    /// WGSL line 45.
+    #[inline]
+    pub fn bump_twice(&mut self, x: &mut u32) {
+        self.bump(&mut *x);
+        self.bump(&mut *x);
+        return;
+    }
+    
+    /// WGSL line 50.
+    #[inline]
+    pub fn pointer_to_variable(&mut self) -> u32 {
+        let mut x: u32 = 5u32;
+        self.bump_twice(&mut x);
+        let e2 = x;
+        x = e2.wrapping_mul(2u32);
+        return x;
+    }
+    
+    /// WGSL line 59.
+    #[inline]
+    pub fn pointer_to_member(&mut self) -> u32 {
+        let mut tree: Tree = Tree::ZERO;
+        self.set_count(&mut tree.right, 4u32);
+        self.bump_twice(&mut tree.left.count);
+        tree.table[1] = 6u32;
+        let e10 = tree.left.count;
+        let e12 = e10.wrapping_mul(100u32);
+        let e15 = tree.right.count;
+        let e18 = e12.wrapping_add(e15.wrapping_mul(10u32));
+        return e18.wrapping_add(tree.table[1]);
+    }
+    
+    /// WGSL line 68.
+    #[inline]
+    pub fn pointer_to_element(&mut self, i: u32) -> u32 {
+        let mut list: [u32; 4] = [1u32, 2u32, 3u32, 4u32];
+        let e5 = [1u32, 2u32, 3u32, 4u32];
+        self.bump_twice(&mut list[(i as usize).min(3)]);
+        let e9 = list[0];
+        let e11 = e9.wrapping_mul(1000u32);
+        let e13 = list[1];
+        let e16 = e11.wrapping_add(e13.wrapping_mul(100u32));
+        let e18 = list[2];
+        let e21 = e16.wrapping_add(e18.wrapping_mul(10u32));
+        return e21.wrapping_add(list[3]);
+    }
+    
+    /// WGSL line 75.
+    #[inline]
+    pub fn pointer_keeps_index(&mut self) -> u32 {
+        let mut list: [u32; 3] = [0u32, 0u32, 0u32];
+        let mut i: u32 = 1u32;
+        let e3 = [0u32, 0u32, 0u32];
+        let e7 = i;
+        i = 2u32;
+        if (e7 as usize) < 3 {
+            list[e7 as usize] = 5u32;
+        }
+        let e12 = list[0];
+        let e14 = e12.wrapping_mul(100u32);
+        let e16 = list[1];
+        let e19 = e14.wrapping_add(e16.wrapping_mul(10u32));
+        return e19.wrapping_add(list[2]);
+    }
+    
+    /// WGSL line 84.
+    #[inline]
+    pub fn structs_are_values(&mut self) -> u32 {
+        let mut a: Tree = Tree::ZERO;
+        let mut b: Tree = Tree::ZERO;
+        a.left.count = 1u32;
+        b = a;
+        b.left.count = 2u32;
+        b.table[2] = 9u32;
+        let c = b;
+        b.left.count = 3u32;
+        let e18 = a.left.count;
+        let e20 = e18.wrapping_mul(1000u32);
+        let e23 = b.left.count;
+        let e26 = e20.wrapping_add(e23.wrapping_mul(100u32));
+        let e28 = c.left.count;
+        let e31 = e26.wrapping_add(e28.wrapping_mul(10u32));
+        return e31.wrapping_add(a.table[2]);
+    }
+    
+    /// WGSL line 95.
+    #[inline]
+    pub fn changed(&mut self, tree: Tree, count: u32) -> Tree {
+        let mut result: Tree = Tree::ZERO;
+        result = tree;
+        result.left = Leaf { weight: 2.5f32, count: count };
+        result.axis.y = 3.0f32;
+        return result;
+    }
+    
+    /// WGSL line 102.
+    #[inline]
+    pub fn structs_pass_by_value(&mut self) -> Real {
+        let mut tree: Tree = Tree::ZERO;
+        let e1 = tree;
+        let after = self.changed(e1, 7u32);
+        let e7 = tree.left.count as Real;
+        let e10 = after.left.count as Real;
+        let e17 = after.axis;
+        return ((e7 + (e10 * 10.0f32)) + after.left.weight) + e17.y;
+    }
+    
+    /// WGSL line 108.
+    #[inline]
+    pub fn locals_start_zeroed(&mut self) -> u32 {
+        let mut a: u32 = 0u32;
+        let mut b: [u32; 40] = [0u32; 40];
+        let mut c: Vec3 = Vec3::ZERO;
+        let mut d: Tree = Tree::ZERO;
+        let mut e: Mat3 = Mat3::ZERO;
+        let mut f: bool = false;
+        let mut g: BVec2 = BVec2::FALSE;
+        let e7 = a;
+        let e14 = e7.wrapping_add(b[39]).wrapping_add(wgsl::to_u32(c.z));
+        let e18 = e14.wrapping_add(d.table[2]);
+        return e18.wrapping_add(wgsl::to_u32(e.z_axis.y)).wrapping_add(f as u32).wrapping_add(g.y as u32);
+    }
+    
+    /// WGSL line 119.
+    #[inline]
+    pub fn constant_array(&mut self, i: u32) -> u32 {
+        return (&PRIMES)[(i as usize).min(4)];
+    }
+    
+    /// WGSL line 120.
+    #[inline]
+    pub fn constant_array_signed(&mut self, i: i32) -> u32 {
+        return (&PRIMES)[(i as usize).min(4)];
+    }
+    
+    /// WGSL line 121.
+    #[inline]
+    pub fn constant_corner(&mut self, i: u32) -> Vec2 {
+        return (&CORNERS)[(i as usize).min(2)];
+    }
+    
+    /// WGSL line 123.
+    #[inline]
+    pub fn local_constant_array(&mut self, i: u32) -> u32 {
+        let list = [10u32, 20u32, 30u32];
+        return (&list)[(i as usize).min(2)];
+    }
+    
+    /// WGSL line 128.
+    #[inline]
+    pub fn read_outside(&mut self, i: u32) -> u32 {
+        let mut list: [u32; 3] = [10u32, 20u32, 30u32];
+        let e4 = [10u32, 20u32, 30u32];
+        return list[(i as usize).min(2)];
+    }
+    
+    /// WGSL line 133.
+    #[inline]
+    pub fn write_outside(&mut self, i: u32) -> u32 {
+        let mut list: [u32; 3] = [1u32, 2u32, 3u32];
+        let e4 = [1u32, 2u32, 3u32];
+        if (i as usize) < 3 {
+            list[i as usize] = 9u32;
+        }
+        let e9 = list[0];
+        let e11 = e9.wrapping_mul(100u32);
+        let e13 = list[1];
+        let e16 = e11.wrapping_add(e13.wrapping_mul(10u32));
+        return e16.wrapping_add(list[2]);
+    }
+    
+    /// WGSL line 139.
+    #[inline]
+    pub fn write_outside_nested(&mut self, i: u32, j: u32) -> u32 {
+        let mut grid: [[u32; 2]; 2] = [[0u32; 2]; 2];
+        if (i as usize) < 2 && (j as usize) < 2 {
+            grid[i as usize][j as usize] = 1u32;
+        }
+        let e8 = grid[0][0];
+        let e10 = e8.wrapping_mul(1000u32);
+        let e13 = grid[0][1];
+        let e16 = e10.wrapping_add(e13.wrapping_mul(100u32));
+        let e19 = grid[1][0];
+        let e22 = e16.wrapping_add(e19.wrapping_mul(10u32));
+        return e22.wrapping_add(grid[1][1]);
+    }
+    
+    /// WGSL line 145.
+    #[inline]
+    pub fn lane_outside(&mut self, i: u32) -> Real {
+        let mut v: Vec3 = Vec3::new(1.0f32, 2.0f32, 3.0f32);
+        let e4 = Vec3::new(1.0f32, 2.0f32, 3.0f32);
+        if (i as usize) < 3 {
+            v[i as usize] = 5.0f32;
+        }
+        let e9 = v.x;
+        let e11 = e9 * 100.0f32;
+        let e13 = v.y;
+        return (e11 + (e13 * 10.0f32)) + v.z;
+    }
+    
+    /// WGSL line 151.
+    #[inline]
+    pub fn lane_of_value(&mut self, v: UVec4, i: u32) -> u32 {
+        return v[(i as usize).min(3)];
+    }
+    
+    /// WGSL line 152.
+    #[inline]
+    pub fn lane_of_bools(&mut self, v: BVec3, i: u32) -> bool {
+        let mut w: BVec3 = BVec3::FALSE;
+        let mut local: bool = false;
+        w = v;
+        if (i as usize) < 3 {
+            w.set(i as usize, !w.test((i as usize).min(2)));
+        }
+        if w.test((i as usize).min(2)) {
+            local = !v.test((i as usize).min(2));
+        } else {
+            local = false;
+        }
+        return local;
+    }
+    
+    /// WGSL line 158.
+    #[inline]
+    pub fn column_outside(&mut self, i: u32) -> Real {
+        let mut m: Mat2 = Mat2::from_cols(Vec2::new(1.0f32, 2.0f32), Vec2::new(3.0f32, 4.0f32));
+        let e7 = Mat2::from_cols(Vec2::new(1.0f32, 2.0f32), Vec2::new(3.0f32, 4.0f32));
+        if (i as usize) < 2 {
+            *m.col_mut(i as usize) = Vec2::new(5.0f32, 6.0f32);
+        }
+        if (i as usize) < 2 {
+            m.col_mut(i as usize).y = 7.0f32;
+        }
+        let e18 = m.x_axis.x;
+        let e20 = e18 * 1000.0f32;
+        let e23 = m.x_axis.y;
+        let e26 = e20 + (e23 * 100.0f32);
+        let e29 = m.y_axis.x;
+        let e32 = e26 + (e29 * 10.0f32);
+        return e32 + m.y_axis.y;
+    }
+    
+    /// WGSL line 165.
+    #[inline]
+    pub fn store_lane(&mut self) -> Vec4 {
+        let mut v: Vec4 = Vec4::splat(0.0f32);
+        let e1 = Vec4::splat(0.0f32);
+        v.z = 1.5f32;
+        let e6 = v.x;
+        v.x = e6 + 2.0f32;
+        v.w = v.z;
+        return v;
+    }
+    
+    /// WGSL line 173.
+    #[inline]
+    pub fn frame(&mut self, i: u32) -> UVec4 {
+        let frame_words = self.frame_words;
+        return frame_words[(i as usize).min(1)];
+    }
+    
+    /// WGSL line 174.
+    #[inline]
+    pub fn frame_first(&mut self) -> u32 {
+        let frame_words = self.frame_words;
+        let e3 = frame_words[0].y;
+        return e3.wrapping_add(frame_words[1].w);
+    }
+    
+    /// WGSL line 175.
+    #[inline]
+    pub fn node(&mut self, i: u32) -> UVec4 {
+        let node_words = self.node_words;
+        return *wgsl::at(node_words, i as u32, &UVec4::ZERO);
+    }
+    
+    /// WGSL line 176.
+    #[inline]
+    pub fn node_lane(&mut self, i: u32, lane: u32) -> u32 {
+        let node_words = self.node_words;
+        return wgsl::at(node_words, i as u32, &UVec4::ZERO)[(lane as usize).min(3)];
+    }
+    
+    /// WGSL line 177.
+    #[inline]
+    pub fn node_floats(&mut self, i: u32) -> Vec3 {
+        let node_words = self.node_words;
+        let e3 = *wgsl::at(node_words, i as u32, &UVec4::ZERO);
+        return Vec3::new(f32::from_bits(e3.y), f32::from_bits(e3.z), f32::from_bits(e3.w));
+    }
+    
+    /// WGSL line 178.
+    #[inline]
+    pub fn node_count(&mut self) -> u32 {
+        let node_words = self.node_words;
+        return node_words.len() as u32;
+    }
+    
+    /// WGSL line 179.
+    #[inline]
+    pub fn weight(&mut self, i: u32) -> Real {
+        let weights = self.weights;
+        return *wgsl::at(weights, i as u32, &0.0f32);
+    }
+    
+    /// WGSL line 180.
+    #[inline]
+    pub fn leaf_count(&mut self, i: u32) -> u32 {
+        let leaves = self.leaves;
+        return wgsl::at(leaves, i as u32, &Leaf::ZERO).count;
+    }
+    
+    /// WGSL line 181.
+    #[inline]
+    pub fn leaf_weight(&mut self, i: u32) -> Real {
+        let leaves = self.leaves;
+        return wgsl::at(leaves, i as u32, &Leaf::ZERO).weight;
+    }
+    
+    /// WGSL line 182.
+    #[inline]
+    pub fn point(&mut self, i: u32) -> Vec2 {
+        let points = self.points;
+        return *wgsl::at(points, i as u32, &Vec2::ZERO);
+    }
+    
+    /// WGSL line 183.
+    #[inline]
+    pub fn point_y(&mut self, i: u32) -> Real {
+        let points = self.points;
+        return wgsl::at(points, i as u32, &Vec2::ZERO).y;
+    }
+    
+    /// WGSL line 184.
+    #[inline]
+    pub fn gain(&mut self) -> Real {
+        let setting = self.setting;
+        let e2 = setting.gain;
+        return e2 + setting.offset.z;
+    }
+    
+    /// WGSL line 186.
+    #[inline]
+    pub fn film_write(&mut self, i: u32, value: UVec4) {
+        if (i as usize) < self.film_words.len() {
+            self.film_words[i as usize] = value;
+        }
+        return;
+    }
+    
+    /// WGSL line 187.
+    #[inline]
+    pub fn film_lane(&mut self, i: u32, value: u32) {
+        if (i as usize) < self.film_words.len() {
+            self.film_words[i as usize].z = value;
+        }
+        return;
+    }
+    
+    /// WGSL line 188.
+    #[inline]
+    pub fn film_read(&mut self, i: u32) -> UVec4 {
+        return *wgsl::at(&*self.film_words, i as u32, &UVec4::ZERO);
+    }
+    
+    /// WGSL line 189.
+    #[inline]
+    pub fn film_size(&mut self) -> u32 {
+        return self.film_words.len() as u32;
+    }
+    
+    /// WGSL line 191.
+    #[inline]
+    pub fn add_sum(&mut self, i: u32, x: Real) -> Real {
+        if (i as usize) < self.sums.len() {
+            self.sums[i as usize] = (*wgsl::at(&*self.sums, i as u32, &0.0f32)) + x;
+        }
+        self.total.weight = self.total.weight + x;
+        let e12 = self.total.count;
+        self.total.count = e12.wrapping_add(1u32);
+        return self.total.weight;
+    }
+    
+    /// WGSL line 198.
+    #[inline]
+    pub fn push(&mut self, value: u32) {
+        let e3 = self.top;
+        if (e3 as usize) < 8 {
+            self.stack[e3 as usize] = value;
+        }
+        let e7 = self.top;
+        self.top = e7.wrapping_add(1u32);
+        return;
+    }
+    
+    /// WGSL line 203.
+    #[inline]
+    pub fn push_and_peek(&mut self, a: u32, b: u32) -> u32 {
+        self.top = 0u32;
+        self.push(a);
+        self.push(b);
+        let e6 = self.stack[0];
+        let e8 = e6.wrapping_mul(100u32);
+        let e11 = self.stack[1];
+        let e14 = e8.wrapping_add(e11.wrapping_mul(10u32));
+        return e14.wrapping_add(self.top);
+    }
+    
+    /// WGSL line 210.
+    #[inline]
+    pub fn next_random(&mut self) -> u32 {
+        let e2 = self.rng;
+        let e4 = e2.wrapping_mul(UVec4::splat(1664525u32));
+        self.rng = e4.wrapping_add(UVec4::splat(1013904223u32));
+        let e10 = self.rng.x;
+        let e13 = self.rng.y;
+        self.rng.x = e10.wrapping_add(e13.wrapping_mul(self.rng.w));
+        return self.rng.x;
+    }
+}
+
+mod wgsl {
+use super::Real;
+
+/// Element `i`; outside the array the last element; of an empty array `zero`.
+#[inline(always)]
+pub fn at<'s, T>(array: &'s [T], i: u32, zero: &'s T) -> &'s T {
+    match array.get(i as usize) {
+        Some(element) => element,
+        None => last(array, zero),
+    }
+}
+
+#[cold]
+fn last<'s, T>(array: &'s [T], zero: &'s T) -> &'s T {
+    array.last().unwrap_or(zero)
+}
+
+/// `b` if it is smaller, else `a`: what WGSL allows and one instruction does.
+#[inline(always)]
+pub fn min(a: Real, b: Real) -> Real {
+    if b < a { b } else { a }
+}
+
+/// `b` if it is larger, else `a`.
+#[inline(always)]
+pub fn max(a: Real, b: Real) -> Real {
+    if a < b { b } else { a }
+}
+
+/// `x` between `low` and `high`; `high` wins where they cross.
+#[inline(always)]
+pub fn clamp(x: Real, low: Real, high: Real) -> Real {
+    min(max(x, low), high)
+}
+
+/// -1, 0 or 1; 0 for both zeros and for NaN.
+#[inline(always)]
+pub fn sign(x: Real) -> Real {
+    if x > 0.0 {
+        1.0
+    } else if x < 0.0 {
+        -1.0
+    } else {
+        0.0
+    }
+}
+
+/// `x` less the integer below it.
+#[inline(always)]
+pub fn fract(x: Real) -> Real {
+    x - x.floor()
+}
+
+/// `a` at `t` 0, `b` at 1.
+#[inline(always)]
+pub fn mix(a: Real, b: Real, t: Real) -> Real {
+    a + t * (b - a)
+}
+
+/// 0 below `edge`, else 1.
+#[inline(always)]
+pub fn step(edge: Real, x: Real) -> Real {
+    if edge <= x { 1.0 } else { 0.0 }
+}
+
+/// The cubic ramp from 0 at `low` to 1 at `high`.
+#[inline(always)]
+pub fn smoothstep(low: Real, high: Real, x: Real) -> Real {
+    let t = clamp((x - low) / (high - low), 0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// Remainder of truncated division, rounded as WGSL defines it and not as `fmod` does.
+#[inline(always)]
+pub fn rem(a: Real, b: Real) -> Real {
+    a - b * (a / b).trunc()
+}
+
+/// `x` times two to the power of `e`.
+#[inline]
+pub fn ldexp(x: Real, e: i32) -> Real {
+    let e = e.clamp(-2000, 2000);
+    let power = |e: i32| f64::from_bits(((e + 1023) as u64) << 52);
+    (f64::from(x) * power(e / 2) * power(e - e / 2)) as Real
+}
+
+/// The fraction of `x`, in 0.5 <= |f| < 1, and its exponent.
+#[inline]
+pub fn frexp(x: Real) -> (Real, i32) {
+    let wide = f64::from(x);
+    if wide == 0.0 || !wide.is_finite() {
+        return (x, 0);
+    }
+    let tiny = wide.abs() < f64::MIN_POSITIVE;
+    let bits = if tiny { wide * 18_014_398_509_481_984.0 } else { wide }.to_bits();
+    let exponent = ((bits >> 52) & 0x7ff) as i32 - 1022 - if tiny { 54 } else { 0 };
+    let fraction = f64::from_bits((bits & !(0x7ff << 52)) | (1022 << 52));
+    (fraction as Real, exponent)
+}
+
+/// To u32: towards zero; outside its range the nearest value that f32 also holds; NaN is 0.
+#[inline(always)]
+pub fn to_u32(x: Real) -> u32 {
+    (x as u32).min(4_294_967_040)
+}
+
+/// To i32: towards zero; outside its range the nearest value that f32 also holds; NaN is 0.
+#[inline(always)]
+pub fn to_i32(x: Real) -> i32 {
+    (x as i32).min(2_147_483_520)
+}
+
+/// Quotient; by zero the dividend.
+#[inline(always)]
+pub fn div_u32(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { a / b }
+}
+
+/// Remainder; by zero 0.
+#[inline(always)]
+pub fn rem_u32(a: u32, b: u32) -> u32 {
+    if b == 0 { 0 } else { a % b }
+}
+
+/// Quotient towards zero; by zero, and where it overflows, the dividend.
+#[inline(always)]
+pub fn div_i32(a: i32, b: i32) -> i32 {
+    if b == 0 { a } else { a.wrapping_div(b) }
+}
+
+/// Remainder with the sign of the dividend; by zero, and where the quotient overflows, 0.
+#[inline(always)]
+pub fn rem_i32(a: i32, b: i32) -> i32 {
+    if b == 0 { 0 } else { a.wrapping_rem(b) }
+}
+
+/// Position of the highest one; of 0 all ones.
+#[inline(always)]
+pub fn first_leading_u32(x: u32) -> u32 {
+    if x == 0 { u32::MAX } else { 31 - x.leading_zeros() }
+}
+
+/// Position of the highest bit that differs from the sign; of 0 and -1, -1.
+#[inline(always)]
+pub fn first_leading_i32(x: i32) -> i32 {
+    first_leading_u32((if x < 0 { !x } else { x }) as u32) as i32
+}
+
+/// Position of the lowest one; of 0 all ones.
+#[inline(always)]
+pub fn first_trailing_u32(x: u32) -> u32 {
+    if x == 0 { u32::MAX } else { x.trailing_zeros() }
+}
+
+/// Position of the lowest one; of 0, -1.
+#[inline(always)]
+pub fn first_trailing_i32(x: i32) -> i32 {
+    first_trailing_u32(x as u32) as i32
+}
+
+/// `count` bits from bit `offset` up, both cut to the width.
+#[inline(always)]
+pub fn extract_u32(x: u32, offset: u32, count: u32) -> u32 {
+    let offset = offset.min(32);
+    let count = count.min(32 - offset);
+    if count == 0 { 0 } else { x << (32 - count - offset) >> (32 - count) }
+}
+
+/// As `extract_u32`, with the sign of the highest bit taken.
+#[inline(always)]
+pub fn extract_i32(x: i32, offset: u32, count: u32) -> i32 {
+    let offset = offset.min(32);
+    let count = count.min(32 - offset);
+    if count == 0 { 0 } else { x << (32 - count - offset) >> (32 - count) }
+}
+
+/// `x` with `count` bits from `offset` up replaced by the low bits of `new`.
+#[inline(always)]
+pub fn insert_u32(x: u32, new: u32, offset: u32, count: u32) -> u32 {
+    let offset = offset.min(32);
+    let count = count.min(32 - offset);
+    if count == 0 {
+        return x;
+    }
+    let mask = (u32::MAX >> (32 - count)) << offset;
+    (x & !mask) | ((new << offset) & mask)
+}
+
+/// As `insert_u32`.
+#[inline(always)]
+pub fn insert_i32(x: i32, new: i32, offset: u32, count: u32) -> i32 {
+    insert_u32(x as u32, new as u32, offset, count) as i32
+}
+
+/// The bits of the nearest binary16, ties to even.
+#[inline]
+pub fn f16_from(x: f32) -> u32 {
+    let bits = x.to_bits();
+    let sign = (bits >> 16) & 0x8000;
+    let magnitude = bits & 0x7fff_ffff;
+    if magnitude > 0x7f80_0000 {
+        return sign | 0x7e00;
+    }
+    if magnitude >= 0x4780_0000 {
+        return sign | 0x7c00;
+    }
+    if magnitude < 0x3880_0000 {
+        // Below the smallest normal: the addition rounds to a multiple of 2^-24.
+        return sign | ((f32::from_bits(magnitude) + 0.5).to_bits() - 0x3f00_0000);
+    }
+    let odd = (magnitude >> 13) & 1;
+    sign | ((magnitude - 0x3800_0000 + 0xfff + odd) >> 13)
+}
+
+/// The value of the binary16 in the low 16 bits.
+#[inline]
+pub fn f16_to(bits: u32) -> f32 {
+    let sign = f32::from_bits(0x3f80_0000 | ((bits & 0x8000) << 16));
+    let magnitude = bits & 0x7fff;
+    if magnitude >= 0x7c00 {
+        f32::from_bits(((bits & 0x8000) << 16) | 0x7f80_0000 | ((magnitude & 0x3ff) << 13))
+    } else if magnitude >= 0x400 {
+        sign * f32::from_bits((magnitude << 13) + 0x3800_0000)
+    } else {
+        sign * (magnitude as f32 * (1.0 / 16_777_216.0))
+    }
+}
+
+/// The nearest value that binary16 holds.
+#[inline]
+pub fn quantize_f16(x: Real) -> Real {
+    Real::from(f16_to(f16_from(x as f32)))
+}
+
+/// `x` in -1..=1 as a signed integer with `scale` at 1.
+#[inline]
+pub fn pack_snorm(x: Real, scale: Real) -> u32 {
+    (0.5 + scale * clamp(x, -1.0, 1.0)).floor() as i32 as u32
+}
+
+/// `x` in 0..=1 as an unsigned integer with `scale` at 1.
+#[inline]
+pub fn pack_unorm(x: Real, scale: Real) -> u32 {
+    (0.5 + scale * clamp(x, 0.0, 1.0)).floor() as u32
+}
+
+/// Byte `lane` of `x`.
+#[inline(always)]
+pub fn byte_u32(x: u32, lane: u32) -> u32 {
+    (x >> (8 * lane)) & 0xff
+}
+
+/// Byte `lane` of `x`, with its sign.
+#[inline(always)]
+pub fn byte_i32(x: u32, lane: u32) -> i32 {
+    i32::from((x >> (8 * lane)) as i8)
+}
+
+/// Half `lane` of `x`, with its sign.
+#[inline(always)]
+pub fn half_i32(x: u32, lane: u32) -> i32 {
+    i32::from((x >> (16 * lane)) as i16)
+}
+
+/// Four bytes as one word, lane 0 lowest.
+#[inline(always)]
+pub fn join_bytes(x: u32, y: u32, z: u32, w: u32) -> u32 {
+    (x & 0xff) | ((y & 0xff) << 8) | ((z & 0xff) << 16) | (w << 24)
+}
+}
