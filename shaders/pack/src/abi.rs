@@ -27,7 +27,7 @@ pub use geometry::{
 };
 pub use light::{Light, LightKind};
 pub use material::{Material, MaterialKind, material_flag};
-pub use render::{RenderSettings, ToneMap};
+pub use render::{RenderSettings, ToneMap, f64_bits, f64_from_bits};
 pub use sky::{Sky, SkyKind};
 pub use texture::{Texture, TextureFormat, Wrap};
 
@@ -38,6 +38,10 @@ pub const NONE: u32 = u32::MAX;
 /// are added in `f64` in ascending order. Fixed, so that tile size, thread count and device do not
 /// change the image.
 pub const BATCH: u32 = 16;
+
+/// Most entries that a traversal stack may need. The compiler splits at the median below
+/// [`MAX_DEPTH`], and a scene-level tree of instances above a mesh's tree is no deeper than that.
+pub const MAX_STACK: u32 = 96;
 
 /// Every record that the kernel knows, in the order in which tables are printed.
 #[must_use]

@@ -14,6 +14,17 @@ pub enum LightKind {
     Triangle = 2,
 }
 
+impl LightKind {
+    /// Every kind, in tag order.
+    pub const ALL: [Self; 3] = [Self::Sphere, Self::Rectangle, Self::Triangle];
+
+    /// The kind with this tag.
+    #[must_use]
+    pub fn from_tag(tag: u32) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| *kind as u32 == tag)
+    }
+}
+
 abi_struct! {
     /// An emitter in the selection table, 64 bytes. Normalised world frame.
     pub struct Light {

@@ -14,6 +14,17 @@ pub enum ToneMap {
     Aces = 2,
 }
 
+impl ToneMap {
+    /// Every curve, in tag order.
+    pub const ALL: [Self; 3] = [Self::None, Self::Reinhard, Self::Aces];
+
+    /// The curve with this tag.
+    #[must_use]
+    pub fn from_tag(tag: u32) -> Option<Self> {
+        Self::ALL.into_iter().find(|curve| *curve as u32 == tag)
+    }
+}
+
 abi_struct! {
     /// The RENDER section: exactly one element, 96 bytes.
     pub struct RenderSettings {
@@ -50,4 +61,32 @@ abi_struct! {
         /// Unused.
         pub _pad1: [u32; 4],
     }
+}
+
+impl RenderSettings {
+    /// `normalised = (world - center) * scale`; a power of two in a checked pack.
+    #[must_use]
+    pub fn scale(&self) -> f64 {
+        f64_from_bits(self.scale_bits)
+    }
+
+    /// The world's centre, metres.
+    #[must_use]
+    pub fn center(&self) -> [f64; 3] {
+        [self.center_x_bits, self.center_y_bits, self.center_z_bits].map(f64_from_bits)
+    }
+}
+
+/// Lower and upper half of an `f64`, as records store it.
+#[must_use]
+#[expect(clippy::cast_possible_truncation, reason = "the halves are what is wanted")]
+pub fn f64_bits(value: f64) -> [u32; 2] {
+    let bits = value.to_bits();
+    [bits as u32, (bits >> 32) as u32]
+}
+
+/// The `f64` with these halves.
+#[must_use]
+pub fn f64_from_bits([low, high]: [u32; 2]) -> f64 {
+    f64::from_bits(u64::from(high) << 32 | u64::from(low))
 }

@@ -1,0 +1,129 @@
+//! Checks what the sections mean, after `table` has proven where they are.
+//!
+//! Turns typed slices into the first broken rule, always the same one whatever the number of
+//! threads: relations between sections, then every field of every record (`rules`), textures and
+//! light table, then the tree (`tree`), then the feature bits. Linear time, no allocation beyond a
+//! bit a primitive and a word a node.
+
+mod rule;
+mod rules;
+mod texture;
+mod tree;
+
+use rayon::prelude::*;
+
+use crate::abi::TextureFormat;
+use crate::contents::Contents;
+use crate::error::{ElementFault, HeaderFault, PackError, Place};
+use crate::features;
+use crate::kind::{Kind, PackRecord};
+use rules::{Broken, Ruled};
+
+/// Records a task checks at a time: large enough to hide the cost of a task, small enough to share.
+const CHUNK: usize = 1 << 14;
+
+/// Checks everything; `features` are the header's.
+pub(crate) fn contents(contents: &Contents<'_>, features: u32) -> Result<(), PackError> {
+    sections(contents)?;
+    let (records, tree) = rayon::join(|| records(contents), || tree::check(contents));
+    records.and(tree)?;
+    let expected = features::of(contents);
+    if features == expected {
+        Ok(())
+    } else {
+        Err(HeaderFault::Features { found: features, expected }.into())
+    }
+}
+
+/// Which sections need each other, and which counts agree.
+fn sections(contents: &Contents<'_>) -> Result<(), PackError> {
+    let equal = |left, left_count: usize, right, right_count: usize| {
+        let (left_count, right_count) = (left_count as u64, right_count as u64);
+        if left_count == right_count {
+            Ok(())
+        } else {
+            Err(PackError::CountMismatch { left, left_count, right, right_count })
+        }
+    };
+    equal(
+        "the number of TRISHADE elements",
+        contents.shades.len(),
+        "the number of TRIANGLE elements",
+        contents.triangles.len(),
+    )?;
+    equal(
+        "RENDER.n_lights",
+        contents.render.n_lights as usize,
+        "the number of LIGHT elements",
+        contents.lights.len(),
+    )?;
+    let is_srgb = |format: u32| format == TextureFormat::Rgba8Srgb as u32;
+    let srgb = contents.textures.iter().any(|texture| is_srgb(texture.format));
+    match (srgb, contents.srgb.is_empty()) {
+        (true, true) => {
+            let because = ", a texture is Rgba8Srgb";
+            return Err(PackError::Missing { kind: Kind::SRGBLUT, because });
+        }
+        (false, false) => {
+            let because = ", no texture is Rgba8Srgb";
+            return Err(PackError::Unwanted { kind: Kind::SRGBLUT, because });
+        }
+        _ => {}
+    }
+    if contents.textures.is_empty() && !contents.texels.is_empty() {
+        let because = ", there are no textures";
+        return Err(PackError::Unwanted { kind: Kind::TEXEL, because });
+    }
+    std::str::from_utf8(contents.kernel)
+        .map_err(|error| PackError::KernelNotUtf8 { at: error.valid_up_to() })?;
+    Ok(())
+}
+
+/// Every field of every record but the tree's, then what spans several records.
+fn records(contents: &Contents<'_>) -> Result<(), PackError> {
+    each(std::slice::from_ref(contents.render), contents)?;
+    each(std::slice::from_ref(contents.camera), contents)?;
+    each(contents.sky.map_or(&[], std::slice::from_ref), contents)?;
+    each(contents.triangles, contents)?;
+    each(contents.shades, contents)?;
+    each(contents.spheres, contents)?;
+    each(contents.materials, contents)?;
+    each(contents.lights, contents)?;
+    light_table(contents)?;
+    each(contents.textures, contents)?;
+    texture::check(contents)
+}
+
+/// Applies the rules of a record type to all its records; reports the first that breaks one.
+fn each<R: Ruled>(records: &[R], contents: &Contents<'_>) -> Result<(), PackError> {
+    let broken = records.par_chunks(CHUNK).enumerate().find_map_first(|(chunk, records)| {
+        (chunk * CHUNK..)
+            .zip(records)
+            .find_map(|(index, record)| Some((index, record.broken(contents)?)))
+    });
+    broken.map_or(Ok(()), |(index, broken)| Err(element::<R>(index, broken)))
+}
+
+/// The error for a broken rule of record `index`.
+fn element<R: PackRecord>(index: usize, (field, fault): Broken) -> PackError {
+    let in_record = R::FIELDS.iter().find(|known| known.name == field).map_or(0, |f| f.offset);
+    let offset = index * size_of::<R>() + in_record;
+    PackError::Element { at: Place { kind: R::KIND, index, offset }, field, fault }
+}
+
+/// Cumulative probabilities rise and end at 1.
+fn light_table(contents: &Contents<'_>) -> Result<(), PackError> {
+    let fault = |index, fault| Err(element::<crate::abi::Light>(index, ("cdf", fault)));
+    for (index, pair) in contents.lights.windows(2).enumerate() {
+        let (before, found) = (pair[0].cdf, pair[1].cdf);
+        if found < before {
+            return fault(index + 1, ElementFault::Falling { found, before });
+        }
+    }
+    match contents.lights {
+        [.., last] if last.cdf.to_bits() != 1.0f32.to_bits() => {
+            fault(contents.lights.len() - 1, ElementFault::LastCdf(last.cdf))
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,68 @@
+//! A pack's sections as typed slices.
+//!
+//! Turns byte slices, found by section name, into slices of records. Writer and reader both look
+//! through this view, so both check and derive the same things. It judges nothing.
+
+use crate::abi::{
+    Camera, Light, Material, Node, RenderSettings, Sky, Sphere, Texture, TriShade, Triangle,
+};
+use crate::error::PackError;
+use crate::kind::{Kind, PackRecord};
+
+/// Typed view of the sections; absent sections are empty.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contents<'a> {
+    pub(crate) render: &'a RenderSettings,
+    pub(crate) camera: &'a Camera,
+    pub(crate) sky: Option<&'a Sky>,
+    pub(crate) nodes: &'a [Node],
+    pub(crate) triangles: &'a [Triangle],
+    pub(crate) shades: &'a [TriShade],
+    pub(crate) spheres: &'a [Sphere],
+    pub(crate) materials: &'a [Material],
+    pub(crate) lights: &'a [Light],
+    pub(crate) textures: &'a [Texture],
+    pub(crate) texels: &'a [[u32; 4]],
+    pub(crate) srgb: &'a [f32],
+    pub(crate) kernel: &'a [u8],
+}
+
+impl<'a> Contents<'a> {
+    /// The view. `find` returns the bytes of a section, whole elements, aligned to 4 bytes.
+    pub(crate) fn new(find: impl Fn(Kind) -> Option<&'a [u8]>) -> Result<Self, PackError> {
+        fn records<'a, R: PackRecord>(find: &impl Fn(Kind) -> Option<&'a [u8]>) -> &'a [R] {
+            find(R::KIND).map_or(&[], bytemuck::cast_slice)
+        }
+        let first = PackError::missing;
+        Ok(Self {
+            render: records(&find).first().ok_or_else(|| first(Kind::RENDER))?,
+            camera: records(&find).first().ok_or_else(|| first(Kind::CAMERA))?,
+            sky: records(&find).first(),
+            nodes: records(&find),
+            triangles: records(&find),
+            shades: records(&find),
+            spheres: records(&find),
+            materials: records(&find),
+            lights: records(&find),
+            textures: records(&find),
+            texels: find(Kind::TEXEL).map_or(&[], bytemuck::cast_slice),
+            srgb: find(Kind::SRGBLUT).map_or(&[], bytemuck::cast_slice),
+            kernel: find(Kind::KERNEL).ok_or_else(|| first(Kind::KERNEL))?,
+        })
+    }
+
+    /// Elements of a section, as index relations count them.
+    pub(crate) fn count(&self, kind: Kind) -> usize {
+        match kind {
+            Kind::NODE => self.nodes.len(),
+            Kind::TRIANGLE => self.triangles.len(),
+            Kind::TRISHADE => self.shades.len(),
+            Kind::SPHERE => self.spheres.len(),
+            Kind::MATERIAL => self.materials.len(),
+            Kind::LIGHT => self.lights.len(),
+            Kind::TEXTURE => self.textures.len(),
+            Kind::TEXEL => self.texels.len(),
+            _ => 0,
+        }
+    }
+}

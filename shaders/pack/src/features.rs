@@ -1,0 +1,105 @@
+//! Feature bits of the header: which kinds of things a pack holds.
+//!
+//! Turns the contents into 32 bits. The bits are derived, never chosen: writer and reader compute
+//! them with the same function, so a pack cannot claim what it does not hold. A reader refuses
+//! bits that it does not know.
+
+use crate::abi::{LightKind, MaterialKind, SkyKind, TextureFormat, material_flag};
+use crate::contents::Contents;
+
+/// Has triangles.
+pub const TRIANGLES: u32 = 1 << 0;
+/// Has spheres.
+pub const SPHERES: u32 = 1 << 1;
+/// Has a sphere among its lights.
+pub const LIGHT_SPHERE: u32 = 1 << 2;
+/// Has a rectangle among its lights.
+pub const LIGHT_RECTANGLE: u32 = 1 << 3;
+/// Has a triangle among its lights.
+pub const LIGHT_TRIANGLE: u32 = 1 << 4;
+/// Has a constant sky.
+pub const SKY_CONSTANT: u32 = 1 << 5;
+/// Has a gradient sky.
+pub const SKY_GRADIENT: u32 = 1 << 6;
+/// Has a texture in 8-bit sRGB.
+pub const TEXTURE_RGBA8_SRGB: u32 = 1 << 7;
+/// Has a texture in linear 8-bit.
+pub const TEXTURE_RGBA8_LINEAR: u32 = 1 << 8;
+/// Has a texture in half floats.
+pub const TEXTURE_RGBA16_FLOAT: u32 = 1 << 9;
+/// Has a diffuse material.
+pub const MATERIAL_DIFFUSE: u32 = 1 << 10;
+/// Has a metal material.
+pub const MATERIAL_METAL: u32 = 1 << 11;
+/// Has a dielectric material.
+pub const MATERIAL_DIELECTRIC: u32 = 1 << 12;
+/// Has an emissive material.
+pub const MATERIAL_EMISSIVE: u32 = 1 << 13;
+/// Has a principled material.
+pub const MATERIAL_PRINCIPLED: u32 = 1 << 14;
+/// Has a material with alpha clipping.
+pub const ALPHA_CLIP: u32 = 1 << 15;
+/// The camera has a lens with a radius.
+pub const LENS: u32 = 1 << 16;
+
+/// Every bit with its name, in bit order.
+pub const NAMES: [(u32, &str); 17] = [
+    (TRIANGLES, "triangles"),
+    (SPHERES, "spheres"),
+    (LIGHT_SPHERE, "sphere lights"),
+    (LIGHT_RECTANGLE, "rectangle lights"),
+    (LIGHT_TRIANGLE, "triangle lights"),
+    (SKY_CONSTANT, "constant sky"),
+    (SKY_GRADIENT, "gradient sky"),
+    (TEXTURE_RGBA8_SRGB, "sRGB textures"),
+    (TEXTURE_RGBA8_LINEAR, "linear 8-bit textures"),
+    (TEXTURE_RGBA16_FLOAT, "half-float textures"),
+    (MATERIAL_DIFFUSE, "diffuse"),
+    (MATERIAL_METAL, "metal"),
+    (MATERIAL_DIELECTRIC, "dielectric"),
+    (MATERIAL_EMISSIVE, "emissive"),
+    (MATERIAL_PRINCIPLED, "principled"),
+    (ALPHA_CLIP, "alpha clipping"),
+    (LENS, "lens"),
+];
+
+/// All bits that this reader knows.
+pub const KNOWN: u32 = (1 << NAMES.len()) - 1;
+
+/// Names of the bits that are set, in bit order; unknown bits are left out.
+#[must_use]
+pub fn names(features: u32) -> Vec<&'static str> {
+    NAMES.iter().filter(|(bit, _)| features & bit != 0).map(|(_, name)| *name).collect()
+}
+
+/// The bits of these contents; unknown tags, which the checks refuse, set none.
+pub(crate) fn of(contents: &Contents<'_>) -> u32 {
+    let mut bits = 0;
+    let mut set = |bit: u32, present: bool| bits |= if present { bit } else { 0 };
+    set(TRIANGLES, !contents.triangles.is_empty());
+    set(SPHERES, !contents.spheres.is_empty());
+    set(LENS, contents.camera.lens_radius > 0.0);
+    for light in contents.lights {
+        set(LIGHT_SPHERE, light.kind == LightKind::Sphere as u32);
+        set(LIGHT_RECTANGLE, light.kind == LightKind::Rectangle as u32);
+        set(LIGHT_TRIANGLE, light.kind == LightKind::Triangle as u32);
+    }
+    if let Some(sky) = contents.sky {
+        set(SKY_CONSTANT, sky.kind == SkyKind::Constant as u32);
+        set(SKY_GRADIENT, sky.kind == SkyKind::Gradient as u32);
+    }
+    for texture in contents.textures {
+        set(TEXTURE_RGBA8_SRGB, texture.format == TextureFormat::Rgba8Srgb as u32);
+        set(TEXTURE_RGBA8_LINEAR, texture.format == TextureFormat::Rgba8Linear as u32);
+        set(TEXTURE_RGBA16_FLOAT, texture.format == TextureFormat::Rgba16Float as u32);
+    }
+    for material in contents.materials {
+        set(MATERIAL_DIFFUSE, material.kind == MaterialKind::Diffuse as u32);
+        set(MATERIAL_METAL, material.kind == MaterialKind::Metal as u32);
+        set(MATERIAL_DIELECTRIC, material.kind == MaterialKind::Dielectric as u32);
+        set(MATERIAL_EMISSIVE, material.kind == MaterialKind::Emissive as u32);
+        set(MATERIAL_PRINCIPLED, material.kind == MaterialKind::Principled as u32);
+        set(ALPHA_CLIP, material.flags & material_flag::ALPHA_CLIP != 0);
+    }
+    bits
+}

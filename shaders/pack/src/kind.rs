@@ -1,0 +1,153 @@
+//! The sections that a pack may hold: one table that writer, reader and checks share.
+//!
+//! Keeps the invariant that a record type has exactly one section and that the order of
+//! [`SECTIONS`] is the order in the file. It does not know what the records mean.
+
+use std::fmt;
+
+use crate::abi::{self, AbiRecord};
+
+/// Name of a section: eight ASCII characters, padded with spaces.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Kind(pub [u8; 8]);
+
+impl Kind {
+    /// One [`abi::RenderSettings`].
+    pub const RENDER: Self = Self(*b"RENDER  ");
+    /// One [`abi::Camera`].
+    pub const CAMERA: Self = Self(*b"CAMERA  ");
+    /// One [`abi::Sky`]; absent when the sky is black.
+    pub const SKY: Self = Self(*b"SKY     ");
+    /// [`abi::Node`]s, every child after its parent.
+    pub const NODE: Self = Self(*b"NODE    ");
+    /// [`abi::Triangle`]s in leaf order.
+    pub const TRIANGLE: Self = Self(*b"TRIANGLE");
+    /// [`abi::TriShade`]s, one a triangle.
+    pub const TRISHADE: Self = Self(*b"TRISHADE");
+    /// [`abi::Sphere`]s in leaf order.
+    pub const SPHERE: Self = Self(*b"SPHERE  ");
+    /// [`abi::Material`]s.
+    pub const MATERIAL: Self = Self(*b"MATERIAL");
+    /// [`abi::Light`]s: the selection table.
+    pub const LIGHT: Self = Self(*b"LIGHT   ");
+    /// [`abi::Texture`]s.
+    pub const TEXTURE: Self = Self(*b"TEXTURE ");
+    /// Texels of all textures, 16-byte words.
+    pub const TEXEL: Self = Self(*b"TEXEL   ");
+    /// 256 `f32`: linear value of each sRGB byte. Present exactly when a texture is `Rgba8Srgb`.
+    pub const SRGBLUT: Self = Self(*b"SRGBLUT ");
+    /// The linked WGSL text.
+    pub const KERNEL: Self = Self(*b"KERNEL  ");
+    /// The [`crate::Manifest`]; never needed to render.
+    pub const META: Self = Self(*b"META    ");
+
+    /// The name without its padding.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        std::str::from_utf8(&self.0).unwrap_or("?").trim_end()
+    }
+
+    /// The row of [`SECTIONS`], or `None` for a section of a later format.
+    #[must_use]
+    pub fn spec(self) -> Option<&'static SectionSpec> {
+        SECTIONS.iter().find(|spec| spec.kind == self)
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0.is_ascii() {
+            out.pad(&self.name().escape_debug().to_string())
+        } else {
+            write!(out, "0x{:016x}", u64::from_le_bytes(self.0))
+        }
+    }
+}
+
+impl fmt::Debug for Kind {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "Kind({self})")
+    }
+}
+
+/// What is fixed about a section.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SectionSpec {
+    /// Its name.
+    pub kind: Kind,
+    /// Version of its elements.
+    pub version: u32,
+    /// Bytes of one element.
+    pub elem_size: u32,
+    /// Fewest elements of a section that is present.
+    pub min_count: u64,
+    /// Most elements.
+    pub max_count: u64,
+    /// Whether every pack has it.
+    pub required: bool,
+    /// Whether a reader that does not know it must refuse the pack.
+    pub must_understand: bool,
+}
+
+const fn table(kind: Kind, elem_size: usize, max_count: u64) -> SectionSpec {
+    let elem_size = elem_size as u32;
+    SectionSpec {
+        kind,
+        version: 1,
+        elem_size,
+        min_count: 1,
+        max_count,
+        required: false,
+        must_understand: true,
+    }
+}
+
+const fn one(kind: Kind, elem_size: usize, required: bool) -> SectionSpec {
+    SectionSpec { required, ..table(kind, elem_size, 1) }
+}
+
+/// A leaf names its first primitive with 27 bits.
+const MAX_PRIMITIVES: u64 = 1 << 27;
+
+/// Most bytes of a kernel: a hundred times what the largest scene links today.
+pub(crate) const MAX_KERNEL: u64 = 4 << 20;
+/// Most bytes of a manifest.
+pub(crate) const MAX_META: u64 = 16 << 20;
+/// 16-byte words of the sRGB table: 256 values of 4 bytes.
+pub(crate) const SRGB_WORDS: u64 = 64;
+
+/// Every section of this format, in file order.
+pub const SECTIONS: [SectionSpec; 14] = [
+    one(Kind::RENDER, size_of::<abi::RenderSettings>(), true),
+    one(Kind::CAMERA, size_of::<abi::Camera>(), true),
+    one(Kind::SKY, size_of::<abi::Sky>(), false),
+    // A binary tree has one inner node less than leaves, and a leaf holds at least one primitive.
+    table(Kind::NODE, size_of::<abi::Node>(), 2 * MAX_PRIMITIVES),
+    table(Kind::TRIANGLE, size_of::<abi::Triangle>(), MAX_PRIMITIVES),
+    table(Kind::TRISHADE, size_of::<abi::TriShade>(), MAX_PRIMITIVES),
+    table(Kind::SPHERE, size_of::<abi::Sphere>(), MAX_PRIMITIVES),
+    table(Kind::MATERIAL, size_of::<abi::Material>(), 1 << 24),
+    table(Kind::LIGHT, size_of::<abi::Light>(), 1 << 24),
+    table(Kind::TEXTURE, size_of::<abi::Texture>(), 1 << 20),
+    // `Texture::offset` is a `u32` that counts words.
+    table(Kind::TEXEL, 16, 1 << 32),
+    SectionSpec { min_count: SRGB_WORDS, ..table(Kind::SRGBLUT, 16, SRGB_WORDS) },
+    SectionSpec { required: true, ..table(Kind::KERNEL, 1, MAX_KERNEL) },
+    SectionSpec { must_understand: false, ..table(Kind::META, 1, MAX_META) },
+];
+
+/// A record that has a section of its own.
+pub trait PackRecord: AbiRecord {
+    /// The section that holds these records.
+    const KIND: Kind;
+}
+
+macro_rules! pack_records {
+    ($($record:ident => $kind:ident),* $(,)?) => {
+        $(impl PackRecord for abi::$record { const KIND: Kind = Kind::$kind; })*
+    };
+}
+pack_records! {
+    RenderSettings => RENDER, Camera => CAMERA, Sky => SKY, Node => NODE, Triangle => TRIANGLE,
+    TriShade => TRISHADE, Sphere => SPHERE, Material => MATERIAL, Light => LIGHT, Texture => TEXTURE,
+}

@@ -1,0 +1,277 @@
+//! Writes packs: sections in canonical order, aligned, without holes, never in place.
+//!
+//! Turns slices of records into the bytes of a file. It keeps two invariants: the same sections
+//! give the same bytes, and nothing is written that the reader would refuse. It does not know where
+//! the records come from.
+
+use std::borrow::Cow;
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use crate::abi::RenderSettings;
+use crate::contents::Contents;
+use crate::error::{PackError, SectionFault};
+use crate::header::{
+    ALIGN, ENDIAN_TAG, ENTRY_LEN, Entry, FLAG_MUST_UNDERSTAND, FORMAT_MAJOR, FORMAT_MINOR,
+    HEADER_LEN, Header, MAGIC, align_up, layout_id, render_id, section_hash,
+};
+use crate::kind::{Kind, PackRecord, SectionSpec};
+use crate::manifest::Manifest;
+use crate::{check, features};
+
+/// Collects sections by reference; nothing is copied before it goes to the file.
+#[derive(Debug, Default)]
+pub struct PackWriter<'a> {
+    sections: Vec<(Kind, Payload<'a>)>,
+    recipe_id: [u8; 32],
+}
+
+/// Bytes whose start suits their records.
+#[derive(Debug)]
+enum Payload<'a> {
+    Bytes(Cow<'a, [u8]>),
+    Words(Vec<[u32; 4]>),
+}
+
+impl Payload<'_> {
+    fn as_slice(&self) -> &[u8] {
+        match self {
+            Self::Bytes(bytes) => bytes,
+            Self::Words(words) => bytemuck::cast_slice(words),
+        }
+    }
+}
+
+impl<'a> PackWriter<'a> {
+    /// A pack without sections.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds the section of these records; no records, no section.
+    pub fn records<R: PackRecord>(&mut self, records: &'a [R]) -> &mut Self {
+        self.push(R::KIND, Payload::Bytes(Cow::Borrowed(bytemuck::cast_slice(records))))
+    }
+
+    /// Adds the section of a single record: settings, camera, sky.
+    pub fn record<R: PackRecord>(&mut self, record: &'a R) -> &mut Self {
+        self.records(std::slice::from_ref(record))
+    }
+
+    /// Adds the texels of all textures; none, no section.
+    pub fn texels(&mut self, words: &'a [[u32; 4]]) -> &mut Self {
+        self.push(Kind::TEXEL, Payload::Bytes(Cow::Borrowed(bytemuck::cast_slice(words))))
+    }
+
+    /// Adds the linear value of each sRGB byte; needed exactly when a texture is `Rgba8Srgb`.
+    pub fn srgb_table(&mut self, values: &'a [f32; 256]) -> &mut Self {
+        self.push(Kind::SRGBLUT, Payload::Bytes(Cow::Borrowed(bytemuck::cast_slice(values))))
+    }
+
+    /// Adds the linked WGSL text.
+    pub fn kernel(&mut self, wgsl: &'a str) -> &mut Self {
+        self.bytes(Kind::KERNEL, wgsl.as_bytes())
+    }
+
+    /// Adds a section from bytes; they are copied only when their start does not suit the records.
+    pub fn bytes(&mut self, kind: Kind, bytes: &'a [u8]) -> &mut Self {
+        let of_records = kind.spec().is_some_and(|spec| spec.elem_size > 1);
+        let aligned = bytes.as_ptr().addr().is_multiple_of(align_of::<RenderSettings>());
+        // A ragged length is refused later, by name; it must not be padded here.
+        let payload = if of_records && !aligned && bytes.len().is_multiple_of(16) {
+            Payload::Words(bytes.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect())
+        } else {
+            Payload::Bytes(Cow::Borrowed(bytes))
+        };
+        self.push(kind, payload)
+    }
+
+    /// Adds the manifest.
+    pub fn manifest(&mut self, manifest: &Manifest) -> Result<&mut Self, PackError> {
+        let bytes = manifest.encode()?;
+        Ok(self.push(Kind::META, Payload::Bytes(Cow::Owned(bytes))))
+    }
+
+    /// Sets the name of the inputs; all zero when nobody does.
+    pub fn recipe_id(&mut self, id: [u8; 32]) -> &mut Self {
+        self.recipe_id = id;
+        self
+    }
+
+    /// The whole file in memory.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, PackError> {
+        let plan = self.plan()?;
+        let len = plan.header.file_len;
+        let mut bytes = Vec::with_capacity(usize::try_from(len).unwrap_or(0));
+        plan.stream(&mut bytes).expect("writing to a vector cannot fail");
+        Ok(bytes)
+    }
+
+    /// Writes the file under a temporary name beside `path`, then renames it: whoever has the old
+    /// file mapped keeps the old bytes, and nobody ever sees half a pack.
+    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), PackError> {
+        let plan = self.plan()?;
+        write_atomic(path.as_ref(), |out| plan.stream(out))
+    }
+
+    /// The `render_id` that the pack will have.
+    pub fn render_id(&self) -> Result<[u8; 32], PackError> {
+        Ok(self.plan()?.header.render_id)
+    }
+
+    fn push(&mut self, kind: Kind, payload: Payload<'a>) -> &mut Self {
+        if !payload.as_slice().is_empty() {
+            self.sections.push((kind, payload));
+        }
+        self
+    }
+
+    /// Sorts, checks, hashes and places the sections.
+    fn plan(&self) -> Result<Plan<'_>, PackError> {
+        let mut sections = Vec::with_capacity(self.sections.len());
+        for (kind, payload) in &self.sections {
+            let spec = kind.spec().ok_or_else(|| {
+                let (major, minor) = (FORMAT_MAJOR, FORMAT_MINOR);
+                fault(*kind, SectionFault::NotInFormat { major, minor })
+            })?;
+            sections.push((spec, payload.as_slice()));
+        }
+        let order = |spec: &SectionSpec| crate::SECTIONS.iter().position(|s| s.kind == spec.kind);
+        sections.sort_by_key(|(spec, _)| order(spec));
+        for pair in sections.windows(2) {
+            if pair[0].0.kind == pair[1].0.kind {
+                return Err(fault(pair[0].0.kind, SectionFault::Twice));
+            }
+        }
+        for (spec, bytes) in &sections {
+            check_size(spec, bytes)?;
+        }
+        let find = |kind| sections.iter().find(|(spec, _)| spec.kind == kind).map(|found| found.1);
+        let contents = Contents::new(find)?;
+        let features = features::of(&contents);
+        check::contents(&contents, features)?;
+        Ok(Plan::new(sections, features, self.recipe_id))
+    }
+}
+
+fn fault(kind: Kind, fault: SectionFault) -> PackError {
+    PackError::Section { kind, index: 0, fault }
+}
+
+fn check_size(spec: &SectionSpec, bytes: &[u8]) -> Result<(), PackError> {
+    let length = bytes.len() as u64;
+    let size = u64::from(spec.elem_size);
+    let count = length / size;
+    if length % size != 0 {
+        let size = spec.elem_size;
+        return Err(fault(spec.kind, SectionFault::Length { found: length, count, size }));
+    }
+    if !(spec.min_count..=spec.max_count).contains(&count) {
+        let (min, max) = (spec.min_count, spec.max_count);
+        return Err(fault(spec.kind, SectionFault::Count { found: count, min, max }));
+    }
+    Ok(())
+}
+
+/// A file that only needs to be written down.
+struct Plan<'a> {
+    header: Header,
+    entries: Vec<Entry>,
+    payloads: Vec<&'a [u8]>,
+}
+
+impl<'a> Plan<'a> {
+    fn new(
+        sections: Vec<(&'static SectionSpec, &'a [u8])>,
+        features: u32,
+        recipe_id: [u8; 32],
+    ) -> Self {
+        let hashes: Vec<[u8; 16]> =
+            sections.par_iter().map(|(_, bytes)| section_hash(bytes)).collect();
+        let mut end = (HEADER_LEN + sections.len() * ENTRY_LEN) as u64;
+        let mut entries = Vec::with_capacity(sections.len());
+        for ((spec, bytes), hash) in sections.iter().zip(hashes) {
+            let offset = align_up(end).expect("sections in memory are far below 2^64 bytes");
+            let length = bytes.len() as u64;
+            end = offset + length;
+            entries.push(Entry {
+                kind: spec.kind.0,
+                version: spec.version,
+                flags: if spec.must_understand { FLAG_MUST_UNDERSTAND } else { 0 },
+                offset,
+                length,
+                elem_size: spec.elem_size,
+                zero: 0,
+                elem_count: length / u64::from(spec.elem_size),
+                hash,
+            });
+        }
+        let section_count = u32::try_from(entries.len()).expect("there are at most 14 kinds");
+        let header = Header {
+            magic: MAGIC,
+            major: FORMAT_MAJOR,
+            minor: FORMAT_MINOR,
+            endian: ENDIAN_TAG,
+            header_len: HEADER_LEN as u32,
+            entry_len: ENTRY_LEN as u32,
+            table_off: HEADER_LEN as u64,
+            section_count,
+            features,
+            file_len: end,
+            layout_id: layout_id(),
+            zero: [0; 3],
+            render_id: render_id(features, &entries),
+            recipe_id,
+        };
+        Self { header, entries, payloads: sections.into_iter().map(|(_, bytes)| bytes).collect() }
+    }
+
+    fn stream(&self, out: &mut dyn Write) -> io::Result<()> {
+        out.write_all(bytemuck::bytes_of(&self.header))?;
+        out.write_all(bytemuck::cast_slice(&self.entries))?;
+        let mut end = (HEADER_LEN + self.entries.len() * ENTRY_LEN) as u64;
+        for (entry, bytes) in self.entries.iter().zip(&self.payloads) {
+            let gap = usize::try_from(entry.offset - end).expect("a gap is shorter than a page");
+            out.write_all(&[0; ALIGN as usize][..gap])?;
+            out.write_all(bytes)?;
+            end = entry.offset + entry.length;
+        }
+        Ok(())
+    }
+}
+
+/// Writes a file under a temporary name in the same directory, flushes it to the disk and renames
+/// it to `path`. On any error `path` is as it was, and the temporary file is gone.
+pub fn write_atomic(
+    path: &Path,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), PackError> {
+    let io = |action| move |source| PackError::Io { action, path: path.to_owned(), source };
+    let dir = match path.parent() {
+        Some(dir) if !dir.as_os_str().is_empty() => dir,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".pack-").suffix(".tmp");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        // As any program creates a file; the umask takes its part.
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    let file = builder.tempfile_in(dir).map_err(io("create"))?;
+    let mut out = BufWriter::with_capacity(1 << 20, file);
+    content(&mut out).map_err(io("write"))?;
+    let file = out.into_inner().map_err(|error| io("write")(error.into_error()))?;
+    file.as_file().sync_all().map_err(io("write"))?;
+    file.persist(path).map_err(|error| io("rename")(error.error))?;
+    // The name itself is safe once the directory is; not every file system can promise that.
+    if let Ok(dir) = File::open(dir) {
+        drop(dir.sync_all());
+    }
+    Ok(())
+}
