@@ -122,7 +122,8 @@ impl FunctionWriter<'_> {
         match (builtin.fun, builtin.arguments) {
             (MathFunction::Cross, &[left, right]) => {
                 let (a, b) = (self.lanes(left, 3)?, self.lanes(right, 3)?);
-                let lane = |i: usize, j: usize| format!("{} * {} - {} * {}", a[i], b[j], a[j], b[i]);
+                let lane =
+                    |i: usize, j: usize| format!("{} * {} - {} * {}", a[i], b[j], a[j], b[i]);
                 Ok(format!("Vec3::new({}, {}, {})", lane(1, 2), lane(2, 0), lane(0, 1)))
             }
             (MathFunction::Normalize, &[v]) => {
@@ -164,9 +165,11 @@ impl FunctionWriter<'_> {
         };
         let (first, second, kind): (fn(&str) -> String, fn(&str) -> String, ScalarKind) =
             match builtin.fun {
-                MathFunction::Modf => {
-                    (|x| format!("{x} - {x}.trunc()"), |x| format!("{x}.trunc()"), ScalarKind::Float)
-                }
+                MathFunction::Modf => (
+                    |x| format!("{x} - {x}.trunc()"),
+                    |x| format!("{x}.trunc()"),
+                    ScalarKind::Float,
+                ),
                 _ => (
                     |x| format!("wgsl::frexp({x}).0"),
                     |x| format!("wgsl::frexp({x}).1"),
@@ -188,7 +191,8 @@ impl FunctionWriter<'_> {
         let n = self.vector_size(builtin.arguments[0]) as usize;
         let x = self.lanes(builtin.arguments[0], n)?;
         let each = |f: &dyn Fn(&str) -> String| x.iter().map(|lane| f(lane)).collect::<Vec<_>>();
-        let halves = |h: Vec<String>| format!("({} & 0xffff) | ({} << 16)", wrap(&h[0]), wrap(&h[1]));
+        let halves =
+            |h: Vec<String>| format!("({} & 0xffff) | ({} << 16)", wrap(&h[0]), wrap(&h[1]));
         let bytes = |b: Vec<String>| call("wgsl::join_bytes", &b);
         Ok(match builtin.fun {
             MathFunction::Pack4x8snorm => bytes(each(&|x| format!("wgsl::pack_snorm({x}, 127.0)"))),
@@ -330,9 +334,13 @@ fn integer_rule(fun: MathFunction, kind: Option<ScalarKind>) -> Option<Rule> {
         F::Max => Rule::Method("max"),
         F::Clamp => Rule::Formula(|x| format!("{}.max({}).min({})", x[0], x[1], x[2])),
         F::Sign if signed => Rule::Method("signum"),
-        F::CountTrailingZeros if signed => Rule::Formula(|x| format!("{}.trailing_zeros() as i32", x[0])),
+        F::CountTrailingZeros if signed => {
+            Rule::Formula(|x| format!("{}.trailing_zeros() as i32", x[0]))
+        }
         F::CountTrailingZeros => Rule::Method("trailing_zeros"),
-        F::CountLeadingZeros if signed => Rule::Formula(|x| format!("{}.leading_zeros() as i32", x[0])),
+        F::CountLeadingZeros if signed => {
+            Rule::Formula(|x| format!("{}.leading_zeros() as i32", x[0]))
+        }
         F::CountLeadingZeros => Rule::Method("leading_zeros"),
         F::CountOneBits if signed => Rule::Formula(|x| format!("{}.count_ones() as i32", x[0])),
         F::CountOneBits => Rule::Method("count_ones"),

@@ -6,9 +6,7 @@ use crate::names::{Names, TYPE_NAMES};
 use crate::text::Text;
 use crate::{NativeError, Precision};
 use naga::valid::ModuleInfo;
-use naga::{
-    Constant, Function, GlobalVariable, Handle, Module, Override, Span, Type, TypeInner,
-};
+use naga::{Constant, Function, GlobalVariable, Handle, Module, Override, Span, Type, TypeInner};
 
 /// What every part of the walk needs to know.
 pub(crate) struct Context<'a> {
@@ -122,7 +120,7 @@ impl<'a> Context<'a> {
         out.close("}");
         out.line("");
         out.line("mod wgsl {");
-        out.raw(prelude());
+        out.raw(crate::prelude::text());
         out.line("}");
         Ok(out.finish())
     }
@@ -166,10 +164,4 @@ impl<'a> Context<'a> {
     pub(crate) fn value_names(&self) -> impl Iterator<Item = &str> {
         self.constants.iter().flatten().chain(&self.overrides).map(String::as_str)
     }
-}
-
-/// The scalar rules of WGSL without their header, which speaks of this crate.
-fn prelude() -> &'static str {
-    let text = include_str!("prelude.rs");
-    text.find("use super::Real;").map_or(text, |start| &text[start..])
 }

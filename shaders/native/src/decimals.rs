@@ -2,8 +2,8 @@
 //! the WGSL text under the literal's span again, constants and plain arithmetic included. What it
 //! reads is taken only if it agrees with naga's value to f32 rounding.
 
-use crate::context::Context;
 use crate::Precision;
+use crate::context::Context;
 use naga::Span;
 
 /// Nested constants followed before giving up; naga itself refuses cycles.
@@ -150,10 +150,8 @@ impl Reader<'_, '_> {
     }
 
     fn name(&mut self) -> Option<f64> {
-        let end = self
-            .rest
-            .find(|c: char| !(c.is_alphanumeric() || c == '_'))
-            .unwrap_or(self.rest.len());
+        let end =
+            self.rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(self.rest.len());
         let (name, rest) = self.rest.split_at(end);
         self.rest = rest;
         if name.is_empty() { None } else { self.cx.constant_value(name, self.depth) }

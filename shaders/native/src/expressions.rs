@@ -216,7 +216,8 @@ impl FunctionWriter<'_> {
             }
             Expression::Relational { fun, argument } => self.relational(handle, fun, argument),
             Expression::Math { fun, arg, arg1, arg2, arg3 } => {
-                let arguments: Vec<_> = [Some(arg), arg1, arg2, arg3].into_iter().flatten().collect();
+                let arguments: Vec<_> =
+                    [Some(arg), arg1, arg2, arg3].into_iter().flatten().collect();
                 self.math(handle, fun, &arguments)
             }
             Expression::As { expr, kind, convert } => self.convert(handle, expr, kind, convert),
@@ -333,7 +334,11 @@ impl FunctionWriter<'_> {
             TypeInner::Matrix { columns, rows, .. } => {
                 let base = self.operand(base)?;
                 let at = within(columns as u32);
-                Ok(if columns == rows { format!("{base}.col({at})") } else { format!("{base}[{at}]") })
+                Ok(if columns == rows {
+                    format!("{base}.col({at})")
+                } else {
+                    format!("{base}[{at}]")
+                })
             }
             TypeInner::Array { size, .. } => {
                 let n = self.cx.array_length(size, self.span_of(base))?;

@@ -154,7 +154,9 @@ impl<'a> FunctionWriter<'a> {
         self.fun
             .expressions
             .iter()
-            .find(|(_, e)| matches!(e, Expression::FunctionArgument(i) if Some(*i as usize) == index))
+            .find(
+                |(_, e)| matches!(e, Expression::FunctionArgument(i) if Some(*i as usize) == index),
+            )
             .map_or(self.span, |(handle, _)| self.fun.expressions.get_span(handle))
     }
 

@@ -37,13 +37,11 @@ mod matrices;
 mod names;
 mod operators;
 mod places;
+mod prelude;
 mod resources;
 mod statements;
 mod text;
 mod types;
-
-#[cfg(test)]
-mod prelude_tests;
 
 pub use error::NativeError;
 
@@ -60,8 +58,8 @@ pub enum Precision {
 
 /// Translates a WGSL text.
 pub fn generate(source: &str, precision: Precision) -> Result<String, NativeError> {
-    let module = naga::front::wgsl::parse_str(source)
-        .map_err(|error| NativeError::parse(&error, source))?;
+    let module =
+        naga::front::wgsl::parse_str(source).map_err(|error| NativeError::parse(&error, source))?;
     let info = Validator::new(ValidationFlags::all(), Capabilities::all())
         .validate(&module)
         .map_err(|error| NativeError::invalid(&error, source))?;

@@ -8,8 +8,7 @@ use naga::{BinaryOperator, Expression, Handle, MathFunction, TypeInner, VectorSi
 
 /// The sum of products of two lists, in their order.
 pub(crate) fn sum_of_products(left: &[String], right: &[String]) -> String {
-    let products: Vec<String> =
-        left.iter().zip(right).map(|(a, b)| format!("{a} * {b}")).collect();
+    let products: Vec<String> = left.iter().zip(right).map(|(a, b)| format!("{a} * {b}")).collect();
     products.join(" + ")
 }
 
@@ -55,7 +54,9 @@ impl FunctionWriter<'_> {
     ) -> Result<String, NativeError> {
         let (shape_left, shape_right) = (self.shape(left), self.shape(right));
         match (op, shape_left, shape_right) {
-            (BinaryOperator::Add, Some((_, rows)), Some(_)) => self.pairwise("+", left, right, rows),
+            (BinaryOperator::Add, Some((_, rows)), Some(_)) => {
+                self.pairwise("+", left, right, rows)
+            }
             (BinaryOperator::Subtract, Some((_, rows)), Some(_)) => {
                 self.pairwise("-", left, right, rows)
             }

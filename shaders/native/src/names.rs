@@ -5,17 +5,51 @@ use std::collections::BTreeSet;
 
 /// Words that Rust does not accept as names of its own items (2024 edition, reserved ones included).
 const KEYWORDS: &[&str] = &[
-    "Self", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn",
-    "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro",
-    "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static", "struct", "super",
-    "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+    "Self", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue",
+    "crate", "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if",
+    "impl", "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub",
+    "ref", "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
+    "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
 ];
 
 /// The type names that a generated module declares itself, or takes from Rust.
 pub(crate) const TYPE_NAMES: &[&str] = &[
-    "Real", "Kernel", "Bindings", "Default", "wgsl", "core", "std", "glam", "f32", "f64", "u32", "i32", "bool",
-    "usize", "Vec2", "Vec3", "Vec4", "UVec2", "UVec3", "UVec4", "IVec2", "IVec3", "IVec4", "BVec2", "BVec3",
-    "BVec4", "Mat2", "Mat3", "Mat4", "Option", "Some", "None", "Copy", "Clone", "Debug", "PartialEq",
+    "Real",
+    "Kernel",
+    "Bindings",
+    "Default",
+    "wgsl",
+    "core",
+    "std",
+    "glam",
+    "f32",
+    "f64",
+    "u32",
+    "i32",
+    "bool",
+    "usize",
+    "Vec2",
+    "Vec3",
+    "Vec4",
+    "UVec2",
+    "UVec3",
+    "UVec4",
+    "IVec2",
+    "IVec3",
+    "IVec4",
+    "BVec2",
+    "BVec3",
+    "BVec4",
+    "Mat2",
+    "Mat3",
+    "Mat4",
+    "Option",
+    "Some",
+    "None",
+    "Copy",
+    "Clone",
+    "Debug",
+    "PartialEq",
 ];
 
 /// The names already given in one Rust namespace.
@@ -32,7 +66,11 @@ impl Names {
 
     /// A free name as close to `wanted` as Rust allows.
     pub(crate) fn add(&mut self, wanted: &str) -> String {
-        let mut name = if wanted.is_empty() || wanted == "_" { "unnamed".to_owned() } else { wanted.to_owned() };
+        let mut name = if wanted.is_empty() || wanted == "_" {
+            "unnamed".to_owned()
+        } else {
+            wanted.to_owned()
+        };
         while KEYWORDS.contains(&name.as_str()) || !self.taken.insert(name.clone()) {
             name.push('_');
         }
@@ -52,8 +90,9 @@ mod tests {
     #[test]
     fn keywords_and_repeats_get_underscores() {
         let mut names = Names::with(["taken"]);
-        let got: Vec<String> =
-            ["match", "match", "x", "x", "x", "taken", "_", "self"].map(|wanted| names.add(wanted)).into();
+        let got: Vec<String> = ["match", "match", "x", "x", "x", "taken", "_", "self"]
+            .map(|wanted| names.add(wanted))
+            .into();
         assert_eq!(got, ["match_", "match__", "x", "x_", "x__", "taken_", "unnamed", "self_"]);
     }
 }

@@ -53,9 +53,7 @@ impl FunctionWriter<'_> {
         };
         let vector = matches!(self.ty(handle), TypeInner::Vector { .. });
         match form {
-            Form::Infix(op) => {
-                Ok(format!("{} {op} {}", self.operand(left)?, self.operand(right)?))
-            }
+            Form::Infix(op) => Ok(format!("{} {op} {}", self.operand(left)?, self.operand(right)?)),
             Form::Method(name) if vector => {
                 let (left, right) = (self.whole(handle, left)?, self.whole(handle, right)?);
                 Ok(call(&format!("{}.{name}", wrap(&left)), &[right]))
@@ -68,9 +66,8 @@ impl FunctionWriter<'_> {
                 self.lanewise(handle, &[left, right], |x| format!("{} {op} {}", x[0], x[1]))
             }
             Form::Call(name) => self.lanewise(handle, &[left, right], |x| call(name, x)),
-            Form::Shift(name) => self.lanewise(handle, &[left, right], |x| {
-                call(&format!("{}.{name}", x[0]), &x[1..])
-            }),
+            Form::Shift(name) => self
+                .lanewise(handle, &[left, right], |x| call(&format!("{}.{name}", x[0]), &x[1..])),
         }
     }
 

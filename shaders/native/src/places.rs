@@ -20,11 +20,25 @@ enum Index {
 enum Step {
     Field(String),
     /// Element of an array of known length.
-    Element { index: Index, length: u32 },
+    Element {
+        index: Index,
+        length: u32,
+    },
     /// Element of an array whose length only its slice knows; `zero` if it has none.
-    Slice { index: Index, zero: String },
-    Column { index: Index, columns: u32, square: bool },
-    Lane { index: Index, lanes: u32, boolean: bool },
+    Slice {
+        index: Index,
+        zero: String,
+    },
+    Column {
+        index: Index,
+        columns: u32,
+        square: bool,
+    },
+    Lane {
+        index: Index,
+        lanes: u32,
+        boolean: bool,
+    },
 }
 
 /// A variable and the way into it.
@@ -68,7 +82,10 @@ impl FunctionWriter<'_> {
                 let (holding, root) = self.global(global)?;
                 Ok(Place {
                     root,
-                    by_ref: matches!(holding, Holding::Value | Holding::ValueMut | Holding::Fixed(_)),
+                    by_ref: matches!(
+                        holding,
+                        Holding::Value | Holding::ValueMut | Holding::Fixed(_)
+                    ),
                     in_kernel: true,
                     stored: holding != Holding::Private,
                     steps: Vec::new(),
@@ -137,8 +154,11 @@ impl FunctionWriter<'_> {
         if let Expression::GlobalVariable(global) = self.fun.expressions[base]
             && matches!(self.cx.holding(global)?, Holding::Slice | Holding::SliceMut)
         {
-            let zero =
-                if place.stored { self.cx.stored_zero(element)? } else { self.cx.handle_zero(element)? };
+            let zero = if place.stored {
+                self.cx.stored_zero(element)?
+            } else {
+                self.cx.handle_zero(element)?
+            };
             return Ok(Step::Slice { index, zero });
         }
         let length = self.cx.array_length(size, self.span_of(base)).map_err(|e| self.place(e))?;

@@ -3,9 +3,7 @@
 use crate::context::Context;
 use crate::text::Text;
 use crate::{NativeError, Precision};
-use naga::{
-    AddressSpace, ArraySize, GlobalVariable, Handle, StorageAccess, Type, TypeInner,
-};
+use naga::{AddressSpace, ArraySize, GlobalVariable, Handle, StorageAccess, Type, TypeInner};
 
 /// How a global variable lies in `Kernel`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,9 +2,7 @@
 
 use crate::context::Context;
 use crate::{NativeError, Precision};
-use naga::{
-    ArraySize, Handle, Literal, Scalar, ScalarKind, Span, Type, TypeInner, VectorSize,
-};
+use naga::{ArraySize, Handle, Literal, Scalar, ScalarKind, Span, Type, TypeInner, VectorSize};
 
 /// The axes of a vector, in order.
 pub(crate) const LANES: [&str; 4] = ["x", "y", "z", "w"];
@@ -44,10 +42,10 @@ impl Context<'_> {
             (ScalarKind::Uint, 4) => Ok("u32"),
             (ScalarKind::Sint, 4) | (ScalarKind::AbstractInt, _) => Ok("i32"),
             (ScalarKind::Bool, _) => Ok("bool"),
-            (kind, width) => Err(self.refuse(
-                span,
-                &format!("numbers of {} bits ({kind:?})", u32::from(width) * 8),
-            )),
+            (kind, width) => {
+                Err(self
+                    .refuse(span, &format!("numbers of {} bits ({kind:?})", u32::from(width) * 8)))
+            }
         }
     }
 

@@ -30,7 +30,7 @@ impl<'a> Kernel<'a> {
             unused: bindings.unused,
         }
     }
-    
+
     /// WGSL line 5.
     #[inline]
     pub fn note(&mut self, digit: u32) -> bool {
@@ -38,7 +38,7 @@ impl<'a> Kernel<'a> {
         self.trace = e3.wrapping_mul(10u32).wrapping_add(digit);
         return digit > 4u32;
     }
-    
+
     /// WGSL line 11.
     #[inline]
     pub fn break_in_switch(&mut self, n: u32) -> u32 {
@@ -76,7 +76,7 @@ impl<'a> Kernel<'a> {
         }
         return sum;
     }
-    
+
     /// WGSL line 27.
     #[inline]
     pub fn switch_default_first(&mut self, x: i32) -> i32 {
@@ -92,7 +92,7 @@ impl<'a> Kernel<'a> {
             }
         }
     }
-    
+
     /// WGSL line 35.
     #[inline]
     pub fn switch_default_shared(&mut self, x: u32) -> u32 {
@@ -107,7 +107,7 @@ impl<'a> Kernel<'a> {
         }
         return r;
     }
-    
+
     /// WGSL line 45.
     #[inline]
     pub fn continue_in_switch(&mut self, n: u32) -> u32 {
@@ -134,7 +134,7 @@ impl<'a> Kernel<'a> {
         }
         return sum;
     }
-    
+
     /// WGSL line 57.
     #[inline]
     pub fn continue_runs_continuing(&mut self, n: u32) -> u32 {
@@ -159,7 +159,7 @@ impl<'a> Kernel<'a> {
         }
         return odd;
     }
-    
+
     /// WGSL line 70.
     #[inline]
     pub fn break_if(&mut self, n: i32) -> i32 {
@@ -184,7 +184,7 @@ impl<'a> Kernel<'a> {
         }
         return sum;
     }
-    
+
     /// WGSL line 85.
     #[inline]
     pub fn nested_loops(&mut self, n: u32) -> u32 {
@@ -237,7 +237,7 @@ impl<'a> Kernel<'a> {
         }
         return count;
     }
-    
+
     /// WGSL line 103.
     #[inline]
     pub fn while_loop(&mut self, start: u32) -> u32 {
@@ -269,7 +269,7 @@ impl<'a> Kernel<'a> {
         }
         return steps;
     }
-    
+
     /// WGSL line 113.
     #[inline]
     pub fn early_return(&mut self, values: [u32; 4], wanted: u32) -> i32 {
@@ -288,7 +288,7 @@ impl<'a> Kernel<'a> {
         }
         return -1i32;
     }
-    
+
     /// WGSL line 121.
     #[inline]
     pub fn zeroed_in_loop(&mut self, n: u32) -> u32 {
@@ -320,7 +320,7 @@ impl<'a> Kernel<'a> {
         }
         return last;
     }
-    
+
     /// WGSL line 133.
     #[inline]
     pub fn and_evaluates_left_first(&mut self, a: u32, b: u32) -> u32 {
@@ -339,7 +339,7 @@ impl<'a> Kernel<'a> {
         }
         return self.trace;
     }
-    
+
     /// WGSL line 139.
     #[inline]
     pub fn or_evaluates_left_first(&mut self, a: u32, b: u32) -> u32 {
@@ -358,7 +358,7 @@ impl<'a> Kernel<'a> {
         }
         return self.trace;
     }
-    
+
     /// WGSL line 146.
     #[inline]
     pub fn load_before_store(&mut self) -> u32 {
@@ -370,7 +370,7 @@ impl<'a> Kernel<'a> {
         let e6 = before.wrapping_mul(100u32);
         return e6.wrapping_add(after.wrapping_mul(10u32)).wrapping_add(x);
     }
-    
+
     /// WGSL line 155.
     #[inline]
     pub fn call_between_loads(&mut self) -> u32 {
@@ -381,7 +381,7 @@ impl<'a> Kernel<'a> {
         let e10 = before.wrapping_mul(1000u32).wrapping_add(after);
         return e10.wrapping_add(if high { 500u32 } else { 0u32 });
     }
-    
+
     /// WGSL line 163.
     #[inline]
     pub fn else_if_chain(&mut self, x: Real) -> u32 {
@@ -398,7 +398,7 @@ impl<'a> Kernel<'a> {
         }
         return 3u32;
     }
-    
+
     /// WGSL line 168.
     #[inline]
     pub fn only_else(&mut self, x: bool) -> u32 {
@@ -408,7 +408,7 @@ impl<'a> Kernel<'a> {
         }
         return r;
     }
-    
+
     /// WGSL line 174.
     #[inline]
     pub fn shadowed(&mut self, x: u32) -> u32 {

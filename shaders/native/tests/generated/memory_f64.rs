@@ -114,7 +114,7 @@ impl<'a> Kernel<'a> {
             rng: UVec4::new(1u32, 2u32, 3u32, 4u32),
         }
     }
-    
+
     pub fn render(&mut self, gid: UVec3) {
         self.stack = [0u32; 8];
         self.top = 3u32;
@@ -131,7 +131,7 @@ impl<'a> Kernel<'a> {
         self.rng = UVec4::splat(9u32);
         return;
     }
-    
+
     /// WGSL line 35.
     #[inline]
     pub fn set_count(&mut self, leaf: &mut Leaf, count: u32) {
@@ -140,7 +140,7 @@ impl<'a> Kernel<'a> {
         leaf.weight = e4 + 0.5f64;
         return;
     }
-    
+
     /// WGSL line 40.
     #[inline]
     pub fn bump(&mut self, x: &mut u32) -> u32 {
@@ -148,7 +148,7 @@ impl<'a> Kernel<'a> {
         *x = e1.wrapping_add(1u32);
         return *x;
     }
-    
+
     /// WGSL line 45.
     #[inline]
     pub fn bump_twice(&mut self, x: &mut u32) {
@@ -156,7 +156,7 @@ impl<'a> Kernel<'a> {
         self.bump(&mut *x);
         return;
     }
-    
+
     /// WGSL line 50.
     #[inline]
     pub fn pointer_to_variable(&mut self) -> u32 {
@@ -166,7 +166,7 @@ impl<'a> Kernel<'a> {
         x = e2.wrapping_mul(2u32);
         return x;
     }
-    
+
     /// WGSL line 59.
     #[inline]
     pub fn pointer_to_member(&mut self) -> u32 {
@@ -180,7 +180,7 @@ impl<'a> Kernel<'a> {
         let e18 = e12.wrapping_add(e15.wrapping_mul(10u32));
         return e18.wrapping_add(tree.table[1]);
     }
-    
+
     /// WGSL line 68.
     #[inline]
     pub fn pointer_to_element(&mut self, i: u32) -> u32 {
@@ -195,7 +195,7 @@ impl<'a> Kernel<'a> {
         let e21 = e16.wrapping_add(e18.wrapping_mul(10u32));
         return e21.wrapping_add(list[3]);
     }
-    
+
     /// WGSL line 75.
     #[inline]
     pub fn pointer_keeps_index(&mut self) -> u32 {
@@ -213,7 +213,7 @@ impl<'a> Kernel<'a> {
         let e19 = e14.wrapping_add(e16.wrapping_mul(10u32));
         return e19.wrapping_add(list[2]);
     }
-    
+
     /// WGSL line 84.
     #[inline]
     pub fn structs_are_values(&mut self) -> u32 {
@@ -233,7 +233,7 @@ impl<'a> Kernel<'a> {
         let e31 = e26.wrapping_add(e28.wrapping_mul(10u32));
         return e31.wrapping_add(a.table[2]);
     }
-    
+
     /// WGSL line 95.
     #[inline]
     pub fn changed(&mut self, tree: Tree, count: u32) -> Tree {
@@ -243,7 +243,7 @@ impl<'a> Kernel<'a> {
         result.axis.y = 3.0f64;
         return result;
     }
-    
+
     /// WGSL line 102.
     #[inline]
     pub fn structs_pass_by_value(&mut self) -> Real {
@@ -255,7 +255,7 @@ impl<'a> Kernel<'a> {
         let e17 = after.axis;
         return ((e7 + (e10 * 10.0f64)) + after.left.weight) + e17.y;
     }
-    
+
     /// WGSL line 108.
     #[inline]
     pub fn locals_start_zeroed(&mut self) -> u32 {
@@ -271,32 +271,32 @@ impl<'a> Kernel<'a> {
         let e18 = e14.wrapping_add(d.table[2]);
         return e18.wrapping_add(wgsl::to_u32(e.z_axis.y)).wrapping_add(f as u32).wrapping_add(g.y as u32);
     }
-    
+
     /// WGSL line 119.
     #[inline]
     pub fn constant_array(&mut self, i: u32) -> u32 {
         return (&PRIMES)[(i as usize).min(4)];
     }
-    
+
     /// WGSL line 120.
     #[inline]
     pub fn constant_array_signed(&mut self, i: i32) -> u32 {
         return (&PRIMES)[(i as usize).min(4)];
     }
-    
+
     /// WGSL line 121.
     #[inline]
     pub fn constant_corner(&mut self, i: u32) -> Vec2 {
         return (&CORNERS)[(i as usize).min(2)];
     }
-    
+
     /// WGSL line 123.
     #[inline]
     pub fn local_constant_array(&mut self, i: u32) -> u32 {
         let list = [10u32, 20u32, 30u32];
         return (&list)[(i as usize).min(2)];
     }
-    
+
     /// WGSL line 128.
     #[inline]
     pub fn read_outside(&mut self, i: u32) -> u32 {
@@ -304,7 +304,7 @@ impl<'a> Kernel<'a> {
         let e4 = [10u32, 20u32, 30u32];
         return list[(i as usize).min(2)];
     }
-    
+
     /// WGSL line 133.
     #[inline]
     pub fn write_outside(&mut self, i: u32) -> u32 {
@@ -319,7 +319,7 @@ impl<'a> Kernel<'a> {
         let e16 = e11.wrapping_add(e13.wrapping_mul(10u32));
         return e16.wrapping_add(list[2]);
     }
-    
+
     /// WGSL line 139.
     #[inline]
     pub fn write_outside_nested(&mut self, i: u32, j: u32) -> u32 {
@@ -335,7 +335,7 @@ impl<'a> Kernel<'a> {
         let e22 = e16.wrapping_add(e19.wrapping_mul(10u32));
         return e22.wrapping_add(grid[1][1]);
     }
-    
+
     /// WGSL line 145.
     #[inline]
     pub fn lane_outside(&mut self, i: u32) -> Real {
@@ -349,13 +349,13 @@ impl<'a> Kernel<'a> {
         let e13 = v.y;
         return (e11 + (e13 * 10.0f64)) + v.z;
     }
-    
+
     /// WGSL line 151.
     #[inline]
     pub fn lane_of_value(&mut self, v: UVec4, i: u32) -> u32 {
         return v[(i as usize).min(3)];
     }
-    
+
     /// WGSL line 152.
     #[inline]
     pub fn lane_of_bools(&mut self, v: BVec3, i: u32) -> bool {
@@ -372,7 +372,7 @@ impl<'a> Kernel<'a> {
         }
         return local;
     }
-    
+
     /// WGSL line 158.
     #[inline]
     pub fn column_outside(&mut self, i: u32) -> Real {
@@ -392,7 +392,7 @@ impl<'a> Kernel<'a> {
         let e32 = e26 + (e29 * 10.0f64);
         return e32 + m.y_axis.y;
     }
-    
+
     /// WGSL line 165.
     #[inline]
     pub fn store_lane(&mut self) -> Vec4 {
@@ -404,14 +404,14 @@ impl<'a> Kernel<'a> {
         v.w = v.z;
         return v;
     }
-    
+
     /// WGSL line 173.
     #[inline]
     pub fn frame(&mut self, i: u32) -> UVec4 {
         let frame_words = self.frame_words;
         return frame_words[(i as usize).min(1)];
     }
-    
+
     /// WGSL line 174.
     #[inline]
     pub fn frame_first(&mut self) -> u32 {
@@ -419,21 +419,21 @@ impl<'a> Kernel<'a> {
         let e3 = frame_words[0].y;
         return e3.wrapping_add(frame_words[1].w);
     }
-    
+
     /// WGSL line 175.
     #[inline]
     pub fn node(&mut self, i: u32) -> UVec4 {
         let node_words = self.node_words;
         return *wgsl::at(node_words, i as u32, &UVec4::ZERO);
     }
-    
+
     /// WGSL line 176.
     #[inline]
     pub fn node_lane(&mut self, i: u32, lane: u32) -> u32 {
         let node_words = self.node_words;
         return wgsl::at(node_words, i as u32, &UVec4::ZERO)[(lane as usize).min(3)];
     }
-    
+
     /// WGSL line 177.
     #[inline]
     pub fn node_floats(&mut self, i: u32) -> Vec3 {
@@ -441,49 +441,49 @@ impl<'a> Kernel<'a> {
         let e3 = *wgsl::at(node_words, i as u32, &UVec4::ZERO);
         return Vec3::new(f64::from(f32::from_bits(e3.y)), f64::from(f32::from_bits(e3.z)), f64::from(f32::from_bits(e3.w)));
     }
-    
+
     /// WGSL line 178.
     #[inline]
     pub fn node_count(&mut self) -> u32 {
         let node_words = self.node_words;
         return node_words.len() as u32;
     }
-    
+
     /// WGSL line 179.
     #[inline]
     pub fn weight(&mut self, i: u32) -> Real {
         let weights = self.weights;
         return f64::from(*wgsl::at(weights, i as u32, &0.0f32));
     }
-    
+
     /// WGSL line 180.
     #[inline]
     pub fn leaf_count(&mut self, i: u32) -> u32 {
         let leaves = self.leaves;
         return wgsl::at(leaves, i as u32, &Leaf::ZERO).count;
     }
-    
+
     /// WGSL line 181.
     #[inline]
     pub fn leaf_weight(&mut self, i: u32) -> Real {
         let leaves = self.leaves;
         return wgsl::at(leaves, i as u32, &Leaf::ZERO).weight;
     }
-    
+
     /// WGSL line 182.
     #[inline]
     pub fn point(&mut self, i: u32) -> Vec2 {
         let points = self.points;
         return (*wgsl::at(points, i as u32, &glam::Vec2::ZERO)).as_dvec2();
     }
-    
+
     /// WGSL line 183.
     #[inline]
     pub fn point_y(&mut self, i: u32) -> Real {
         let points = self.points;
         return f64::from(wgsl::at(points, i as u32, &glam::Vec2::ZERO).y);
     }
-    
+
     /// WGSL line 184.
     #[inline]
     pub fn gain(&mut self) -> Real {
@@ -491,7 +491,7 @@ impl<'a> Kernel<'a> {
         let e2 = setting.gain;
         return e2 + setting.offset.z;
     }
-    
+
     /// WGSL line 186.
     #[inline]
     pub fn film_write(&mut self, i: u32, value: UVec4) {
@@ -500,7 +500,7 @@ impl<'a> Kernel<'a> {
         }
         return;
     }
-    
+
     /// WGSL line 187.
     #[inline]
     pub fn film_lane(&mut self, i: u32, value: u32) {
@@ -509,19 +509,19 @@ impl<'a> Kernel<'a> {
         }
         return;
     }
-    
+
     /// WGSL line 188.
     #[inline]
     pub fn film_read(&mut self, i: u32) -> UVec4 {
         return *wgsl::at(&*self.film_words, i as u32, &UVec4::ZERO);
     }
-    
+
     /// WGSL line 189.
     #[inline]
     pub fn film_size(&mut self) -> u32 {
         return self.film_words.len() as u32;
     }
-    
+
     /// WGSL line 191.
     #[inline]
     pub fn add_sum(&mut self, i: u32, x: Real) -> Real {
@@ -533,7 +533,7 @@ impl<'a> Kernel<'a> {
         self.total.count = e12.wrapping_add(1u32);
         return self.total.weight;
     }
-    
+
     /// WGSL line 198.
     #[inline]
     pub fn push(&mut self, value: u32) {
@@ -545,7 +545,7 @@ impl<'a> Kernel<'a> {
         self.top = e7.wrapping_add(1u32);
         return;
     }
-    
+
     /// WGSL line 203.
     #[inline]
     pub fn push_and_peek(&mut self, a: u32, b: u32) -> u32 {
@@ -558,7 +558,7 @@ impl<'a> Kernel<'a> {
         let e14 = e8.wrapping_add(e11.wrapping_mul(10u32));
         return e14.wrapping_add(self.top);
     }
-    
+
     /// WGSL line 210.
     #[inline]
     pub fn next_random(&mut self) -> u32 {

@@ -69,7 +69,7 @@ impl<'a> Kernel<'a> {
             unused: bindings.unused,
         }
     }
-    
+
     /// WGSL line 12.
     #[inline]
     pub fn try_new(&mut self, in_: u32, box_: u32) -> u32 {
@@ -78,14 +78,14 @@ impl<'a> Kernel<'a> {
         gen_ = dyn_.wrapping_mul(2u32);
         return gen_;
     }
-    
+
     /// WGSL line 18.
     #[inline]
     pub fn box_(&mut self, f64: u32) -> Kernel_ {
         let first_chunk = f64.min(limit);
         return Kernel_ { match_: first_chunk, type_: e1, box_: 3.0f64, dyn_: Vec2::splat(0.0f64) };
     }
-    
+
     /// WGSL line 23.
     #[inline]
     pub fn shadows_constant(&mut self, x: u32) -> u32 {
@@ -93,14 +93,14 @@ impl<'a> Kernel<'a> {
         let e1_ = limit_.wrapping_mul(2u32);
         return limit_.wrapping_add(e1_);
     }
-    
+
     /// WGSL line 29.
     #[inline]
     pub fn vec3_of(&mut self, gen_: u32) -> Vec3_ {
         self.self_ = self.bindings;
         return Vec3_ { gen_: gen_.wrapping_add(self.self_) };
     }
-    
+
     /// WGSL line 34.
     #[inline]
     pub fn render_(&mut self, at: UVec3) -> u32 {

@@ -1,21 +1,7 @@
 //! The scalar rules, checked where they are plain Rust, in both precisions.
 
-#![allow(clippy::pedantic, dead_code, unreachable_pub, reason = "text of the generated module")]
-
-mod single {
-    pub type Real = f32;
-    #[path = "../../prelude.rs"]
-    pub mod rules;
-}
-
-mod double {
-    pub type Real = f64;
-    #[path = "../../prelude.rs"]
-    pub mod rules;
-}
-
-use double::rules as wide;
-use single::rules;
+use super::double::rules as wide;
+use super::single::rules;
 
 #[test]
 fn every_half_survives_a_round_trip() {

@@ -1,0 +1,13 @@
+//! The scalar rules in f64.
+
+#![allow(
+    clippy::pedantic,
+    clippy::inline_always,
+    dead_code,
+    unreachable_pub,
+    reason = "the text of a generated module"
+)]
+
+pub type Real = f64;
+#[path = "scalar.rs"]
+pub mod rules;

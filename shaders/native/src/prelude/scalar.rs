@@ -1,0 +1,271 @@
+//! WGSL's rules for scalars, where Rust's own operators differ. This text is pasted into every
+//! generated module as `mod wgsl`, behind a `Real` of f32 or f64. No function here can panic.
+
+use super::Real;
+
+/// Element `i`; outside the array the last element; of an empty array `zero`.
+#[inline(always)]
+pub fn at<'s, T>(array: &'s [T], i: u32, zero: &'s T) -> &'s T {
+    match array.get(i as usize) {
+        Some(element) => element,
+        None => last(array, zero),
+    }
+}
+
+#[cold]
+fn last<'s, T>(array: &'s [T], zero: &'s T) -> &'s T {
+    array.last().unwrap_or(zero)
+}
+
+/// `b` if it is smaller, else `a`: what WGSL allows and one instruction does.
+#[inline(always)]
+pub fn min(a: Real, b: Real) -> Real {
+    if b < a { b } else { a }
+}
+
+/// `b` if it is larger, else `a`.
+#[inline(always)]
+pub fn max(a: Real, b: Real) -> Real {
+    if a < b { b } else { a }
+}
+
+/// `x` between `low` and `high`; `high` wins where they cross.
+#[inline(always)]
+pub fn clamp(x: Real, low: Real, high: Real) -> Real {
+    min(max(x, low), high)
+}
+
+/// -1, 0 or 1; 0 for both zeros and for NaN.
+#[inline(always)]
+pub fn sign(x: Real) -> Real {
+    if x > 0.0 {
+        1.0
+    } else if x < 0.0 {
+        -1.0
+    } else {
+        0.0
+    }
+}
+
+/// `x` less the integer below it.
+#[inline(always)]
+pub fn fract(x: Real) -> Real {
+    x - x.floor()
+}
+
+/// `a` at `t` 0, `b` at 1.
+#[inline(always)]
+pub fn mix(a: Real, b: Real, t: Real) -> Real {
+    a + t * (b - a)
+}
+
+/// 0 below `edge`, else 1.
+#[inline(always)]
+pub fn step(edge: Real, x: Real) -> Real {
+    if edge <= x { 1.0 } else { 0.0 }
+}
+
+/// The cubic ramp from 0 at `low` to 1 at `high`.
+#[inline(always)]
+pub fn smoothstep(low: Real, high: Real, x: Real) -> Real {
+    let t = clamp((x - low) / (high - low), 0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// Remainder of truncated division, rounded as WGSL defines it and not as `fmod` does.
+#[inline(always)]
+pub fn rem(a: Real, b: Real) -> Real {
+    a - b * (a / b).trunc()
+}
+
+/// `x` times two to the power of `e`.
+#[inline]
+pub fn ldexp(x: Real, e: i32) -> Real {
+    let e = e.clamp(-2000, 2000);
+    let power = |e: i32| f64::from_bits(((e + 1023) as u64) << 52);
+    (f64::from(x) * power(e / 2) * power(e - e / 2)) as Real
+}
+
+/// The fraction of `x`, in 0.5 <= |f| < 1, and its exponent.
+#[inline]
+pub fn frexp(x: Real) -> (Real, i32) {
+    let wide = f64::from(x);
+    if wide == 0.0 || !wide.is_finite() {
+        return (x, 0);
+    }
+    let tiny = wide.abs() < f64::MIN_POSITIVE;
+    let bits = if tiny { wide * 18_014_398_509_481_984.0 } else { wide }.to_bits();
+    let exponent = ((bits >> 52) & 0x7ff) as i32 - 1022 - if tiny { 54 } else { 0 };
+    let fraction = f64::from_bits((bits & !(0x7ff << 52)) | (1022 << 52));
+    (fraction as Real, exponent)
+}
+
+/// To u32: towards zero; outside its range the nearest value that f32 also holds; NaN is 0.
+#[inline(always)]
+pub fn to_u32(x: Real) -> u32 {
+    (x as u32).min(4_294_967_040)
+}
+
+/// To i32: towards zero; outside its range the nearest value that f32 also holds; NaN is 0.
+#[inline(always)]
+pub fn to_i32(x: Real) -> i32 {
+    (x as i32).min(2_147_483_520)
+}
+
+/// Quotient; by zero the dividend.
+#[inline(always)]
+pub fn div_u32(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { a / b }
+}
+
+/// Remainder; by zero 0.
+#[inline(always)]
+pub fn rem_u32(a: u32, b: u32) -> u32 {
+    if b == 0 { 0 } else { a % b }
+}
+
+/// Quotient towards zero; by zero, and where it overflows, the dividend.
+#[inline(always)]
+pub fn div_i32(a: i32, b: i32) -> i32 {
+    if b == 0 { a } else { a.wrapping_div(b) }
+}
+
+/// Remainder with the sign of the dividend; by zero, and where the quotient overflows, 0.
+#[inline(always)]
+pub fn rem_i32(a: i32, b: i32) -> i32 {
+    if b == 0 { 0 } else { a.wrapping_rem(b) }
+}
+
+/// Position of the highest one; of 0 all ones.
+#[inline(always)]
+pub fn first_leading_u32(x: u32) -> u32 {
+    if x == 0 { u32::MAX } else { 31 - x.leading_zeros() }
+}
+
+/// Position of the highest bit that differs from the sign; of 0 and -1, -1.
+#[inline(always)]
+pub fn first_leading_i32(x: i32) -> i32 {
+    first_leading_u32((if x < 0 { !x } else { x }) as u32) as i32
+}
+
+/// Position of the lowest one; of 0 all ones.
+#[inline(always)]
+pub fn first_trailing_u32(x: u32) -> u32 {
+    if x == 0 { u32::MAX } else { x.trailing_zeros() }
+}
+
+/// Position of the lowest one; of 0, -1.
+#[inline(always)]
+pub fn first_trailing_i32(x: i32) -> i32 {
+    first_trailing_u32(x as u32) as i32
+}
+
+/// `count` bits from bit `offset` up, both cut to the width.
+#[inline(always)]
+pub fn extract_u32(x: u32, offset: u32, count: u32) -> u32 {
+    let offset = offset.min(32);
+    let count = count.min(32 - offset);
+    if count == 0 { 0 } else { x << (32 - count - offset) >> (32 - count) }
+}
+
+/// As `extract_u32`, with the sign of the highest bit taken.
+#[inline(always)]
+pub fn extract_i32(x: i32, offset: u32, count: u32) -> i32 {
+    let offset = offset.min(32);
+    let count = count.min(32 - offset);
+    if count == 0 { 0 } else { x << (32 - count - offset) >> (32 - count) }
+}
+
+/// `x` with `count` bits from `offset` up replaced by the low bits of `new`.
+#[inline(always)]
+pub fn insert_u32(x: u32, new: u32, offset: u32, count: u32) -> u32 {
+    let offset = offset.min(32);
+    let count = count.min(32 - offset);
+    if count == 0 {
+        return x;
+    }
+    let mask = (u32::MAX >> (32 - count)) << offset;
+    (x & !mask) | ((new << offset) & mask)
+}
+
+/// As `insert_u32`.
+#[inline(always)]
+pub fn insert_i32(x: i32, new: i32, offset: u32, count: u32) -> i32 {
+    insert_u32(x as u32, new as u32, offset, count) as i32
+}
+
+/// The bits of the nearest binary16, ties to even.
+#[inline]
+pub fn f16_from(x: f32) -> u32 {
+    let bits = x.to_bits();
+    let sign = (bits >> 16) & 0x8000;
+    let magnitude = bits & 0x7fff_ffff;
+    if magnitude > 0x7f80_0000 {
+        return sign | 0x7e00;
+    }
+    if magnitude >= 0x4780_0000 {
+        return sign | 0x7c00;
+    }
+    if magnitude < 0x3880_0000 {
+        // Below the smallest normal: the addition rounds to a multiple of 2^-24.
+        return sign | ((f32::from_bits(magnitude) + 0.5).to_bits() - 0x3f00_0000);
+    }
+    let odd = (magnitude >> 13) & 1;
+    sign | ((magnitude - 0x3800_0000 + 0xfff + odd) >> 13)
+}
+
+/// The value of the binary16 in the low 16 bits.
+#[inline]
+pub fn f16_to(bits: u32) -> f32 {
+    let sign = f32::from_bits(0x3f80_0000 | ((bits & 0x8000) << 16));
+    let magnitude = bits & 0x7fff;
+    if magnitude >= 0x7c00 {
+        f32::from_bits(((bits & 0x8000) << 16) | 0x7f80_0000 | ((magnitude & 0x3ff) << 13))
+    } else if magnitude >= 0x400 {
+        sign * f32::from_bits((magnitude << 13) + 0x3800_0000)
+    } else {
+        sign * (magnitude as f32 * (1.0 / 16_777_216.0))
+    }
+}
+
+/// The nearest value that binary16 holds.
+#[inline]
+pub fn quantize_f16(x: Real) -> Real {
+    Real::from(f16_to(f16_from(x as f32)))
+}
+
+/// `x` in -1..=1 as a signed integer with `scale` at 1.
+#[inline]
+pub fn pack_snorm(x: Real, scale: Real) -> u32 {
+    (0.5 + scale * clamp(x, -1.0, 1.0)).floor() as i32 as u32
+}
+
+/// `x` in 0..=1 as an unsigned integer with `scale` at 1.
+#[inline]
+pub fn pack_unorm(x: Real, scale: Real) -> u32 {
+    (0.5 + scale * clamp(x, 0.0, 1.0)).floor() as u32
+}
+
+/// Byte `lane` of `x`.
+#[inline(always)]
+pub fn byte_u32(x: u32, lane: u32) -> u32 {
+    (x >> (8 * lane)) & 0xff
+}
+
+/// Byte `lane` of `x`, with its sign.
+#[inline(always)]
+pub fn byte_i32(x: u32, lane: u32) -> i32 {
+    i32::from((x >> (8 * lane)) as i8)
+}
+
+/// Half `lane` of `x`, with its sign.
+#[inline(always)]
+pub fn half_i32(x: u32, lane: u32) -> i32 {
+    i32::from((x >> (16 * lane)) as i16)
+}
+
+/// Four bytes as one word, lane 0 lowest.
+#[inline(always)]
+pub fn join_bytes(x: u32, y: u32, z: u32, w: u32) -> u32 {
+    (x & 0xff) | ((y & 0xff) << 8) | ((z & 0xff) << 16) | (w << 24)
+}
