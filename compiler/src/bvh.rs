@@ -10,7 +10,9 @@ mod binned;
 mod build;
 mod check;
 mod fragment;
+mod join;
 mod sweep;
+mod top;
 mod words;
 
 use pack::abi::{NONE, Node};
@@ -18,6 +20,7 @@ use thiserror::Error;
 
 pub use check::TreeFault;
 pub use fragment::{Bounds, COORD_MAX, Fragment, MAX_PRIMITIVES};
+pub use join::{Group, GroupKind, Joined, join};
 
 /// Name and version of the builder. Any change of its results must change this.
 pub const BUILDER: &str = "binned16-sweep24-v1";

@@ -1,3 +1,6 @@
 //! (to be written)
 
 pub mod bvh;
+pub mod normalize;
+pub mod weld;
+pub mod import;

@@ -8,12 +8,13 @@ pub(super) fn leaf_word(first: u32, count: usize) -> u32 {
     ChildRef::Triangles { first, count }.encode().expect("fewer than 2^27 primitives, 1 to 8 each")
 }
 
-/// The same reference after `nodes` nodes and `primitives` primitives were put in front of it.
+/// The same reference with `nodes` or `primitives` added to its index, modulo 2^32; the result must
+/// be in range.
 pub(super) fn shift_word(word: u32, nodes: u32, primitives: u32) -> u32 {
     match word {
         NONE => NONE,
-        _ if word & CHILD_INNER != 0 => word + nodes,
-        _ => word + primitives,
+        _ if word & CHILD_INNER != 0 => word.wrapping_add(nodes),
+        _ => word.wrapping_add(primitives),
     }
 }
 

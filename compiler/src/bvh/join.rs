@@ -1,0 +1,153 @@
+//! Trees of groups become the one tree of the scene.
+//!
+//! Turns the trees of meshes and of the spheres into one flat node array in depth-first order, with
+//! primitives numbered as the pack stores them. Any number of groups of any size is fine: none
+//! gives an empty tree, few primitives a root that is a leaf.
+
+use std::ops::Range;
+
+use pack::abi::{CHILD_INNER, NONE, Node};
+
+use super::fragment::{Bounds, MAX_PRIMITIVES};
+use super::top::{self, MAX_TOP_LEVELS, Top};
+use super::words::{as_spheres, shift_word};
+use super::{BvhError, Tree};
+
+/// What a group holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GroupKind {
+    /// Triangles.
+    Triangles,
+    /// Spheres.
+    Spheres,
+}
+
+/// Primitives of one kind with a tree of their own.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// What the tree's leaves stand for.
+    pub kind: GroupKind,
+    /// The tree, with indices local to the group.
+    pub tree: Tree,
+    /// Where the group's primitives are among the scene's primitives of this kind: local index `i`
+    /// is the `i`-th element of these ranges strung together.
+    pub members: Vec<Range<u32>>,
+}
+
+/// The tree of the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joined {
+    /// All inner nodes in depth-first order.
+    pub nodes: Vec<Node>,
+    /// Reference to the root; `NONE` when there is nothing.
+    pub root: u32,
+    /// For each triangle as the pack stores it, its index in the scene's list.
+    pub triangle_order: Vec<u32>,
+    /// For each sphere as the pack stores it, its index in the scene's list.
+    pub sphere_order: Vec<u32>,
+    /// Entries of the traversal stack that the worst ray needs; at most 95.
+    pub stack_need: u32,
+    /// Box of everything; `Bounds::EMPTY` when there is nothing.
+    pub bounds: Bounds,
+}
+
+/// Joins groups. Every primitive of the scene must be a member of exactly one group.
+pub fn join(groups: &[Group]) -> Result<Joined, BvhError> {
+    let count = |kind| {
+        let of_kind = groups.iter().filter(|g| g.kind == kind);
+        of_kind.map(|g| g.tree.order.len()).sum::<usize>()
+    };
+    let counts = [count(GroupKind::Triangles), count(GroupKind::Spheres)];
+    if let Some(&count) = counts.iter().find(|&&n| n > MAX_PRIMITIVES) {
+        return Err(BvhError::TooMany { count });
+    }
+    let trees: Vec<&Tree> = groups.iter().map(|g| &g.tree).collect();
+    let mut pieces = top::pieces(&trees);
+    let n_nodes: usize = trees.iter().map(|t| t.nodes.len()).sum();
+    let mut out = Joined {
+        nodes: Vec::with_capacity(n_nodes + groups.len()),
+        root: NONE,
+        triangle_order: Vec::with_capacity(counts[0]),
+        sphere_order: Vec::with_capacity(counts[1]),
+        stack_need: 0,
+        bounds: trees.iter().fold(Bounds::EMPTY, |b, t| b.union(t.bounds)),
+    };
+    if pieces.is_empty() {
+        return Ok(out);
+    }
+    let members: Vec<Members> = groups.iter().map(Members::new).collect();
+    out.root = write(&top::build(&mut pieces, MAX_TOP_LEVELS), groups, &members, &mut out);
+    out.stack_need = pack::bvh::stack_need(&out.nodes, out.root);
+    debug_assert_eq!([out.triangle_order.len(), out.sphere_order.len()], counts);
+    Ok(out)
+}
+
+/// Local index to scene index.
+enum Members {
+    Offset(u32),
+    Table(Vec<u32>),
+}
+
+impl Members {
+    fn new(group: &Group) -> Self {
+        match group.members.as_slice() {
+            [one] => Self::Offset(one.start),
+            ranges => Self::Table(ranges.iter().flat_map(Clone::clone).collect()),
+        }
+    }
+
+    fn scene_index(&self, local: u32) -> u32 {
+        match self {
+            Self::Offset(first) => first + local,
+            Self::Table(table) => table[local as usize],
+        }
+    }
+}
+
+fn word_of(len: usize) -> u32 {
+    u32::try_from(len).expect("at most 2^28 primitives have fewer than 2^31 nodes")
+}
+
+/// Appends a subtree to the output and returns its reference there.
+fn write(top: &Top, groups: &[Group], members: &[Members], out: &mut Joined) -> u32 {
+    match top {
+        Top::Fork { sides, bounds } => {
+            let at = out.nodes.len();
+            out.nodes.push(Node {
+                left_lo: bounds[0].lo3(),
+                left_hi: bounds[0].hi3(),
+                right_lo: bounds[1].lo3(),
+                right_hi: bounds[1].hi3(),
+                ..Node::default()
+            });
+            let left = write(&sides[0], groups, members, out);
+            let right = write(&sides[1], groups, members, out);
+            (out.nodes[at].left, out.nodes[at].right) = (left, right);
+            CHILD_INNER | word_of(at)
+        }
+        Top::Piece(piece) => {
+            let group = &groups[piece.group];
+            let span = top::span(&group.tree, piece.word);
+            let order = match group.kind {
+                GroupKind::Triangles => &mut out.triangle_order,
+                GroupKind::Spheres => &mut out.sphere_order,
+            };
+            // Differences modulo 2^32: the sum is right whichever of the two is larger.
+            let nodes = word_of(out.nodes.len()).wrapping_sub(word_of(span.nodes.start));
+            let prims = word_of(order.len()).wrapping_sub(word_of(span.prims.start));
+            let members = &members[piece.group];
+            order.extend(group.tree.order[span.prims].iter().map(|&i| members.scene_index(i)));
+            let word = |word| {
+                let word = shift_word(word, nodes, prims);
+                if group.kind == GroupKind::Spheres { as_spheres(word) } else { word }
+            };
+            let copies = group.tree.nodes[span.nodes].iter();
+            out.nodes.extend(copies.map(|n| Node {
+                left: word(n.left),
+                right: word(n.right),
+                ..*n
+            }));
+            word(piece.word)
+        }
+    }
+}
