@@ -2,11 +2,12 @@
 //!
 //! The file is split into declarations first (`split`), each is read by the grammar alone, and what
 //! the grammar's catch-all rules caught is read again strictly to say what is wrong there
-//! (`diagnose`). So a fault costs one field or one line, and every other declaration is still there.
+//! (`diagnose`, `explain`). So a fault costs one field or one line, and every other declaration is still there.
 
 mod build;
 mod declare;
 mod diagnose;
+mod explain;
 
 use std::borrow::Cow;
 

@@ -158,15 +158,8 @@ impl Splitter<'_> {
         let named = after.0 == Kind::Word && after.1 != "like";
         match word {
             "rts" => matches!(after.0, Kind::Number | Kind::Newline),
-            "import" => {
-                matches!(after.0, Kind::Text | Kind::OpenText | Kind::Word | Kind::Newline)
-                    && (outside || after.0 != Kind::Newline)
-            }
-            "assert" => {
-                matches!(after.0, Kind::Word | Kind::Number | Kind::Newline | Kind::Open)
-                    && (outside || after.0 == Kind::Word)
-            }
-            "param" | "let" | "asset" | "texture" => named || outside && after.0 != Kind::Equals,
+            "import" => outside || matches!(after.0, Kind::Text | Kind::OpenText | Kind::Word),
+            "param" | "let" | "asset" | "texture" | "assert" => named || outside,
             _ if DeclKind::from_word(word).is_some() => {
                 named && (outside || brace)
                     || matches!(after.1, "{" | ":") && (outside || brace || after.1 == "{")

@@ -1,27 +1,14 @@
-//! Words for what could not be read.
-//!
-//! The grammar, asked again without its catch-all rules, says how far a text is right; the tokens
-//! around that place say what to call the fault.
-
-use pest::Parser;
-use pest::error::{ErrorVariant, InputLocation};
+//! Which part of a field, a head or a line could not be read, and what to say of it.
 
 use super::declare::unknown_word;
-use super::{Grammar, Reader, Rule};
+use super::explain::{fails, unmatched};
+use super::{Reader, Rule};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::lex::{Kind, RESERVED, Token, ends_value};
 use crate::source::{Span, byte_offset};
 use crate::split::{Chunk, start_words};
 use crate::suggest::suggest;
 use crate::syntax::DeclKind;
-
-/// How far a text is right.
-struct Failure {
-    /// First byte that cannot be read.
-    at: usize,
-    /// What the grammar would have taken there.
-    expected: Vec<Rule>,
-}
 
 /// What a head or line consists of, up to where its values begin.
 enum Part {
@@ -42,7 +29,7 @@ impl Reader<'_> {
         inside.filter(|t| !matches!(t.kind, Kind::Comment | Kind::Newline)).copied().collect()
     }
 
-    fn quoted(&self, token: Token) -> String {
+    pub(super) fn quoted(&self, token: Token) -> String {
         let text = token.text(self.text);
         let cut: String = text.chars().take(24).collect();
         let dots = if cut.len() < text.len() { "…" } else { "" };
@@ -85,7 +72,7 @@ impl Reader<'_> {
             .at(self.token_span(first), "a new declaration starts on a new line")
     }
 
-    fn nothing_to_close(&self, token: Token) -> Diagnostic {
+    pub(super) fn nothing_to_close(&self, token: Token) -> Diagnostic {
         let message = format!("there is nothing open that this {} could close", self.quoted(token));
         let span = self.token_span(token);
         Diagnostic::error(Code("E0105"), message).at(span, "unmatched").with_fix(Fix::guess(
@@ -199,12 +186,12 @@ impl Reader<'_> {
         };
         let word = first.text(self.text);
         let parts: &[Part] = match word {
-            "import" => &[Part::Text("the file to import, in quotes")],
+            "import" => &[Part::Text("a file name in quotes")],
             "param" => {
                 &[Part::Name("a name"), Part::Sign(":"), Part::Name("a type"), Part::Sign("=")]
             }
             "let" | "asset" | "texture" => &[Part::Name("a name"), Part::Sign("=")],
-            "assert" => &[],
+            "assert" => return self.explain_assert(tokens, span),
             _ if DeclKind::from_word(word).is_some() => &[Part::Name("a name")],
             _ => {
                 let near = suggest(word, start_words());
@@ -228,6 +215,18 @@ impl Reader<'_> {
             };
         }
         self.explain(Rule::strict_line, span, "the line")
+    }
+
+    /// `assert`, which has no head.
+    fn explain_assert(&self, tokens: &[Token], span: Span) -> Diagnostic {
+        match tokens.last() {
+            Some(&last)
+                if tokens.iter().all(|t| t.kind != Kind::Comma) && ends_value(last, self.text) =>
+            {
+                self.expected("`,` and a message in quotes", Some(last), None)
+            }
+            _ => self.explain(Rule::strict_line, span, "the line"),
+        }
     }
 
     /// The head of a declaration with a block; `span` goes from behind the kind to the `{`.
@@ -280,7 +279,7 @@ impl Reader<'_> {
     }
 
     /// A keyword where a name should be.
-    fn reserved(&self, token: Token, what: &str) -> Option<Diagnostic> {
+    pub(super) fn reserved(&self, token: Token, what: &str) -> Option<Diagnostic> {
         let text = token.text(self.text);
         if token.kind != Kind::Word || !RESERVED.contains(&text) {
             return None;
@@ -288,214 +287,4 @@ impl Reader<'_> {
         let message = format!("`{text}` is a word of the language and cannot be {what}");
         Some(Diagnostic::error(Code("E0101"), message).at(self.token_span(token), "reserved"))
     }
-
-    fn expected(&self, what: &str, after: Option<Token>, found: Option<Token>) -> Diagnostic {
-        let message = match after {
-            Some(token) => format!("expected {what} after {}", self.quoted(token)),
-            None => format!("expected {what}"),
-        };
-        let error = Diagnostic::error(Code("E0101"), message);
-        match (found, after) {
-            (Some(token), _) => {
-                error.at(self.token_span(token), format!("found {}", self.quoted(token)))
-            }
-            (None, Some(token)) => error.at(self.token_span(token).after(), "nothing follows"),
-            (None, None) => error,
-        }
-    }
-
-    /// Faults that tokens alone show: unfinished strings, strange characters, lonely brackets.
-    fn broken_token(&self, tokens: &[Token]) -> Option<Diagnostic> {
-        if let Some(&token) = tokens.iter().find(|t| t.kind == Kind::OpenText) {
-            let span = self.token_span(token);
-            let error = Diagnostic::error(Code("E0106"), "this string is never closed")
-                .at(span, "a string ends on the line where it starts")
-                .with_fix(Fix::guess("close it", span.after(), "\""));
-            return Some(error);
-        }
-        if let Some(&token) = tokens.iter().find(|t| t.kind == Kind::Other) {
-            return Some(self.strange(token));
-        }
-        let is_hex = |t: &&Token| {
-            let digits = t.text(self.text).bytes().skip(1);
-            t.kind != Kind::Hex
-                || t.end - t.start == 7 && digits.clone().all(|c| c.is_ascii_hexdigit())
-        };
-        if let Some(&token) = tokens.iter().find(|t| !is_hex(t)) {
-            let error = Diagnostic::error(Code("E0101"), "a colour has six hex digits")
-                .at(self.token_span(token), "as in `#c79a6b`");
-            return Some(error);
-        }
-        let token = unmatched(tokens, self.text)?;
-        if token.kind == Kind::Close {
-            return Some(self.nothing_to_close(token));
-        }
-        let message = format!("this {} is never closed", self.quoted(token));
-        Some(Diagnostic::error(Code("E0105"), message).at(self.token_span(token), "opened here"))
-    }
-
-    fn strange(&self, token: Token) -> Diagnostic {
-        let span = self.token_span(token);
-        let text = token.text(self.text);
-        let error = Diagnostic::error(
-            Code("E0101"),
-            format!("unexpected character {}", self.quoted(token)),
-        );
-        match text {
-            ";" => error.at(span, "fields end with the line, or with `,`").with_fix(Fix::guess(
-                "remove it",
-                span,
-                "",
-            )),
-            "'" | "\u{2018}" | "\u{2019}" | "\u{201c}" | "\u{201d}" => {
-                error.at(span, "strings stand in straight double quotes: \"…\"")
-            }
-            "\u{2212}" | "\u{2013}" => error
-                .at(span, "this is not the minus sign of the keyboard")
-                .with_fix(Fix::sure("write `-`", span, "-")),
-            "\u{a0}" => error.at(span, "a no-break space").with_fix(Fix::sure(
-                "write a plain space",
-                span,
-                " ",
-            )),
-            _ if text.is_ascii() => error.at(span, "it has no meaning in a scene"),
-            _ => error.at(span, "names use the letters a-z, digits and `_`"),
-        }
-    }
-
-    /// Asks the grammar where a text goes wrong and words it. `end` names what should end there.
-    fn explain(&self, rule: Rule, span: Span, end: &str) -> Diagnostic {
-        let failure = fails(self.text, span, rule);
-        let at = failure.as_ref().map_or(span.end as usize, |f| f.at);
-        let expected = failure.map(|f| f.expected).unwrap_or_default();
-        let tokens = self.tokens_in(span);
-        let k = tokens.iter().position(|t| t.end > at).unwrap_or(tokens.len());
-        let found = tokens.get(k).copied();
-        let before = k.checked_sub(1).and_then(|k| tokens.get(k)).copied();
-        for (keyword, rule) in [("`then`", Rule::kw_then), ("`else`", Rule::kw_else)] {
-            if expected.contains(&rule) {
-                let message = format!("expected {keyword} in this `if`");
-                let error = Diagnostic::error(Code("E0101"), message)
-                    .with_help("write `if condition then value else value`");
-                let place = found.or(before).map_or(span, |t| self.token_span(t));
-                let place = if found.is_some() { place } else { place.after() };
-                return error.at(place, format!("expected {keyword} here"));
-            }
-        }
-        let inside_token = found.is_some_and(|t| t.start < at);
-        match before {
-            Some(token) if !inside_token && ends_value(token, self.text) => {
-                self.after_value(token, found, &tokens[..k], end)
-            }
-            _ => {
-                let what = match before {
-                    Some(t)
-                        if matches!(t.text(self.text), "." | "as" | ":" | "like")
-                            && expected.iter().any(|r| matches!(r, Rule::ident | Rule::path)) =>
-                    {
-                        "a name"
-                    }
-                    _ => "a value",
-                };
-                if let Some(error) = found.and_then(|t| self.misplaced_word(t, what)) {
-                    return error;
-                }
-                self.expected(what, before, found)
-            }
-        }
-    }
-
-    /// A word of the language where a value should be.
-    fn misplaced_word(&self, token: Token, what: &str) -> Option<Diagnostic> {
-        if ends_value(token, self.text) || token.text(self.text) == "if" {
-            return None;
-        }
-        self.reserved(token, what)
-    }
-
-    /// Something follows a value that cannot.
-    fn after_value(
-        &self,
-        before: Token,
-        found: Option<Token>,
-        tokens: &[Token],
-        end: &str,
-    ) -> Diagnostic {
-        let bracket = unmatched(tokens, self.text).filter(|t| t.kind == Kind::Open);
-        let Some(found) = found else {
-            let what = if end == "the line" { "more" } else { "an operator" };
-            return self.expected(what, Some(before), None);
-        };
-        let (span, gap) = (self.token_span(found), self.token_span(before).after());
-        let quoted = self.quoted(found);
-        let what = format!("unexpected {quoted} after {}", self.quoted(before));
-        let error = Diagnostic::error(Code("E0101"), what);
-        let text = found.text(self.text);
-        let number = before.kind == Kind::Number
-            && before.text(self.text).ends_with(|c: char| c.is_ascii_digit());
-        let tuple = before.text(self.text) == ")";
-        if found.kind == Kind::Word && !RESERVED.contains(&text) && (number || tuple)
-            || text == "%" && number
-        {
-            let space = gap.to(span.before());
-            let glued = space.start == space.end;
-            let error = error.at(span, if glued { "no unit" } else { "a unit?" });
-            if glued {
-                return error.with_note("a unit stands after a number, or after a tuple of them");
-            }
-            return error.with_fix(Fix::guess(
-                "a unit stands directly after its number",
-                space,
-                "",
-            ));
-        }
-        let starts_value =
-            matches!(found.kind, Kind::Word | Kind::Number | Kind::Text | Kind::Hex | Kind::Open)
-                && !(found.kind == Kind::Word && RESERVED.contains(&text));
-        match bracket {
-            Some(_) if starts_value => error
-                .at(span, "expected `,` before this")
-                .with_fix(Fix::guess("insert `,`", gap, ",")),
-            _ if found.kind == Kind::Compare => error.at(span, "comparisons cannot be chained"),
-            _ if found.kind == Kind::DotDot => error.at(span, "a range has two ends"),
-            _ if end == "the line" && starts_value => {
-                error.at(span, "expected the end of the declaration")
-            }
-            _ => error.at(span, format!("expected the end of {end}")),
-        }
-    }
-}
-
-/// The first byte where `rule` cannot read a span, and what it wanted there; `None` if it can.
-fn fails(text: &str, span: Span, rule: Rule) -> Option<Failure> {
-    let (start, end) = (span.start as usize, span.end as usize);
-    let error = Grammar::parse(rule, text.get(start..end).unwrap_or("")).err()?;
-    let (InputLocation::Pos(at) | InputLocation::Span((at, _))) = error.location;
-    let expected = match error.variant {
-        ErrorVariant::ParsingError { positives, .. } => positives,
-        ErrorVariant::CustomError { .. } => Vec::new(),
-    };
-    Some(Failure { at: start + at, expected })
-}
-
-/// The innermost bracket without a partner, or the first that closes nothing.
-fn unmatched(tokens: &[Token], text: &str) -> Option<Token> {
-    let mut open: Vec<Token> = Vec::new();
-    for &token in tokens {
-        match token.kind {
-            Kind::Open => open.push(token),
-            Kind::Close => {
-                let fits = open.last().is_some_and(|t| {
-                    matches!((t.text(text), token.text(text)), ("(", ")") | ("[", "]") | ("{", "}"))
-                });
-                if fits {
-                    open.pop();
-                } else {
-                    return open.last().copied().or(Some(token));
-                }
-            }
-            _ => {}
-        }
-    }
-    open.last().copied()
 }
