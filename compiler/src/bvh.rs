@@ -11,6 +11,8 @@ mod build;
 mod check;
 mod fragment;
 mod join;
+mod refit;
+mod scene;
 mod sweep;
 mod top;
 mod words;
@@ -21,9 +23,13 @@ use thiserror::Error;
 pub use check::TreeFault;
 pub use fragment::{Bounds, COORD_MAX, Fragment, MAX_PRIMITIVES};
 pub use join::{Group, GroupKind, Joined, join};
+pub use scene::{BuildReport, Primitives, SMALL_MESH, build_scene, plan};
 
 /// Name and version of the builder. Any change of its results must change this.
 pub const BUILDER: &str = "binned16-sweep24-v1";
+
+/// What else the shape of a tree depends on.
+pub const PARAMETERS: &str = "leaf 8, inner levels 47, node cost 1";
 
 /// The tree of one group of primitives, with indices local to the group. Leaves are written as
 /// triangles whatever they hold.
@@ -50,6 +56,12 @@ pub enum BvhError {
         /// How many there are.
         count: usize,
     },
+    /// The sizes of the meshes do not add up: a bug of ours.
+    #[error("the sizes of the meshes do not add up to {count} triangles")]
+    Sizes {
+        /// How many triangles there are.
+        count: usize,
+    },
     /// The builder made something that is no tree: a bug of ours.
     #[error("the tree builder failed its own check: {0}")]
     Fault(#[from] TreeFault),
@@ -68,9 +80,27 @@ pub fn build(mut fragments: Vec<Fragment>) -> Result<Tree, BvhError> {
     let built = build::build(&mut fragments);
     let order: Vec<u32> = fragments.iter().map(Fragment::index).collect();
     drop(fragments);
-    let bounds = built.bounds;
+    let bounds = built.bounds.without_lanes();
     let (nodes, root) = built.flatten();
     check::permutation(&order)?;
     let depth = check::tree_depth(nodes.len(), count, root, |i| [nodes[i].left, nodes[i].right])?;
+    Ok(Tree { nodes, root, order, bounds, depth })
+}
+
+/// A tree from its shape alone: the references of all nodes and the order of the primitives, from a
+/// source that is not trusted. The boxes are those of the fragments, so that a shape which passes the
+/// checks is a correct tree, if not a good one.
+pub fn from_shape(
+    root: u32,
+    children: &[[u32; 2]],
+    order: Vec<u32>,
+    fragments: &[Fragment],
+) -> Result<Tree, TreeFault> {
+    if order.len() != fragments.len() {
+        return Err(TreeFault::Permutation);
+    }
+    check::permutation(&order)?;
+    let depth = check::tree_depth(children.len(), order.len(), root, |i| children[i])?;
+    let (nodes, bounds) = refit::refit(root, children, &order, fragments);
     Ok(Tree { nodes, root, order, bounds, depth })
 }

@@ -69,8 +69,7 @@ pub(super) struct BinSplit {
 }
 
 impl Bins {
-    const EMPTY: Self =
-        Self { bounds: [[Bounds::EMPTY; N_BINS]; 3], counts: [[0; N_BINS]; 3] };
+    const EMPTY: Self = Self { bounds: [[Bounds::EMPTY; N_BINS]; 3], counts: [[0; N_BINS]; 3] };
 
     /// Fills the bins on this thread.
     pub(super) fn fill(frags: &[Fragment], mapping: &Mapping) -> Self {

@@ -167,15 +167,17 @@ fn split(range: Range) -> [Range; 2] {
     };
     let fits = |n_left: usize| levels_needed(n_left.max(n - n_left)) <= levels;
     let (n_left, bounds, centroids) = match bins.best().filter(|s| fits(s.n_left)) {
-        Some(s) => {
-            (s.n_left, [s.left, s.right], binned::partition(range.frags, &mapping, &s))
-        }
+        Some(s) => (s.n_left, [s.left, s.right], binned::partition(range.frags, &mapping, &s)),
         None => median(range.frags, range.centroids.widest_axis()),
     };
     let (left, right) = range.frags.split_at_mut(n_left);
     let mid = range.first + u32::try_from(n_left).expect("at most 2^27 primitives");
-    let side = |frags, first, k: usize| {
-        Range { frags, first, levels, bounds: bounds[k], centroids: centroids[k] }
+    let side = |frags, first, k: usize| Range {
+        frags,
+        first,
+        levels,
+        bounds: bounds[k],
+        centroids: centroids[k],
     };
     [side(left, range.first, 0), side(right, mid, 1)]
 }

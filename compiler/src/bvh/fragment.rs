@@ -44,6 +44,13 @@ impl Bounds {
         Self { lo: self.lo.min(p), hi: self.hi.max(p) }
     }
 
+    /// The same box with both fourth lanes 0.
+    #[must_use]
+    pub(super) fn without_lanes(mut self) -> Self {
+        (self.lo.w, self.hi.w) = (0.0, 0.0);
+        self
+    }
+
     /// Half the surface area, in squared units of the frame; not meaningful for `EMPTY`.
     #[inline]
     #[must_use]
