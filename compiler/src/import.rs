@@ -1,0 +1,32 @@
+//! Mesh files and images become plain arrays in memory: OBJ/MTL, glTF/GLB, PNG, JPEG, HDR, EXR.
+//!
+//! Every number that leaves this module has been checked: positions and UVs are finite, indices lie
+//! inside their arrays, triangles have an area, images have the length that their size says. Bad
+//! input is an [`ImportError`] that names file and line (text) or accessor (glTF); odd but usable
+//! input is counted in the [`ImportReport`]. Limits are checked before memory is taken.
+//!
+//! It does not know the scene, the pack or how materials are packed.
+
+mod check;
+mod error;
+mod file;
+mod gltf;
+mod image;
+mod image_set;
+mod material;
+mod mesh;
+mod normals;
+mod obj;
+mod polygon;
+mod report;
+mod topology;
+
+pub use self::error::{ErrorKind, ImportError};
+pub use self::file::Limits;
+pub use self::gltf::load_gltf;
+pub use self::image::{Image, Pixels, load_image};
+pub use self::material::{ImportedImage, ImportedMaterial, MapUse};
+pub use self::mesh::{Attribute, MeshFile, NO_CORNER, Part};
+pub use self::obj::load_obj;
+pub use self::report::{FileRead, Finding, ImportReport, Warning};
+pub use self::topology::{Topology, topology};

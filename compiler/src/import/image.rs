@@ -1,0 +1,247 @@
+//! Image files become texels: 8 bits a channel where the file has no more, half floats otherwise.
+//!
+//! PNG and JPEG with 8 bits keep their bytes; PNG with 16 bits becomes half floats of `value /
+//! 65535` (11 significant bits, which is more than any texture lookup needs). Neither is converted:
+//! the numbers stay in the encoding of the file, sRGB or linear, which only the scene knows. HDR
+//! and EXR are linear by definition and become half floats; brighter texels are clamped and counted.
+//!
+//! The format is recognised by the first bytes, never by the name. Width and height are checked
+//! against the limit before any texel is decoded.
+
+mod exr;
+mod hdr;
+
+use super::error::{ErrorKind, ImportError, excerpt};
+use super::file::{Limits, read_file};
+use ::image::{DynamicImage, ImageDecoder as _, ImageFormat, ImageReader};
+use half::f16;
+use std::io::Cursor;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+/// A decoded image. Row 0 is the top row (v = 1); rows follow without gaps; alpha is straight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    /// Columns, >= 1.
+    pub width: u32,
+    /// Rows, >= 1.
+    pub height: u32,
+    /// `width * height` texels of red, green, blue, alpha.
+    pub data: Pixels,
+    /// Some texel has an alpha below 1.
+    pub has_alpha: bool,
+    /// Channels that were clamped because they were not finite or beyond what a half float holds.
+    pub clamped: u64,
+}
+
+/// Texels, four channels each.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pixels {
+    /// Bytes, in the encoding of the file.
+    Rgba8(Vec<u8>),
+    /// Bits of half floats; finite. Linear for HDR and EXR, in the encoding of the file for PNG.
+    Rgba16F(Vec<u16>),
+}
+
+/// Reads one image file.
+pub fn load_image(path: &Path, limits: &Limits) -> Result<Image, ImportError> {
+    let bytes = read_file(path, limits)?;
+    decode(&bytes, &path.display().to_string(), limits)
+}
+
+/// Formats that are read, by their first bytes.
+#[derive(Clone, Copy, PartialEq)]
+enum Format {
+    Png,
+    Jpeg,
+    Hdr,
+    Exr,
+}
+
+/// Decodes an image in memory; `place` is named in errors.
+pub(super) fn decode(bytes: &[u8], place: &str, limits: &Limits) -> Result<Image, ImportError> {
+    // A decoder that panics on some file is a bug of its own; it must not take the compiler along.
+    let guarded = AssertUnwindSafe(|| match recognise(bytes, place)? {
+        Format::Exr => exr::decode(bytes, place, limits),
+        Format::Hdr => hdr::decode(bytes, place, limits),
+        format => decode_ldr(bytes, format, place, limits),
+    });
+    catch_unwind(guarded).unwrap_or_else(|_| {
+        Err(ImportError::new(ErrorKind::Image, place, "the image decoder gave up on this file")
+            .with_help("open and save it again with an image editor"))
+    })
+}
+
+/// Width and height that an image in memory claims, checked against the limit.
+pub(super) fn size(bytes: &[u8], place: &str, limits: &Limits) -> Result<[u32; 2], ImportError> {
+    let guarded = AssertUnwindSafe(|| match recognise(bytes, place)? {
+        Format::Exr => exr::size(bytes, place, limits),
+        Format::Hdr => hdr::size(bytes, place, limits),
+        format => {
+            let decoder = reader(bytes, format, place)?;
+            let (width, height) = decoder.into_dimensions().map_err(|e| broken(place, &e))?;
+            checked_size(width, height, place, limits)
+        }
+    });
+    let failed = "the image decoder gave up on the header of this file";
+    catch_unwind(guarded).unwrap_or_else(|_| Err(ImportError::new(ErrorKind::Image, place, failed)))
+}
+
+fn recognise(bytes: &[u8], place: &str) -> Result<Format, ImportError> {
+    const KNOWN: [(&[u8], Format); 4] = [
+        (b"\x89PNG\r\n\x1a\n", Format::Png),
+        (b"\xff\xd8\xff", Format::Jpeg),
+        (b"#?", Format::Hdr),
+        (b"\x76\x2f\x31\x01", Format::Exr),
+    ];
+    const OTHERS: [(&[u8], &str); 9] = [
+        (b"RIFF", "WebP"),
+        (b"GIF8", "GIF"),
+        (b"BM", "BMP"),
+        (b"II*\0", "TIFF"),
+        (b"MM\0*", "TIFF"),
+        (b"DDS ", "DDS"),
+        (b"\xabKTX", "KTX"),
+        (b"8BPS", "Photoshop"),
+        (b"qoif", "QOI"),
+    ];
+    if let Some((_, format)) = KNOWN.iter().find(|(magic, _)| bytes.starts_with(magic)) {
+        return Ok(*format);
+    }
+    let other = OTHERS.iter().find(|(magic, _)| bytes.starts_with(magic));
+    let message = match other {
+        Some((_, name)) => format!("this is a {name} image; images are PNG, JPEG, HDR or EXR"),
+        None if bytes.is_empty() => "the file is empty".to_owned(),
+        None => {
+            let start = excerpt(&bytes[..bytes.len().min(8)]);
+            format!("this is not a PNG, JPEG, HDR or EXR image: it begins with `{start}`")
+        }
+    };
+    Err(ImportError::new(ErrorKind::Image, place, message).with_help("convert it to PNG or EXR"))
+}
+
+/// `width` and `height` if they are not zero and within the limit.
+fn checked_size(
+    width: u32,
+    height: u32,
+    place: &str,
+    limits: &Limits,
+) -> Result<[u32; 2], ImportError> {
+    let n_pixels = u64::from(width) * u64::from(height);
+    if n_pixels == 0 {
+        return Err(ImportError::new(ErrorKind::Image, place, "the image has no pixels"));
+    }
+    if n_pixels > limits.pixels {
+        let max = limits.pixels;
+        let message = format!("the image claims {width} x {height} pixels, the limit is {max}");
+        return Err(ImportError::new(ErrorKind::Limit, place, message)
+            .with_help("scale it down, or cut it into several images"));
+    }
+    Ok([width, height])
+}
+
+fn broken(place: &str, error: &dyn std::fmt::Display) -> ImportError {
+    let text = error.to_string();
+    let text = text.lines().next().unwrap_or_default();
+    ImportError::new(ErrorKind::Image, place, format!("the image is damaged or cut off: {text}"))
+}
+
+fn reader<'a>(
+    bytes: &'a [u8],
+    format: Format,
+    place: &str,
+) -> Result<ImageReader<Cursor<&'a [u8]>>, ImportError> {
+    let format = match format {
+        Format::Png => ImageFormat::Png,
+        Format::Jpeg => ImageFormat::Jpeg,
+        Format::Hdr | Format::Exr => {
+            return Err(ImportError::new(ErrorKind::Image, place, "not an 8 or 16 bit image"));
+        }
+    };
+    Ok(ImageReader::with_format(Cursor::new(bytes), format))
+}
+
+fn decode_ldr(
+    bytes: &[u8],
+    format: Format,
+    place: &str,
+    limits: &Limits,
+) -> Result<Image, ImportError> {
+    let mut reader = reader(bytes, format, place)?;
+    let mut allowed = ::image::Limits::no_limits();
+    allowed.max_alloc = Some(limits.pixels.saturating_mul(8).saturating_add(1 << 20)); // 16-bit RGBA
+    reader.limits(allowed);
+    let decoder = reader.into_decoder().map_err(|e| broken(place, &e))?;
+    let (width, height) = decoder.dimensions();
+    let [width, height] = checked_size(width, height, place, limits)?;
+    let decoded = DynamicImage::from_decoder(decoder).map_err(|e| broken(place, &e))?;
+    let deep = matches!(
+        decoded,
+        DynamicImage::ImageLuma16(_)
+            | DynamicImage::ImageLumaA16(_)
+            | DynamicImage::ImageRgb16(_)
+            | DynamicImage::ImageRgba16(_)
+    );
+    Ok(if deep {
+        let half = |value: &u16| f16::from_f32(f32::from(*value) / 65535.0).to_bits();
+        let texels: Vec<u16> = decoded.into_rgba16().iter().map(half).collect();
+        let has_alpha = texels.chunks_exact(4).any(|texel| texel[3] < HALF_ONE);
+        Image { width, height, data: Pixels::Rgba16F(texels), has_alpha, clamped: 0 }
+    } else {
+        let texels = decoded.into_rgba8().into_raw();
+        let has_alpha = texels.chunks_exact(4).any(|texel| texel[3] < u8::MAX);
+        Image { width, height, data: Pixels::Rgba8(texels), has_alpha, clamped: 0 }
+    })
+}
+
+/// Bits of the half float 1; bits of positive half floats are ordered like their values.
+const HALF_ONE: u16 = 0x3c00;
+
+/// Collects linear float texels as half floats.
+struct HalfImage {
+    size: [u32; 2],
+    texels: Vec<u16>,
+    has_alpha: bool,
+    clamped: u64,
+}
+
+impl HalfImage {
+    /// All texels opaque black.
+    fn new(size: [u32; 2]) -> Self {
+        let n_pixels = size[0] as usize * size[1] as usize;
+        Self { size, texels: vec![0; 4 * n_pixels], has_alpha: false, clamped: 0 }
+    }
+
+    /// Sets one texel; a position outside is ignored.
+    fn set(&mut self, texel_idx: usize, rgba: [f32; 4]) {
+        let mut bits = [0; 4];
+        for (bits, value) in bits.iter_mut().zip(rgba) {
+            let (half, fits) = to_half(value);
+            *bits = half;
+            self.clamped += u64::from(!fits);
+        }
+        self.has_alpha |= rgba[3] < 1.0;
+        if let Some(texel) = self.texels.get_mut(4 * texel_idx..4 * texel_idx + 4) {
+            texel.copy_from_slice(&bits);
+        }
+    }
+
+    fn finish(self) -> Image {
+        Image {
+            width: self.size[0],
+            height: self.size[1],
+            data: Pixels::Rgba16F(self.texels),
+            has_alpha: self.has_alpha,
+            clamped: self.clamped,
+        }
+    }
+}
+
+/// Bits of the nearest finite half float, and whether the value was within range. NaN becomes 0.
+fn to_half(value: f32) -> (u16, bool) {
+    const MAX: f32 = 65504.0;
+    if value.is_nan() {
+        return (0, false);
+    }
+    (f16::from_f32(value.clamp(-MAX, MAX)).to_bits(), value.abs() <= MAX)
+}

@@ -1,0 +1,96 @@
+//! The images of one mesh file: each asked for once, decoded together.
+
+use super::error::{ErrorKind, ImportError};
+use super::file::Limits;
+use super::image::{self, Image, Pixels};
+use super::material::ImportedImage;
+use super::report::ImportReport;
+use rayon::prelude::*;
+use std::borrow::Cow;
+
+/// What the fourth channel is to hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Alpha {
+    /// The alpha of the file.
+    Own,
+    /// The alpha of the file, or its brightness when it has none: a mask painted in grey.
+    Mask,
+}
+
+struct Request<'a> {
+    name: String,
+    place: String,
+    alpha: Alpha,
+    bytes: Cow<'a, [u8]>,
+}
+
+/// Images that have been asked for.
+#[derive(Default)]
+pub(super) struct ImageSet<'a> {
+    requests: Vec<Request<'a>>,
+}
+
+impl<'a> ImageSet<'a> {
+    /// The index of an image that has been asked for before.
+    pub(super) fn find(&self, name: &str, alpha: Alpha) -> Option<u32> {
+        let found = self.requests.iter().position(|r| r.name == name && r.alpha == alpha)?;
+        u32::try_from(found).ok()
+    }
+
+    /// Asks for an image; returns its index.
+    pub(super) fn add(
+        &mut self,
+        name: String,
+        place: String,
+        alpha: Alpha,
+        bytes: Cow<'a, [u8]>,
+    ) -> Result<u32, ImportError> {
+        let index = u32::try_from(self.requests.len());
+        let index =
+            index.map_err(|_| ImportError::new(ErrorKind::Limit, &place, "too many images"));
+        self.requests.push(Request { name, place, alpha, bytes });
+        index
+    }
+
+    /// Decodes all of them, in parallel, after their sizes have been checked together.
+    pub(super) fn decode(
+        self,
+        limits: &Limits,
+        report: &mut ImportReport,
+    ) -> Result<Vec<ImportedImage>, ImportError> {
+        let mut total: u64 = 0;
+        for request in &self.requests {
+            let [width, height] = image::size(&request.bytes, &request.place, limits)?;
+            total = total.saturating_add(u64::from(width) * u64::from(height));
+            if total > limits.total_pixels {
+                let max = limits.total_pixels;
+                let message = format!("with this image, all images exceed {max} pixels together");
+                return Err(ImportError::new(ErrorKind::Limit, &request.place, message)
+                    .with_help("scale the images down"));
+            }
+        }
+        let images: Result<Vec<_>, _> = self
+            .requests
+            .into_par_iter()
+            .map(|request| {
+                let mut image = image::decode(&request.bytes, &request.place, limits)?;
+                if request.alpha == Alpha::Mask && !image.has_alpha {
+                    brightness_to_alpha(&mut image);
+                }
+                Ok(ImportedImage { name: request.name, image })
+            })
+            .collect();
+        let images = images?;
+        report.clamped_texels += images.iter().map(|image| image.image.clamped).sum::<u64>();
+        Ok(images)
+    }
+}
+
+/// Masks are grey, so the red channel is their brightness.
+fn brightness_to_alpha(image: &mut Image) {
+    match &mut image.data {
+        Pixels::Rgba8(texels) => texels.chunks_exact_mut(4).for_each(|texel| texel[3] = texel[0]),
+        Pixels::Rgba16F(texels) => texels.chunks_exact_mut(4).for_each(|texel| texel[3] = texel[0]),
+    }
+    image.has_alpha = true;
+}

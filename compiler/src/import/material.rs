@@ -1,0 +1,86 @@
+//! Materials as mesh files describe them: factors and images of the metallic-roughness model.
+
+use super::image::Image;
+use lang::scene::{ColorSpace, Rgb, Wrap};
+
+/// An image that belongs to a mesh file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImportedImage {
+    /// Path as the mesh file writes it, or `image 3` for one inside a GLB.
+    pub name: String,
+    /// The texels.
+    pub image: Image,
+}
+
+/// An image in one role of a material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MapUse {
+    /// Index into `MeshFile::images`.
+    pub image: u32,
+    /// How its colour channels are encoded.
+    pub space: ColorSpace,
+    /// Outside 0..1 along u and v.
+    pub wrap: [Wrap; 2],
+}
+
+/// A material of a mesh file. Every map multiplies the factor of the same name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImportedMaterial {
+    /// Name in the file; `material 3` where it has none.
+    pub name: String,
+    /// No specular reflection at all: lower to `diffuse` (MTL without highlights).
+    pub diffuse_only: bool,
+    /// Emits `color` and does not scatter (`KHR_materials_unlit`).
+    pub unlit: bool,
+    /// Base colour, linear Rec. 709, 0 ..= 1.
+    pub color: Rgb,
+    /// Red, green and blue of this image are factors on `color`.
+    pub color_map: Option<MapUse>,
+    /// 0 dielectric … 1 metal.
+    pub metallic: f64,
+    /// Perceptual roughness, 0 ..= 1.
+    pub roughness: f64,
+    /// Green is a factor on `roughness`, blue on `metallic`.
+    pub metallic_roughness_map: Option<MapUse>,
+    /// 0 opaque … 1 clear: how much of the dielectric part is glass (`KHR_materials_transmission`,
+    /// MTL glass). Lower to `dielectric` when it is most of it.
+    pub transmission: f64,
+    /// Refractive index of the dielectric part, >= 1.
+    pub ior: f64,
+    /// Emitted radiance, linear Rec. 709, any strength already multiplied in; >= 0.
+    pub emission: Rgb,
+    /// Red, green and blue of this image are factors on `emission`.
+    pub emission_map: Option<MapUse>,
+    /// Coverage, 0 ..= 1; 1 when the file says that alpha is to be ignored.
+    pub alpha: f64,
+    /// The fourth channel of this image is a factor on `alpha`.
+    pub alpha_map: Option<MapUse>,
+    /// Points with coverage below this do not exist; `None`: alpha is ignored.
+    pub alpha_clip: Option<f64>,
+    /// Seen from both sides. The renderer shades both sides of every surface, so this is only a note.
+    pub double_sided: bool,
+}
+
+impl ImportedMaterial {
+    /// The default material of glTF, with a name: white, fully rough metal of factor 1.
+    pub(super) fn named(name: String) -> Self {
+        Self {
+            name,
+            diffuse_only: false,
+            unlit: false,
+            color: [1.0; 3],
+            color_map: None,
+            metallic: 1.0,
+            roughness: 1.0,
+            metallic_roughness_map: None,
+            transmission: 0.0,
+            ior: 1.5,
+            emission: [0.0; 3],
+            emission_map: None,
+            alpha: 1.0,
+            alpha_map: None,
+            alpha_clip: None,
+            double_sided: false,
+        }
+    }
+}

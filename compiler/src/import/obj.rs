@@ -1,0 +1,154 @@
+//! Wavefront OBJ with its MTL files becomes a [`MeshFile`].
+//!
+//! The scanner checks the text and feeds `tobj`; `build` turns `tobj`'s models into parts, one for
+//! each pair of name and material; triangles without normals get computed ones. Axes are turned so
+//! that `up` becomes +Y by a rotation (never a reflection), and units become metres.
+
+mod build;
+mod mtl;
+mod scan;
+
+use self::scan::{Scanned, Scanner};
+use super::error::{ErrorKind, ImportError};
+use super::file::{Limits, Reader};
+use super::image_set::ImageSet;
+use super::mesh::{MeshFile, Part};
+use super::report::ImportReport;
+use lang::scene::Axis;
+use std::path::Path;
+
+/// How the numbers of a file become metres with +Y up.
+#[derive(Clone, Copy)]
+struct Frame {
+    metres_per_unit: f64,
+    up: Axis,
+}
+
+/// Reads an OBJ file whose unit is `metres_per_unit` and whose `up` axis is to become +Y.
+///
+/// A material library or texture that is missing is a warning in the report; everything else that
+/// is wrong is an error with its line.
+pub fn load_obj(
+    path: &Path,
+    metres_per_unit: f64,
+    up: Axis,
+    limits: &Limits,
+) -> Result<MeshFile, ImportError> {
+    let mut reader = Reader::new(limits);
+    let bytes = reader.read(path)?;
+    let file = path.display().to_string();
+    reject_foreign(&bytes, &file)?;
+    let (models, scanned) = parse(&bytes, &file, limits)?;
+    let mut report = ImportReport::default();
+    warn_about(&scanned, &file, &mut report);
+    let mut images = ImageSet::default();
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let library = mtl::load(folder, &file, &scanned, &mut reader, &mut images, &mut report)?;
+    let source = build::Source {
+        file: &file,
+        bytes: &bytes,
+        frame: Frame { metres_per_unit, up },
+        scanned: &scanned,
+        material_ids: &library.ids,
+        limits,
+    };
+    let parts = build::parts(models, &source, &mut report)?;
+    let images = images.decode(limits, &mut report)?;
+    report.files = reader.files;
+    finish(&file, &scanned, parts, report).map(|(parts, report)| MeshFile {
+        parts,
+        materials: library.materials,
+        images,
+        report,
+    })
+}
+
+fn finish(
+    file: &str,
+    scanned: &Scanned,
+    parts: Vec<Part>,
+    mut report: ImportReport,
+) -> Result<(Vec<Part>, ImportReport), ImportError> {
+    report.n_triangles = parts.iter().map(|part| part.triangles.len() as u64).sum();
+    if report.n_triangles == 0 {
+        let message = match scanned.n_faces {
+            0 => "the file has no faces".to_owned(),
+            n => format!("none of its {n} faces has an area"),
+        };
+        return Err(ImportError::new(ErrorKind::Empty, file, message));
+    }
+    Ok((parts, report))
+}
+
+/// Says what a file is that is not OBJ text at all.
+fn reject_foreign(bytes: &[u8], file: &str) -> Result<(), ImportError> {
+    const OTHERS: [(&[u8], &str); 7] = [
+        (b"glTF", "a GLB file; read it with `gltf(...)`"),
+        (b"ply", "a PLY file"),
+        (b"solid ", "an STL file"),
+        (b"Kaydara FBX", "an FBX file"),
+        (b"PK\x03\x04", "a ZIP archive"),
+        (b"\xff\xfe", "UTF-16 text"),
+        (b"\xfe\xff", "UTF-16 text"),
+    ];
+    let what = OTHERS.iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, what)| *what);
+    let binary = || bytes.iter().take(4096).any(|byte| *byte == 0);
+    let what = match what {
+        Some(what) => what,
+        None if bytes.is_empty() => "empty",
+        None if binary() => "binary data",
+        None => return Ok(()),
+    };
+    Err(ImportError::new(ErrorKind::Format, file, format!("this is not an OBJ file but {what}"))
+        .with_help("export it as OBJ text or glTF"))
+}
+
+fn parse(
+    bytes: &[u8],
+    file: &str,
+    limits: &Limits,
+) -> Result<(Vec<tobj::Model>, Scanned), ImportError> {
+    let mut scanner = Scanner::new(file, bytes, limits.triangles);
+    let options = tobj::LoadOptions::default();
+    // Materials are read apart: the scanner passes on neither `mtllib` nor `usemtl`.
+    let parsed =
+        tobj::load_obj_buf(&mut scanner, &options, |_| Err(tobj::LoadError::OpenFileFailed));
+    if let Some(error) = scanner.error.take() {
+        return Err(error);
+    }
+    let (models, _) = parsed.map_err(|error| {
+        ImportError::new(ErrorKind::Format, scanner.place(), format!("cannot be read: {error}"))
+    })?;
+    Ok((models, scanner.out))
+}
+
+fn warn_about(scanned: &Scanned, file: &str, report: &mut ImportReport) {
+    for (keyword, (count, line)) in &scanned.skipped {
+        let message = format!("`{keyword}` is not used here; {count} such lines are skipped");
+        report.warn(format!("{file}:{line}"), message);
+    }
+    let (count, line) = scanned.colored;
+    if count > 0 {
+        let message = format!("colours of {count} vertices are not used");
+        report.warn(format!("{file}:{line}"), message);
+    }
+}
+
+impl Frame {
+    /// Turns the `up` axis to +Y.
+    fn turn(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        match self.up {
+            Axis::PlusY => [x, y, z],
+            Axis::MinusY => [x, -y, -z],
+            Axis::PlusZ => [x, z, -y],
+            Axis::MinusZ => [x, -z, y],
+            Axis::PlusX => [-y, x, z],
+            Axis::MinusX => [y, -x, z],
+        }
+    }
+
+    /// A position of the file in metres.
+    fn position(self, p: [f32; 3]) -> [f64; 3] {
+        self.turn(p.map(|x| f64::from(x) * self.metres_per_unit))
+    }
+}

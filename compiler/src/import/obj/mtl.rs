@@ -1,0 +1,400 @@
+//! MTL files become materials.
+//!
+//! As for OBJ, the text is checked first (with lines), and `tobj` gets what it reads right. The old
+//! Phong numbers become metallic-roughness ones:
+//!
+//! - `Kd` is the base colour, taken as linear Rec. 709, as exporters write it. A black `Kd` beside a
+//!   `map_Kd` is taken as white: many exporters write that, and black would hide the image.
+//! - `Ns` is a Blinn-Phong exponent n: `alpha = sqrt(2 / (n + 2))` (Walter et al. 2007), and
+//!   roughness is the square root of alpha. `Pr` and `Pm`, where given, say it directly.
+//! - `Ks` without any `Kd` is a metal of that colour; without `Ks` and `Ns` (or with `illum` 0 or 1)
+//!   there is no highlight at all.
+//! - `illum` 4, 6, 7 and 9 mean glass: transmission is `1 - d`, or 1 where 6 or 7 say no `d`.
+//! - `map_d`, or `d` below 1 otherwise, is coverage, cut at one half.
+
+use super::super::error::{ErrorKind, ImportError};
+use super::super::file::Reader;
+use super::super::image_set::{Alpha, ImageSet};
+use super::super::material::{ImportedMaterial, MapUse};
+use super::super::report::ImportReport;
+use super::scan::{Scanned, numbers_of, split_word, text, uncommented};
+use lang::scene::{ColorSpace, Wrap};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// All materials of an OBJ file.
+pub(super) struct Library {
+    pub(super) materials: Vec<ImportedMaterial>,
+    /// For each name that the OBJ file uses, the material of that name.
+    pub(super) ids: Vec<Option<u32>>,
+}
+
+/// A material as `tobj` read it, with the file that it came from.
+struct Found {
+    material: tobj::Material,
+    library: PathBuf,
+}
+
+/// Reads the libraries of an OBJ file and makes the materials that it uses.
+pub(super) fn load(
+    folder: &Path,
+    obj_file: &str,
+    scanned: &Scanned,
+    reader: &mut Reader<'_>,
+    images: &mut ImageSet<'_>,
+    report: &mut ImportReport,
+) -> Result<Library, ImportError> {
+    let mut found: BTreeMap<String, Found> = BTreeMap::new();
+    let mut missing = false;
+    let mut done: Vec<&str> = Vec::new();
+    for (written, line) in &scanned.libraries {
+        if done.contains(&written.as_str()) {
+            continue;
+        }
+        done.push(written);
+        let place = format!("{obj_file}:{line}");
+        let paths = library_paths(folder, written);
+        if paths.is_empty() {
+            missing = true;
+            let message = format!("there is no `{written}`; its materials are not known");
+            report.warn(place, message);
+        }
+        for path in paths {
+            for material in read_library(&path, reader, report)? {
+                let library = path.clone();
+                found.insert(material.name.clone(), Found { material, library });
+            }
+        }
+    }
+    let mut library = Library { materials: Vec::new(), ids: Vec::new() };
+    for (name, line) in &scanned.materials {
+        let Some(found) = found.get(name) else {
+            if !missing {
+                let message = format!("no material library defines `{name}`");
+                report.warn(format!("{obj_file}:{line}"), message);
+            }
+            library.ids.push(None);
+            continue;
+        };
+        library.ids.push(u32::try_from(library.materials.len()).ok());
+        library.materials.push(convert(found, reader, images, report)?);
+    }
+    Ok(library)
+}
+
+/// The files that an `mtllib` line means: one name with spaces, or several names.
+fn library_paths(folder: &Path, written: &str) -> Vec<PathBuf> {
+    let whole = folder.join(written.replace('\\', "/"));
+    if whole.is_file() {
+        return vec![whole];
+    }
+    let each = written.split_whitespace().map(|name| folder.join(name.replace('\\', "/")));
+    let each: Vec<PathBuf> = each.collect();
+    if each.iter().all(|path| path.is_file()) { each } else { Vec::new() }
+}
+
+fn read_library(
+    path: &Path,
+    reader: &mut Reader<'_>,
+    report: &mut ImportReport,
+) -> Result<Vec<tobj::Material>, ImportError> {
+    let bytes = reader.read(path)?;
+    let file = path.display().to_string();
+    let cleaned = clean(&bytes, &file, report)?;
+    let parsed = tobj::load_mtl_buf(&mut cleaned.as_slice());
+    let (materials, _) = parsed.map_err(|error| {
+        ImportError::new(ErrorKind::Format, file, format!("cannot be read: {error}"))
+    })?;
+    Ok(materials)
+}
+
+/// Keeps the lines that matter, checked.
+fn clean(bytes: &[u8], file: &str, report: &mut ImportReport) -> Result<Vec<u8>, ImportError> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let mut out = Vec::with_capacity(bytes.len());
+    let mut named = false;
+    for (line_idx, line) in bytes.split(|byte| *byte == b'\n').enumerate() {
+        let place = || format!("{file}:{}", line_idx + 1);
+        let checked = clean_line(line.trim_ascii(), named);
+        match checked.map_err(|(kind, message)| ImportError::new(kind, place(), message))? {
+            Line::Keep(line) => {
+                named |= line.starts_with(b"newmtl");
+                out.extend_from_slice(&line);
+                out.push(b'\n');
+            }
+            Line::Drop => {}
+            Line::Odd(message) => report.warn(place(), message),
+        }
+    }
+    Ok(out)
+}
+
+enum Line {
+    Keep(Vec<u8>),
+    Drop,
+    /// Dropped, and worth a warning.
+    Odd(String),
+}
+
+fn clean_line(line: &[u8], named: bool) -> Result<Line, (ErrorKind, String)> {
+    let (keyword, rest) = split_word(line);
+    let keep = |rest: &[u8]| Ok(Line::Keep([keyword, b" ", rest].concat()));
+    let key = String::from_utf8_lossy(keyword);
+    let known = matches!(
+        keyword,
+        b"Kd"
+            | b"Ks"
+            | b"Ke"
+            | b"Ns"
+            | b"Ni"
+            | b"d"
+            | b"Tr"
+            | b"Pr"
+            | b"Pm"
+            | b"illum"
+            | b"map_Kd"
+            | b"map_Ke"
+            | b"map_d"
+    );
+    if known && !named {
+        return Err((ErrorKind::Format, format!("`{key}` before the first `newmtl`")));
+    }
+    match keyword {
+        b"newmtl" => {
+            let name = text(rest, "a material name")?;
+            if name.is_empty() {
+                return Err((ErrorKind::Format, "`newmtl` without a name".to_owned()));
+            }
+            keep(rest)
+        }
+        b"Kd" | b"Ks" | b"Ke" => {
+            let rest = uncommented(rest);
+            if rest.starts_with(b"spectral") || rest.starts_with(b"xyz") {
+                return Ok(Line::Odd(format!("`{key}` that is not `r g b` is not used")));
+            }
+            match numbers_of(rest, &mut [0.0; 3])? {
+                3 => keep(rest),
+                1 => keep(&[rest, b" ", rest, b" ", rest].concat()),
+                n => Err((ErrorKind::Format, format!("`{key}` has 3 numbers, found {n}"))),
+            }
+        }
+        b"Ns" | b"Ni" | b"d" | b"Tr" | b"Pr" | b"Pm" => {
+            let rest = uncommented(rest);
+            let number = rest.strip_prefix(b"-halo ").unwrap_or(rest).trim_ascii();
+            match numbers_of(number, &mut [0.0; 1])? {
+                1 => keep(number),
+                n => Err((ErrorKind::Format, format!("`{key}` has 1 number, found {n}"))),
+            }
+        }
+        b"illum" => {
+            let rest = uncommented(rest);
+            let number = std::str::from_utf8(rest).ok().and_then(|s| s.parse::<u8>().ok());
+            if number.is_some() { keep(rest) } else { Ok(Line::Drop) }
+        }
+        b"map_Kd" | b"map_Ke" | b"map_d" => {
+            let written = text(rest, "a file name")?;
+            if written.is_empty() {
+                return Ok(Line::Odd(format!("`{key}` without a file name")));
+            }
+            keep(rest)
+        }
+        _ => Ok(Line::Drop),
+    }
+}
+
+fn convert(
+    found: &Found,
+    reader: &mut Reader<'_>,
+    images: &mut ImageSet<'_>,
+    report: &mut ImportReport,
+) -> Result<ImportedMaterial, ImportError> {
+    let mtl = &found.material;
+    let place = format!("{}: material `{}`", found.library.display(), mtl.name);
+    let mut maps = Maps { found, place: &place, reader, images, report };
+    let mut out = ImportedMaterial::named(mtl.name.clone());
+    out.metallic = 0.0;
+    out.color_map = maps.load(mtl.diffuse_texture.as_deref(), ColorSpace::Srgb, Alpha::Own)?;
+    let emission_map = mtl.unknown_param.get("map_Ke").map(String::as_str);
+    out.emission_map = maps.load(emission_map, ColorSpace::Srgb, Alpha::Own)?;
+    out.alpha_map = maps.load(mtl.dissolve_texture.as_deref(), ColorSpace::Data, Alpha::Mask)?;
+    set_colors(&mut out, mtl, &place, report);
+    set_gloss(&mut out, mtl);
+    set_transparency(&mut out, mtl, &place, report);
+    Ok(out)
+}
+
+fn set_colors(
+    out: &mut ImportedMaterial,
+    mtl: &tobj::Material,
+    place: &str,
+    report: &mut ImportReport,
+) {
+    let black = |color: Option<[f32; 3]>| color.is_none_or(|c| c.iter().all(|x| *x <= 0.0));
+    let wide = |color: [f32; 3]| color.map(f64::from);
+    let specular = mtl.specular.filter(|_| !black(mtl.specular));
+    let color = match (mtl.diffuse, specular, &out.color_map) {
+        (kd, _, Some(_)) => kd.filter(|_| !black(kd)).map_or([1.0; 3], wide),
+        (kd, Some(ks), None) if black(kd) => {
+            out.metallic = 1.0;
+            wide(ks)
+        }
+        // The default of the format for what a file leaves out.
+        (kd, _, None) => kd.map_or([0.8; 3], wide),
+    };
+    if color.iter().any(|x| !(0.0..=1.0).contains(x)) {
+        let [r, g, b] = color;
+        report.warn(place, format!("colour ({r}, {g}, {b}) is cut to 0..1"));
+    }
+    out.color = color.map(|x| x.clamp(0.0, 1.0));
+    let emission = mtl.emissive.map_or([0.0; 3], wide).map(|x| x.max(0.0));
+    let dark = emission.iter().all(|x| *x == 0.0);
+    out.emission = if dark && out.emission_map.is_some() { [1.0; 3] } else { emission };
+}
+
+fn set_gloss(out: &mut ImportedMaterial, mtl: &tobj::Material) {
+    let number = |key: &str| mtl.unknown_param.get(key).and_then(|s| s.parse::<f64>().ok());
+    let no_specular = mtl.specular.is_none_or(|ks| ks.iter().all(|x| *x <= 0.0));
+    let dull = matches!(mtl.illumination_model, Some(0 | 1));
+    let exponent = mtl.shininess.map(|n| f64::from(n).max(0.0));
+    out.roughness = match (number("Pr"), exponent) {
+        (Some(roughness), _) => roughness.clamp(0.0, 1.0),
+        (None, Some(n)) => (2.0 / (n + 2.0)).sqrt().sqrt(),
+        (None, None) => 1.0,
+    };
+    if let Some(metallic) = number("Pm") {
+        out.metallic = metallic.clamp(0.0, 1.0);
+    }
+    let says_nothing = mtl.specular.is_some() || exponent.is_none();
+    let physical = number("Pr").is_some() || out.metallic > 0.0;
+    out.diffuse_only = !physical && (dull || (no_specular && says_nothing));
+    if let Some(ior) = mtl.optical_density.map(f64::from).filter(|ior| *ior >= 1.0) {
+        out.ior = ior;
+    }
+}
+
+fn set_transparency(
+    out: &mut ImportedMaterial,
+    mtl: &tobj::Material,
+    place: &str,
+    report: &mut ImportReport,
+) {
+    let tr = mtl.unknown_param.get("Tr").and_then(|s| s.parse::<f64>().ok());
+    let coverage = mtl.dissolve.map(f64::from).or(tr.map(|tr| 1.0 - tr));
+    let coverage = coverage.map(|d| d.clamp(0.0, 1.0));
+    match (mtl.illumination_model, coverage) {
+        (Some(6 | 7), None) => out.transmission = 1.0,
+        (Some(4 | 6 | 7 | 9), Some(d)) => out.transmission = 1.0 - d,
+        (_, Some(d)) if d < 1.0 => {
+            out.alpha = d;
+            out.alpha_clip = Some(0.5);
+            if out.alpha_map.is_none() {
+                let fate = if d < 0.5 { "invisible" } else { "opaque" };
+                let message = format!("coverage {d} is cut at one half: its surfaces are {fate}");
+                report.warn(place, message);
+            }
+        }
+        _ => {}
+    }
+    if out.alpha_map.is_some() {
+        out.alpha_clip = Some(0.5);
+    }
+}
+
+/// Finds and asks for the images of a material.
+struct Maps<'m, 'r, 'i> {
+    found: &'m Found,
+    place: &'m str,
+    reader: &'m mut Reader<'r>,
+    images: &'m mut ImageSet<'i>,
+    report: &'m mut ImportReport,
+}
+
+impl Maps<'_, '_, '_> {
+    fn load(
+        &mut self,
+        written: Option<&str>,
+        space: ColorSpace,
+        alpha: Alpha,
+    ) -> Result<Option<MapUse>, ImportError> {
+        let Some(written) = written else {
+            return Ok(None);
+        };
+        let options = MapOptions::parse(written);
+        if options.ignored {
+            let message = format!("options of `{written}` beside -clamp are not used");
+            self.report.warn(self.place, message);
+        }
+        let name = options.file.replace('\\', "/");
+        let wrap = [if options.clamp { Wrap::Clamp } else { Wrap::Repeat }; 2];
+        if let Some(image) = self.images.find(&name, alpha) {
+            return Ok(Some(MapUse { image, space, wrap }));
+        }
+        let Some(path) = self.find(&name) else {
+            self.report.warn(self.place, format!("there is no image `{name}`"));
+            return Ok(None);
+        };
+        let bytes = Cow::Owned(self.reader.read(&path)?);
+        let image = self.images.add(name, path.display().to_string(), alpha, bytes)?;
+        Ok(Some(MapUse { image, space, wrap }))
+    }
+
+    /// The image beside the library; a path of the exporter's machine is tried by its last part.
+    fn find(&self, name: &str) -> Option<PathBuf> {
+        let folder = self.found.library.parent().unwrap_or(Path::new(""));
+        let foreign = name.starts_with('/') || name.contains(':');
+        let last = name.rsplit('/').next().unwrap_or(name);
+        let path = folder.join(if foreign { last } else { name });
+        path.is_file().then_some(path)
+    }
+}
+
+/// A `map_` line, taken apart.
+struct MapOptions<'a> {
+    file: &'a str,
+    clamp: bool,
+    ignored: bool,
+}
+
+impl<'a> MapOptions<'a> {
+    fn parse(written: &'a str) -> Self {
+        let mut out = Self { file: written.trim(), clamp: false, ignored: false };
+        while out.file.starts_with('-') {
+            let (option, mut rest) = cut_word(out.file);
+            let (first, after) = cut_word(rest);
+            match option {
+                "-clamp" => {
+                    out.clamp = first == "on";
+                    rest = after;
+                }
+                "-o" | "-s" | "-t" => {
+                    let mut neutral = true;
+                    for _ in 0..3 {
+                        let (word, after) = cut_word(rest);
+                        let Ok(number) = word.parse::<f64>() else { break };
+                        neutral &= number == if option == "-s" { 1.0 } else { 0.0 };
+                        rest = after;
+                    }
+                    out.ignored |= !neutral;
+                }
+                "-mm" => {
+                    out.ignored = true;
+                    rest = cut_word(after).1;
+                }
+                "-blendu" | "-blendv" | "-cc" | "-texres" => rest = after,
+                "-bm" | "-boost" | "-imfchan" | "-type" => {
+                    out.ignored = true;
+                    rest = after;
+                }
+                _ => return out, // a file name that begins with a dash
+            }
+            out.file = rest;
+        }
+        out
+    }
+}
+
+fn cut_word(text: &str) -> (&str, &str) {
+    let (word, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
+    (word, rest.trim_start())
+}
