@@ -1,1 +1,26 @@
-//! (to be written)
+//! WGSL modules and a [`FeatureSet`] become one linked, validated kernel text.
+//!
+//! The path tracer exists once, as the modules under `wgsl/`. [`link`] pastes the ones that a scene
+//! needs behind four kinds of generated text (constants, bindings, record loaders, dispatch), drops
+//! every declaration that `render` does not reach, and remembers where each byte came from.
+//! [`validate`] runs naga over the result and translates its errors back to our files;
+//! [`check_layouts`] compares the structs in it with the Rust records of `pack::abi`.
+//!
+//! It does not know the scene language, wgpu, or what is in a pack besides its records.
+
+mod declaration;
+mod error;
+mod features;
+mod generate;
+mod layout;
+mod link;
+mod modules;
+mod validate;
+
+pub use error::{Location, ShaderError};
+pub use features::{Binding, FeatureSet, Windows};
+pub use generate::WINDOW_WORDS;
+pub use layout::{LayoutError, abi_module, check_layouts};
+pub use link::{Linked, link, link_modules};
+pub use modules::module_texts;
+pub use validate::validate;

@@ -1,0 +1,155 @@
+//! What a scene needs of the kernel.
+
+use crate::ShaderError;
+use pack::abi::{LightKind, MaterialKind, SkyKind, TextureFormat};
+use std::collections::BTreeSet;
+
+/// Storage buffers that every WebGPU device offers, less one that is left for the host.
+const MAX_STORAGE: usize = 7;
+
+/// The features of a kernel. Whatever is absent brings neither code nor a binding.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct FeatureSet {
+    /// There are triangles.
+    pub triangles: bool,
+    /// There are spheres.
+    pub spheres: bool,
+    /// Some triangle interpolates normals.
+    pub smooth_normals: bool,
+    /// Kinds of scattering.
+    pub materials: BTreeSet<MaterialKind>,
+    /// Kinds in the light selection table.
+    pub lights: BTreeSet<LightKind>,
+    /// Kinds of sky; none is black. A scene has at most one, the full kernel knows all.
+    pub skies: BTreeSet<SkyKind>,
+    /// The camera has a lens of radius > 0.
+    pub lens: bool,
+    /// Formats of the textures.
+    pub textures: BTreeSet<TextureFormat>,
+    /// Some material has the flag `ALPHA_CLIP`.
+    pub alpha_clip: bool,
+    /// Entries of the traversal stack, at least 1: `RenderSettings::stack_need`.
+    pub stack_size: u32,
+    /// How many bindings each section is split into.
+    pub windows: Windows,
+}
+
+/// Bindings per section: 1, unless the section exceeds [`crate::WINDOW_WORDS`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Windows {
+    /// BVH nodes.
+    pub node: u32,
+    /// Triangles.
+    pub tri: u32,
+    /// Shading data of triangles.
+    pub shade: u32,
+    /// Spheres.
+    pub sphere: u32,
+    /// Texels.
+    pub texel: u32,
+}
+
+impl Default for Windows {
+    fn default() -> Self {
+        Self { node: 1, tri: 1, shade: 1, sphere: 1, texel: 1 }
+    }
+}
+
+/// A buffer of the kernel, all in bind group 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Binding {
+    /// Binding number: 0 the frame, 1 the film, 2 heap, 3 nodes, 4 triangles, 5 shading data, 6 spheres,
+    /// 7 texels; window `w` of binding `b` is `b + 8 w`.
+    pub number: u32,
+    /// Name of the variable, such as `node_words` or `node_words_1`.
+    pub name: String,
+    /// Which window of its section, from 0.
+    pub window: u32,
+}
+
+impl FeatureSet {
+    /// The smallest kernel: a pinhole camera in front of nothing.
+    #[must_use]
+    pub fn empty() -> Self {
+        Self {
+            triangles: false,
+            spheres: false,
+            smooth_normals: false,
+            materials: BTreeSet::new(),
+            lights: BTreeSet::new(),
+            skies: BTreeSet::new(),
+            lens: false,
+            textures: BTreeSet::new(),
+            alpha_clip: false,
+            stack_size: 1,
+            windows: Windows::default(),
+        }
+    }
+
+    /// Everything: the kernel that renders any pack.
+    #[must_use]
+    pub fn full() -> Self {
+        Self {
+            triangles: true,
+            spheres: true,
+            smooth_normals: true,
+            materials: MaterialKind::ALL.into(),
+            lights: [LightKind::Sphere, LightKind::Rectangle, LightKind::Triangle].into(),
+            skies: [SkyKind::Constant, SkyKind::Gradient].into(),
+            lens: true,
+            textures: [
+                TextureFormat::Rgba8Srgb,
+                TextureFormat::Rgba8Linear,
+                TextureFormat::Rgba16Float,
+            ]
+            .into(),
+            alpha_clip: true,
+            stack_size: 96,
+            windows: Windows::default(),
+        }
+    }
+
+    /// Whether a ray can hit anything.
+    #[must_use]
+    pub fn geometry(&self) -> bool {
+        self.triangles || self.spheres
+    }
+
+    /// The buffers that the linked kernel declares, by number. An error if they are more than every
+    /// device can bind.
+    pub fn bindings(&self) -> Result<Vec<Binding>, ShaderError> {
+        let windows = &self.windows;
+        let geometry = self.geometry();
+        let textures = geometry && !self.textures.is_empty();
+        let sections = [
+            (0, "frame_words", true, 1),
+            (1, "film_words", true, 1),
+            (2, "heap_words", true, 1),
+            (3, "node_words", geometry, windows.node),
+            (4, "tri_words", self.triangles, windows.tri),
+            (5, "shade_words", self.triangles, windows.shade),
+            (6, "sphere_words", self.spheres, windows.sphere),
+            (7, "texel_words", textures, windows.texel),
+        ];
+        let mut bindings = Vec::new();
+        for (number, name, present, n_windows) in sections {
+            let n_windows = if present { n_windows.max(1) } else { 0 };
+            bindings.extend((0..n_windows).map(|window| Binding {
+                number: number + 8 * window,
+                name: window_name(name, window),
+                window,
+            }));
+        }
+        bindings.sort_by_key(|binding| binding.number);
+        let count = bindings.len() - 1;
+        if count > MAX_STORAGE {
+            return Err(ShaderError::TooManyBindings { count, limit: MAX_STORAGE });
+        }
+        Ok(bindings)
+    }
+}
+
+/// Name of window `window` of the section variable `name`.
+pub(crate) fn window_name(name: &str, window: u32) -> String {
+    if window == 0 { name.to_owned() } else { format!("{name}_{window}") }
+}

@@ -1,0 +1,53 @@
+//! A [`FeatureSet`] becomes the `scene/…` modules: everything that differs from scene to scene.
+
+mod bindings;
+mod constants;
+mod dispatch;
+mod records;
+mod traversal;
+
+use crate::{FeatureSet, ShaderError};
+pub use bindings::WINDOW_WORDS;
+
+/// The generated modules, name and text, sorted by name.
+pub(crate) fn generate(features: &FeatureSet) -> Result<Vec<(&'static str, String)>, ShaderError> {
+    Ok(vec![
+        ("scene/bindings.wgsl", bindings::text(&features.bindings()?)),
+        ("scene/candidate.wgsl", traversal::candidate(features)),
+        ("scene/constants.wgsl", constants::text(features)),
+        ("scene/dispatch.wgsl", dispatch::path(features)),
+        ("scene/dispatch_bsdf.wgsl", dispatch::bsdf(features)),
+        ("scene/dispatch_light.wgsl", dispatch::light(features)),
+        ("scene/leaf.wgsl", traversal::leaf(features)),
+        ("scene/records.wgsl", records::text()),
+        ("scene/texel.wgsl", dispatch::texel(features)),
+        ("scene/texture.wgsl", dispatch::texture(features)),
+    ])
+}
+
+/// The module at whose `render` a kernel begins.
+pub(crate) fn root(features: &FeatureSet) -> &'static str {
+    if features.geometry() { "kernel/render.wgsl" } else { "kernel/backdrop.wgsl" }
+}
+
+/// `#import` lines for `modules`.
+fn imports<'m>(modules: impl IntoIterator<Item = &'m str>) -> String {
+    modules.into_iter().map(|module| format!("#import \"{module}\"\n")).collect()
+}
+
+/// A `switch` over tags whose cases return; one case needs no switch, none only `otherwise`.
+fn switch(selector: &str, cases: &[(&str, String)], otherwise: &str) -> String {
+    match cases {
+        [] => format!("    return {otherwise};\n"),
+        [(_, only)] => format!("    return {only};\n"),
+        _ => {
+            let arms: String = cases
+                .iter()
+                .map(|(tag, value)| format!("        case {tag}: {{ return {value}; }}\n"))
+                .collect();
+            format!(
+                "    switch ({selector}) {{\n{arms}        default: {{ return {otherwise}; }}\n    }}\n"
+            )
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! `scene/constants.wgsl`: tags, flags and limits, taken from `pack::abi`.
+
+use crate::FeatureSet;
+use pack::abi::{
+    CHILD_INNER, CHILD_SPHERES, ChildRef, LightKind, MaterialKind, NONE, SkyKind, TextureFormat,
+    Wrap, material_flag,
+};
+use std::fmt::Write as _;
+
+/// The module for this scene.
+pub(crate) fn text(features: &FeatureSet) -> String {
+    let one_more = |child: ChildRef| child.encode().expect("small references have a word");
+    let first_of_one = one_more(ChildRef::Triangles { first: 0, count: 1 });
+    let count_unit = one_more(ChildRef::Triangles { first: 0, count: 2 }) - first_of_one;
+    let rows = [
+        ("NONE", NONE),
+        ("STACK_SIZE", features.stack_size.max(1)),
+        ("CHILD_INNER", CHILD_INNER),
+        ("CHILD_INDEX", CHILD_INNER - 1),
+        ("CHILD_SPHERES", CHILD_SPHERES),
+        ("CHILD_FIRST", count_unit - 1),
+        ("CHILD_COUNT_SHIFT", count_unit.trailing_zeros()),
+        ("MATERIAL_DIFFUSE", MaterialKind::Diffuse as u32),
+        ("MATERIAL_METAL", MaterialKind::Metal as u32),
+        ("MATERIAL_DIELECTRIC", MaterialKind::Dielectric as u32),
+        ("MATERIAL_EMISSIVE", MaterialKind::Emissive as u32),
+        ("MATERIAL_PRINCIPLED", MaterialKind::Principled as u32),
+        ("FLAG_EMIT_BOTH_SIDES", material_flag::EMIT_BOTH_SIDES),
+        ("FLAG_ALPHA_CLIP", material_flag::ALPHA_CLIP),
+        ("LIGHT_SPHERE", LightKind::Sphere as u32),
+        ("LIGHT_RECTANGLE", LightKind::Rectangle as u32),
+        ("LIGHT_TRIANGLE", LightKind::Triangle as u32),
+        ("SKY_CONSTANT", SkyKind::Constant as u32),
+        ("SKY_GRADIENT", SkyKind::Gradient as u32),
+        ("TEXTURE_RGBA8_SRGB", TextureFormat::Rgba8Srgb as u32),
+        ("TEXTURE_RGBA8_LINEAR", TextureFormat::Rgba8Linear as u32),
+        ("TEXTURE_RGBA16_FLOAT", TextureFormat::Rgba16Float as u32),
+        ("WRAP_REPEAT", Wrap::Repeat as u32),
+        ("WRAP_CLAMP", Wrap::Clamp as u32),
+        ("WRAP_MIRROR", Wrap::Mirror as u32),
+    ];
+    let mut text =
+        String::from("// Generated: tags of the records, and the limits of this scene.\n\n");
+    for (name, value) in rows {
+        let _ = writeln!(text, "const {name}: u32 = {value:#x}u;");
+    }
+    text
+}

@@ -1,0 +1,301 @@
+//! `scene/dispatch*.wgsl`, `scene/texture.wgsl`, `scene/texel.wgsl`: from a record's tag to the function
+//! of its kind. The case of a kind reads the same in every kernel, so that a kernel with fewer kinds
+//! computes the same bits.
+
+use super::{imports, switch};
+use crate::FeatureSet;
+use pack::abi::{LightKind, MaterialKind, SkyKind, TextureFormat};
+
+/// Camera, sky, surfaces and direct light.
+pub(crate) fn path(features: &FeatureSet) -> String {
+    let mut text =
+        String::from("// Generated: camera, sky, shapes and direct light of this scene.\n\n");
+    let mut modules = vec![
+        "bsdf/scatter.wgsl",
+        "camera/film_plane.wgsl",
+        "camera/pinhole.wgsl",
+        "kernel/state.wgsl",
+        "sampler/pcg.wgsl",
+        "scene/constants.wgsl",
+        "scene/records.wgsl",
+        "shape/sphere.wgsl",
+        "shape/triangle.wgsl",
+        "surface/surface.wgsl",
+        "trace/ray.wgsl",
+    ];
+    if features.lens {
+        modules.push("camera/thin_lens.wgsl");
+    }
+    if !features.lights.is_empty() {
+        modules.push("kernel/direct.wgsl");
+    }
+    modules.extend(features.skies.iter().map(|sky| match sky {
+        SkyKind::Constant => "sky/constant.wgsl",
+        SkyKind::Gradient => "sky/gradient.wgsl",
+    }));
+    text += &imports(modules);
+    text += &camera(features);
+    text += &sky(features);
+    if features.geometry() {
+        text += &surface(features);
+        text += &direct(features);
+    }
+    text
+}
+
+fn camera(features: &FeatureSet) -> String {
+    let lens = if features.lens {
+        "    if (camera.lens_radius > 0.0) {\n        \
+         return thin_lens_ray(camera, at, sample_2d(key, PURPOSE_LENS));\n    }\n"
+    } else {
+        ""
+    };
+    format!(
+        "\n// The ray through `at`, pixels from the top left corner.\n\
+         fn dispatch_camera(key: SampleKey, at: vec2f) -> CameraRay {{\n    \
+         let camera = load_camera();\n{lens}    return pinhole_ray(camera, at);\n}}\n"
+    )
+}
+
+fn sky(features: &FeatureSet) -> String {
+    let cases: Vec<(&str, String)> = features
+        .skies
+        .iter()
+        .map(|sky| match sky {
+            SkyKind::Constant => ("SKY_CONSTANT", "constant_radiance()".to_owned()),
+            SkyKind::Gradient => ("SKY_GRADIENT", "gradient_radiance(dir)".to_owned()),
+        })
+        .collect();
+    format!(
+        "\n// Radiance of the sky along `dir`.\nfn dispatch_sky(dir: vec3f) -> vec3f {{\n{}}}\n",
+        switch("load_sky_kind()", &cases, "vec3f(0.0)")
+    )
+}
+
+fn surface(features: &FeatureSet) -> String {
+    let mut body = String::new();
+    if features.spheres {
+        let mut sphere = String::from(
+            "    var s = sphere_surface(hit.prim & ~PRIM_SPHERE, origin, dir, hit.t);\n",
+        );
+        if !features.textures.is_empty() {
+            sphere += "    s.uv = sphere_uv(select(-s.ng, s.ng, s.front));\n";
+        }
+        sphere += "    return s;\n";
+        if features.triangles {
+            let inner = sphere.replace("    ", "        ");
+            body += &format!("    if ((hit.prim & PRIM_SPHERE) != 0u) {{\n{inner}    }}\n");
+        } else {
+            body += &sphere;
+        }
+    }
+    if features.triangles {
+        let function =
+            if features.smooth_normals { "triangle_surface" } else { "triangle_flat_surface" };
+        body += &format!("    return {function}(hit.prim, hit.b, dir);\n");
+    }
+    format!(
+        "\n// The surface that the ray from `origin` along `dir` has hit.\n\
+         fn dispatch_surface(hit: Hit, origin: vec3f, dir: vec3f) -> Surface {{\n{body}}}\n"
+    )
+}
+
+fn direct(features: &FeatureSet) -> String {
+    let (sample, weight) = if features.lights.is_empty() {
+        ("", "1.0")
+    } else {
+        ("    direct_sample(path, s, scatter, wo);\n", "direct_weight(origin, dir, pdf, s)")
+    };
+    format!(
+        "\n// Leaves a shadow ray in `path` if light may reach the surface directly.\n\
+         fn dispatch_direct(path: ptr<function, Path>, s: Surface, scatter: Scatter, wo: vec3f) {{\n{sample}}}\n\
+         \n// Weight of emission that a direction sampled with density `pdf` has found.\n\
+         fn dispatch_emission_weight(origin: vec3f, dir: vec3f, pdf: f32, s: Surface) -> f32 {{\n    \
+         return {weight};\n}}\n"
+    )
+}
+
+/// Tag, module stem, and the arguments of its sample, eval and pdf.
+fn bsdf_row(kind: MaterialKind) -> (&'static str, &'static str, [&'static str; 3]) {
+    match kind {
+        MaterialKind::Diffuse => (
+            "MATERIAL_DIFFUSE",
+            "diffuse",
+            ["s, sample_2d(key, PURPOSE_DIRECTION)", "s, wi", "s, wi"],
+        ),
+        MaterialKind::Metal => (
+            "MATERIAL_METAL",
+            "metal",
+            [
+                "s, wo, sample_2d(key, PURPOSE_DIRECTION), sample_1d(key, PURPOSE_RADIUS)",
+                "s, wo, wi",
+                "s, wo, wi",
+            ],
+        ),
+        MaterialKind::Dielectric => {
+            ("MATERIAL_DIELECTRIC", "dielectric", ["s, wo, sample_1d(key, PURPOSE_LOBE)", "", ""])
+        }
+        MaterialKind::Emissive => ("MATERIAL_EMISSIVE", "emissive", ["", "", ""]),
+        MaterialKind::Principled => (
+            "MATERIAL_PRINCIPLED",
+            "principled",
+            [
+                "s, wo, sample_2d(key, PURPOSE_DIRECTION), sample_1d(key, PURPOSE_LOBE)",
+                "s, wo, wi",
+                "s, wo, wi",
+            ],
+        ),
+    }
+}
+
+/// The three functions of a scattering model.
+pub(crate) fn bsdf(features: &FeatureSet) -> String {
+    let rows: Vec<_> = features.materials.iter().map(|kind| bsdf_row(*kind)).collect();
+    let files: Vec<String> = rows.iter().map(|row| format!("bsdf/{}.wgsl", row.1)).collect();
+    let mut text = String::from("// Generated: the scattering models of this scene.\n\n");
+    text += &imports(["bsdf/scatter.wgsl", "sampler/pcg.wgsl", "scene/constants.wgsl"]);
+    text += &imports(files.iter().map(String::as_str));
+    let functions = [
+        ("sample", "wo: vec3f, key: SampleKey", "Scattered", "scatter_absorb()", "Samples `wi`."),
+        ("eval", "wo: vec3f, wi: vec3f", "vec3f", "vec3f(0.0)", "f |cos|, delta lobes left out."),
+        (
+            "pdf",
+            "wo: vec3f, wi: vec3f",
+            "f32",
+            "0.0",
+            "Density of `dispatch_sample`, per steradian.",
+        ),
+    ];
+    for (i, (name, parameters, result, absent, comment)) in functions.into_iter().enumerate() {
+        let cases: Vec<(&str, String)> = rows
+            .iter()
+            .map(|(tag, stem, arguments)| (*tag, format!("{stem}_{name}({})", arguments[i])))
+            .collect();
+        text += &format!(
+            "\n// {comment}\nfn dispatch_{name}(s: Scatter, {parameters}) -> {result} {{\n{}}}\n",
+            switch("s.kind", &cases, absent)
+        );
+    }
+    text
+}
+
+/// The functions of a light kind.
+pub(crate) fn light(features: &FeatureSet) -> String {
+    let rows: Vec<(&str, &str)> = features
+        .lights
+        .iter()
+        .map(|kind| match kind {
+            LightKind::Sphere => ("LIGHT_SPHERE", "sphere"),
+            LightKind::Rectangle => ("LIGHT_RECTANGLE", "rectangle"),
+            LightKind::Triangle => ("LIGHT_TRIANGLE", "triangle"),
+        })
+        .collect();
+    let files: Vec<String> = rows.iter().map(|row| format!("light/{}.wgsl", row.1)).collect();
+    let mut text = String::from("// Generated: the lights of this scene.\n\n");
+    text += &imports([
+        "abi/light.wgsl",
+        "light/light_sample.wgsl",
+        "math/vector.wgsl",
+        "scene/constants.wgsl",
+        "scene/records.wgsl",
+        "shape/sphere.wgsl",
+        "shape/triangle.wgsl",
+        "trace/alpha.wgsl",
+    ]);
+    text += &imports(files.iter().map(String::as_str));
+    let cases = |call: &dyn Fn(&str) -> String| -> Vec<(&str, String)> {
+        rows.iter().map(|(tag, stem)| (*tag, call(stem))).collect()
+    };
+    let sample = cases(&|stem| format!("{stem}_light_sample(light, p, u)"));
+    let pdf = cases(&|stem| match stem {
+        "sphere" => "sphere_light_pdf(light, p)".to_owned(),
+        _ => format!("{stem}_light_pdf(light, p, x, cos_l)"),
+    });
+    text += &format!(
+        "\n// A direction from `p` to the light.\n\
+         fn dispatch_light_sample(light: Light, p: vec3f, u: vec2f) -> LightSample {{\n{}}}\n\
+         \n// Density of `dispatch_light_sample` towards the light's point `x`, where the cosine to the\n\
+         // geometric normal is `cos_l`, of either sign.\n\
+         fn dispatch_light_pdf(light: Light, p: vec3f, x: vec3f, cos_l: f32) -> f32 {{\n{}}}\n",
+        switch("light.kind", &sample, "light_sample_none()"),
+        switch("light.kind", &pdf, "0.0"),
+    );
+    text += &light_surface(features);
+    text
+}
+
+/// Texture coordinates and cut-outs of a light.
+fn light_surface(features: &FeatureSet) -> String {
+    let sphere = "sphere_uv(vector_unit_or(x - light.origin, vec3f(0.0, 1.0, 0.0)))";
+    let flat = "triangle_uv(light.primitive, triangle_weights(light.primitive, x))";
+    let cases: Vec<(&str, String)> = features
+        .lights
+        .iter()
+        .map(|kind| match kind {
+            LightKind::Sphere => ("LIGHT_SPHERE", sphere.to_owned()),
+            LightKind::Rectangle => ("LIGHT_RECTANGLE", flat.to_owned()),
+            LightKind::Triangle => ("LIGHT_TRIANGLE", flat.to_owned()),
+        })
+        .filter(|(tag, _)| features.triangles || *tag == "LIGHT_SPHERE")
+        .collect();
+    let uv = if features.textures.is_empty() {
+        "    return vec2f(0.0);\n".to_owned()
+    } else {
+        "    let i = light.material;\n    \
+         if (load_material_emission_texture(i) == NONE && load_material_alpha_texture(i) == NONE) {\n        \
+         return vec2f(0.0);\n    }\n"
+            .to_owned()
+            + &switch("light.kind", &cases, "vec2f(0.0)")
+    };
+    let exists = if features.alpha_clip { "alpha_exists(material, uv)" } else { "true" };
+    format!(
+        "\n// Texture coordinates of the light's point `x`; 0 where its material has no texture for them.\n\
+         fn dispatch_light_uv(light: Light, x: vec3f) -> vec2f {{\n{uv}}}\n\
+         \n// Whether a light of material `material` exists at `uv`.\n\
+         fn dispatch_light_exists(material: u32, uv: vec2f) -> bool {{\n    return {exists};\n}}\n"
+    )
+}
+
+/// A texture, or white where there is none.
+pub(crate) fn texture(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: whether this scene has textures.\n\n");
+    let body = if features.textures.is_empty() {
+        "    return vec4f(1.0);\n"
+    } else {
+        text += &imports(["scene/constants.wgsl", "texture/bilinear.wgsl"]);
+        "    if (i == NONE) {\n        return vec4f(1.0);\n    }\n    return bilinear_fetch(i, uv);\n"
+    };
+    text += &format!(
+        "\n// Texture `i` at `uv`, linear; 1 in every channel where `i` is `NONE`.\n\
+         fn texture_fetch(i: u32, uv: vec2f) -> vec4f {{\n{body}}}\n"
+    );
+    text
+}
+
+/// One texel of a texture.
+pub(crate) fn texel(features: &FeatureSet) -> String {
+    let rows: Vec<(&str, &str, &str)> = features
+        .textures
+        .iter()
+        .map(|format| match format {
+            TextureFormat::Rgba8Srgb => ("TEXTURE_RGBA8_SRGB", "rgba8", "rgba8_srgb"),
+            TextureFormat::Rgba8Linear => ("TEXTURE_RGBA8_LINEAR", "rgba8", "rgba8_linear"),
+            TextureFormat::Rgba16Float => ("TEXTURE_RGBA16_FLOAT", "rgba16", "rgba16_linear"),
+        })
+        .collect();
+    let mut files: Vec<String> = rows.iter().map(|row| format!("texture/{}.wgsl", row.1)).collect();
+    files.dedup();
+    let mut text = String::from("// Generated: the texture formats of this scene.\n\n");
+    text += &imports(["abi/texture.wgsl", "scene/constants.wgsl"]);
+    text += &imports(files.iter().map(String::as_str));
+    let cases: Vec<(&str, String)> = rows
+        .iter()
+        .map(|(tag, _, function)| (*tag, format!("{function}(image.offset, i)")))
+        .collect();
+    text += &format!(
+        "\n// Texel `i` of `image`, linear.\n\
+         fn texel_decode(image: Texture, i: u32) -> vec4f {{\n{}}}\n",
+        switch("image.format", &cases, "vec4f(1.0)")
+    );
+    text
+}

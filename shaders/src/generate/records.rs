@@ -1,0 +1,136 @@
+//! `scene/records.wgsl`: loaders that decode words into the structs of `wgsl/abi/`, from the field
+//! tables of `pack::abi`. One for each record, one for each field; the linker keeps those in use.
+
+use pack::abi::{self, Field, FieldType};
+use std::fmt::Write as _;
+
+/// How a record is found: its name in function names, the reader of its section, and the `Frame` field
+/// that holds the first word of its table in the heap.
+struct Table {
+    record: &'static str,
+    stem: &'static str,
+    module: &'static str,
+    word: &'static str,
+    heap_at: Option<&'static str>,
+    /// There is only one, so that loaders take no index.
+    single: bool,
+}
+
+const fn section(
+    record: &'static str,
+    stem: &'static str,
+    word: &'static str,
+    module: &'static str,
+) -> Table {
+    Table { record, stem, module, word, heap_at: None, single: false }
+}
+
+const fn heap(
+    record: &'static str,
+    stem: &'static str,
+    module: &'static str,
+    at: &'static str,
+) -> Table {
+    Table { record, stem, module, word: "heap_word", heap_at: Some(at), single: false }
+}
+
+const TABLES: &[Table] = &[
+    Table { single: true, ..section("Frame", "frame", "frame_words", "abi/frame.wgsl") },
+    Table { single: true, ..heap("Camera", "camera", "abi/camera.wgsl", "camera_at") },
+    Table { single: true, ..heap("Sky", "sky", "abi/sky.wgsl", "sky_at") },
+    section("Node", "node", "node_word", "abi/node.wgsl"),
+    section("Triangle", "triangle", "tri_word", "abi/triangle.wgsl"),
+    section("TriShade", "tri_shade", "shade_word", "abi/tri_shade.wgsl"),
+    section("Sphere", "sphere", "sphere_word", "abi/sphere.wgsl"),
+    heap("Material", "material", "abi/material.wgsl", "material_at"),
+    heap("Light", "light", "abi/light.wgsl", "light_at"),
+    heap("Texture", "texture", "abi/texture.wgsl", "texture_at"),
+];
+
+/// The module; the same for every scene.
+pub(crate) fn text() -> String {
+    let mut text =
+        String::from("// Generated: loaders of the records, from their field tables.\n\n");
+    let mut modules: Vec<&str> = TABLES.iter().map(|table| table.module).collect();
+    modules.extend(["abi/film.wgsl", "scene/bindings.wgsl"]);
+    text += &super::imports(modules);
+    for (name, fields, size) in abi::records() {
+        if let Some(table) = TABLES.iter().find(|table| table.record == name) {
+            text += &loaders(table, fields, size / 16);
+        } else if name == "FilmPixel" {
+            text += &film_store(fields, size / 16);
+        }
+    }
+    text
+}
+
+fn loaders(table: &Table, fields: &[Field], n_words: usize) -> String {
+    let Table { record, stem, .. } = table;
+    let parameter = if table.single { "" } else { "i: u32" };
+    let mut text = format!("\nfn load_{stem}({parameter}) -> {record} {{\n");
+    for w in 0..n_words {
+        let _ = writeln!(text, "    let w{w} = {};", word(table, n_words, w));
+    }
+    let values: Vec<String> =
+        fields.iter().map(|field| decode(field, &format!("w{}", field.offset / 16))).collect();
+    let _ =
+        writeln!(text, "    return {record}(\n        {},\n    );\n}}", values.join(",\n        "));
+    for field in fields.iter().filter(|field| !field.name.starts_with("_pad")) {
+        let value = decode(field, &word(table, n_words, field.offset / 16));
+        let (name, ty) = (field.name, field.ty.wgsl());
+        let _ = writeln!(
+            text,
+            "\nfn load_{stem}_{name}({parameter}) -> {ty} {{\n    return {value};\n}}"
+        );
+    }
+    text
+}
+
+/// The expression that reads word `w` of the record with index `i`.
+fn word(table: &Table, n_words: usize, w: usize) -> String {
+    if table.record == "Frame" {
+        return format!("frame_words[{w}]");
+    }
+    let base = table.heap_at.map_or(String::new(), |at| format!("load_frame_{at}() + "));
+    let index = if table.single { String::new() } else { format!("i * {n_words}u + ") };
+    format!("{}({base}{index}{w}u)", table.word)
+}
+
+/// The expression that takes `field` out of the word that `word` reads.
+fn decode(field: &Field, word: &str) -> String {
+    let lanes = field.ty.lanes();
+    let first = field.offset % 16 / 4;
+    let swizzle =
+        if lanes == 4 { String::new() } else { format!(".{}", &"xyzw"[first..first + lanes]) };
+    if field.ty.is_float() {
+        format!("bitcast<{}>({word}{swizzle})", field.ty.wgsl())
+    } else {
+        format!("{word}{swizzle}")
+    }
+}
+
+/// `film_store(i, pixel)`: the only write of the kernel.
+fn film_store(fields: &[Field], n_words: usize) -> String {
+    let mut text = String::from("\nfn film_store(i: u32, pixel: FilmPixel) {\n");
+    for w in 0..n_words {
+        let lanes: Vec<String> =
+            fields.iter().filter(|field| field.offset / 16 == w).map(encode).collect();
+        let _ = writeln!(
+            text,
+            "    film_words[i * {n_words}u + {w}u] = vec4<u32>({});",
+            lanes.join(", ")
+        );
+    }
+    text + "}\n"
+}
+
+fn encode(field: &Field) -> String {
+    let value = format!("pixel.{}", field.name);
+    match field.ty {
+        FieldType::F32 => format!("bitcast<u32>({value})"),
+        FieldType::Vec2F => format!("bitcast<vec2<u32>>({value})"),
+        FieldType::Vec3F => format!("bitcast<vec3<u32>>({value})"),
+        FieldType::Vec4F => format!("bitcast<vec4<u32>>({value})"),
+        FieldType::U32 | FieldType::Vec2U | FieldType::Vec3U | FieldType::Vec4U => value,
+    }
+}

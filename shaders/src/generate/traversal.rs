@@ -1,0 +1,83 @@
+//! `scene/candidate.wgsl` and `scene/leaf.wgsl`: what the traversal does with a primitive.
+
+use super::imports;
+use crate::FeatureSet;
+use std::fmt::Write as _;
+
+/// Whether a primitive that the ray meets is there: not the light that a shadow ray goes to, not cut out.
+pub(crate) fn candidate(features: &FeatureSet) -> String {
+    let mut text =
+        String::from("// Generated: whether a primitive that a ray meets is there for it.\n\n");
+    text += &imports([
+        "abi/sphere.wgsl",
+        "scene/constants.wgsl",
+        "scene/records.wgsl",
+        "shape/sphere.wgsl",
+        "shape/triangle.wgsl",
+        "trace/alpha.wgsl",
+        "trace/ray.wgsl",
+    ]);
+    text += "\n// Triangle `i` at barycentric weights `b`; `light`: as in `Ray`.\n\
+             fn candidate_triangle(i: u32, b: vec2f, light: u32) -> bool {\n";
+    if !features.lights.is_empty() {
+        text += "    if (light != NONE && load_tri_shade_light(i) == light) {\n        return false;\n    }\n";
+    }
+    if features.alpha_clip {
+        text += "    let material = load_tri_shade_material(i);\n    \
+                 return alpha_is_plain(material) || alpha_exists(material, triangle_uv(i, b));\n}\n";
+    } else {
+        text += "    return true;\n}\n";
+    }
+    text += "\n// A sphere at distance `t` of the ray.\n\
+             fn candidate_sphere(sphere: Sphere, ray: Ray, t: f32) -> bool {\n";
+    if !features.lights.is_empty() {
+        text += "    if (ray.light != NONE && sphere.light == ray.light) {\n        return false;\n    }\n";
+    }
+    if features.alpha_clip {
+        text += "    if (alpha_is_plain(sphere.material)) {\n        return true;\n    }\n    \
+                 let uv = sphere_uv(sphere_normal(sphere, ray.origin, ray.dir, t));\n    \
+                 return alpha_exists(sphere.material, uv);\n}\n";
+    } else {
+        text += "    return true;\n}\n";
+    }
+    text
+}
+
+/// What a leaf's reference stands for, and what is worked out once a ray for it.
+pub(crate) fn leaf(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: the leaves of this scene's tree.\n\n");
+    let mut modules = vec!["scene/constants.wgsl", "trace/ray.wgsl"];
+    if features.triangles {
+        modules.extend(["shape/triangle.wgsl", "trace/triangles.wgsl"]);
+    }
+    if features.spheres {
+        modules.push("trace/spheres.wgsl");
+    }
+    text += &imports(modules);
+    let (prepared, value) = if features.triangles {
+        ("TriangleShear", "triangle_shear(ray.dir)")
+    } else {
+        ("u32", "0u")
+    };
+    let _ = write!(
+        text,
+        "\nalias Leaf = {prepared};\n\n\
+         // What the leaves need of the ray, worked out once.\n\
+         fn leaf_prepare(ray: Ray) -> Leaf {{\n    return {value};\n}}\n\n\
+         // The better of `best` and the hits in the leaf with reference `child`.\n\
+         fn leaf_trace(child: u32, ray: Ray, leaf: Leaf, best: Hit) -> Hit {{\n    \
+         let first = child & CHILD_FIRST;\n    \
+         let count = ((child >> CHILD_COUNT_SHIFT) & 7u) + 1u;\n"
+    );
+    let spheres = "spheres_trace(first, count, ray, best)";
+    let triangles = "triangles_trace(first, count, ray, leaf, best)";
+    text += &match (features.triangles, features.spheres) {
+        (true, true) => format!(
+            "    if ((child & CHILD_SPHERES) != 0u) {{\n        return {spheres};\n    }}\n    return {triangles};\n"
+        ),
+        (true, false) => format!("    return {triangles};\n"),
+        (false, true) => format!("    return {spheres};\n"),
+        (false, false) => "    return best;\n".to_owned(),
+    };
+    text + "}\n"
+}

@@ -1,0 +1,198 @@
+//! Modules become one text: imports are followed, declarations that the kernel does not reach are left
+//! out, and every byte of the result remembers its place.
+
+use crate::declaration::{self, Declaration, Parts, location};
+use crate::error::{Location, ShaderError};
+use crate::{FeatureSet, generate, modules};
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Name of the entry point.
+const ENTRY: &str = "render";
+
+/// One kernel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Linked {
+    /// Complete WGSL.
+    pub text: String,
+    /// Pieces of `text`, in order.
+    pieces: Vec<Piece>,
+    /// The modules that pieces come from: name and text.
+    sources: Vec<(String, String)>,
+}
+
+/// Bytes that were copied in one go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Piece {
+    /// First byte in the linked text.
+    start: usize,
+    /// Index of the source.
+    source: usize,
+    /// First byte in the source.
+    source_start: usize,
+    length: usize,
+}
+
+impl Linked {
+    /// Where byte `byte` of the text was written. A byte between two pieces counts to the earlier one.
+    #[must_use]
+    pub fn locate(&self, byte: usize) -> Location {
+        let after = self.pieces.partition_point(|piece| piece.start <= byte);
+        let piece = self.pieces[after.saturating_sub(1)];
+        let (file, text) = &self.sources[piece.source];
+        let inside = byte.saturating_sub(piece.start).min(piece.length);
+        location(file, text, piece.source_start + inside)
+    }
+
+    /// Names of the modules that the kernel is made of, in order of first use.
+    #[must_use]
+    pub fn files(&self) -> Vec<&str> {
+        self.sources.iter().map(|(file, _)| file.as_str()).collect()
+    }
+}
+
+/// The kernel for `features`.
+pub fn link(features: &FeatureSet) -> Result<Linked, ShaderError> {
+    let generated = generate::generate(features)?;
+    let mut texts: BTreeMap<Cow<'_, str>, Cow<'_, str>> = BTreeMap::new();
+    for (name, text) in modules::module_texts() {
+        texts.insert(Cow::Borrowed(*name), Cow::Borrowed(*text));
+    }
+    for (name, text) in generated {
+        texts.insert(Cow::Borrowed(name), Cow::Owned(text));
+    }
+    link_texts(&texts, generate::root(features))
+}
+
+/// The kernel that begins in module `root` of `modules`, each a name and a text: what [`link`] does, for
+/// any set of modules.
+pub fn link_modules(modules: &[(&str, &str)], root: &str) -> Result<Linked, ShaderError> {
+    let texts = modules.iter().map(|(n, t)| (Cow::Borrowed(*n), Cow::Borrowed(*t))).collect();
+    link_texts(&texts, root)
+}
+
+fn link_texts(
+    texts: &BTreeMap<Cow<'_, str>, Cow<'_, str>>,
+    root: &str,
+) -> Result<Linked, ShaderError> {
+    let mut walk = Walk { texts, open: Vec::new(), done: BTreeSet::new(), modules: Vec::new() };
+    let unknown = || ShaderError::NoEntry { file: root.to_owned() };
+    walk.visit(texts.get_key_value(root).map(|(name, _)| name.as_ref()).ok_or_else(unknown)?)?;
+    let modules = walk.modules;
+    let names = declared(&modules)?;
+    if !names.contains_key(ENTRY) {
+        return Err(unknown());
+    }
+    Ok(paste(&modules, &reached(&modules, &names)))
+}
+
+/// A module of the kernel; imported modules come before those that import them.
+struct Module<'t> {
+    name: &'t str,
+    text: &'t str,
+    parts: Parts,
+}
+
+/// Depth-first walk over imports.
+struct Walk<'t> {
+    texts: &'t BTreeMap<Cow<'t, str>, Cow<'t, str>>,
+    open: Vec<&'t str>,
+    done: BTreeSet<&'t str>,
+    modules: Vec<Module<'t>>,
+}
+
+impl<'t> Walk<'t> {
+    fn visit(&mut self, name: &'t str) -> Result<(), ShaderError> {
+        let text = self.texts[name].as_ref();
+        let parts = declaration::split(name, text)?;
+        self.open.push(name);
+        for import in &parts.imports {
+            let at = || location(name, text, import.start);
+            let Some((next, _)) = self.texts.get_key_value(import.name.as_str()) else {
+                return Err(ShaderError::UnknownImport { at: at(), name: import.name.clone() });
+            };
+            let next = next.as_ref();
+            if let Some(begin) = self.open.iter().position(|open| *open == next) {
+                let mut chain: Vec<String> =
+                    self.open[begin..].iter().map(|&module| module.to_owned()).collect();
+                chain.push(next.to_owned());
+                return Err(ShaderError::ImportCycle { at: at(), chain });
+            }
+            if !self.done.contains(next) {
+                self.visit(next)?;
+            }
+        }
+        self.open.pop();
+        self.done.insert(name);
+        self.modules.push(Module { name, text, parts });
+        Ok(())
+    }
+}
+
+/// Every declared name with its module and declaration.
+fn declared<'m>(
+    modules: &'m [Module<'_>],
+) -> Result<BTreeMap<&'m str, (usize, usize)>, ShaderError> {
+    let mut names: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
+    for (m, module) in modules.iter().enumerate() {
+        for (d, declaration) in module.parts.declarations.iter().enumerate() {
+            if let Some((m0, d0)) = names.insert(&declaration.name, (m, d)) {
+                let first = &modules[m0];
+                let start = first.parts.declarations[d0].start;
+                return Err(ShaderError::Duplicate {
+                    at: location(module.name, module.text, declaration.start),
+                    first: location(first.name, first.text, start),
+                    name: declaration.name.clone(),
+                });
+            }
+        }
+    }
+    Ok(names)
+}
+
+/// The declarations that the entry point needs, itself included.
+fn reached(
+    modules: &[Module<'_>],
+    names: &BTreeMap<&str, (usize, usize)>,
+) -> BTreeSet<(usize, usize)> {
+    let mut found = BTreeSet::new();
+    let mut open = vec![names[ENTRY]];
+    while let Some((m, d)) = open.pop() {
+        if found.insert((m, d)) {
+            let words = &modules[m].parts.declarations[d].words;
+            open.extend(words.iter().filter_map(|word| names.get(word.as_str())));
+        }
+    }
+    found
+}
+
+fn paste(modules: &[Module<'_>], wanted: &BTreeSet<(usize, usize)>) -> Linked {
+    let mut linked = Linked { text: String::new(), pieces: Vec::new(), sources: Vec::new() };
+    for (m, module) in modules.iter().enumerate() {
+        let kept: Vec<&Declaration> = module
+            .parts
+            .declarations
+            .iter()
+            .enumerate()
+            .filter_map(|(d, declaration)| wanted.contains(&(m, d)).then_some(declaration))
+            .collect();
+        if kept.is_empty() {
+            continue;
+        }
+        let source = linked.sources.len();
+        linked.sources.push((module.name.to_owned(), module.text.to_owned()));
+        linked.text += &format!("// ---- {}\n", module.name);
+        for declaration in kept {
+            let range = declaration.range.clone();
+            linked.pieces.push(Piece {
+                start: linked.text.len(),
+                source,
+                source_start: range.start,
+                length: range.len(),
+            });
+            linked.text += &module.text[range];
+            linked.text += "\n\n";
+        }
+    }
+    linked
+}

@@ -1,0 +1,37 @@
+// One dispatch: which pixels, which samples, and where the heap's tables begin.
+struct Frame {
+    // First pixel of the tile, image coordinates, origin top left.
+    tile_origin: vec2<u32>,
+    // Tile size in pixels; film word index is `(y * tile_size.x + x) * 2` inside the tile.
+    tile_size: vec2<u32>,
+    // Whole image in pixels.
+    image_size: vec2<u32>,
+    // First sample index of this dispatch.
+    sample_first: u32,
+    // Samples in this dispatch, 1 ..= `BATCH`; never crosses a multiple of `BATCH`.
+    sample_count: u32,
+    // Seed of the whole image; a coordinate of every random number.
+    seed: u32,
+    // Longest path in segments; 1 sees emission only.
+    max_depth: u32,
+    // Bounce from which Russian roulette may end a path.
+    roulette_depth: u32,
+    // Number of lights in the selection table; 0 switches next-event estimation off.
+    n_lights: u32,
+    // First heap word (16 bytes each) of the `Camera`.
+    camera_at: u32,
+    // First heap word of the `Sky`; unused without a sky.
+    sky_at: u32,
+    // First heap word of the `Material` table.
+    material_at: u32,
+    // First heap word of the `Light` table.
+    light_at: u32,
+    // First heap word of the `Texture` table.
+    texture_at: u32,
+    // First heap word of the 256-entry sRGB decoding table, four entries a word.
+    srgb_at: u32,
+    // BVH root: a `ChildRef` as in `Node`; `NONE` for a scene without geometry.
+    root: u32,
+    // Estimator switch for tests: 0 MIS (balance), 1 light samples only, 2 BSDF samples only.
+    estimator: u32,
+}

@@ -1,0 +1,13 @@
+// A sphere, 32 bytes, in leaf order. Normalised world frame.
+struct Sphere {
+    // Centre.
+    center: vec3<f32>,
+    // Radius, > 0.
+    radius: f32,
+    // Index of the `Material`.
+    material: u32,
+    // Index of the `Light`, or `NONE`.
+    light: u32,
+    _pad0: u32,
+    _pad1: u32,
+}

@@ -1,0 +1,36 @@
+// Lambert: the same radiance into every direction above the surface.
+
+#import "bsdf/scatter.wgsl"
+#import "math/basis.wgsl"
+#import "math/sincos.wgsl"
+#import "math/vector.wgsl"
+
+// A direction with density cos / pi around the shading normal. `u` in [0, 1 - 2^-24]^2.
+fn diffuse_direction(ns: vec3f, u: vec2f) -> vec3f {
+    let sc = sincos_2pi(u.y) * sqrt(u.x);
+    // u.x < 1, so the direction is at least 2^-12 above the surface.
+    let wi = vec3f(sc.y, sc.x, sqrt(1.0 - u.x));
+    return vector_unit(basis_world_from_local(basis_around(ns), wi));
+}
+
+// Samples `wi`; `u` in [0, 1 - 2^-24]^2.
+fn diffuse_sample(s: Scatter, u: vec2f) -> Scattered {
+    let wi = diffuse_direction(s.ns, u);
+    if (!scatter_above(s, wi)) {
+        return scatter_absorb();
+    }
+    return Scattered(wi, diffuse_pdf(s, wi), s.color, 1.0);
+}
+
+// f |cos|.
+fn diffuse_eval(s: Scatter, wi: vec3f) -> vec3f {
+    if (!scatter_above(s, wi)) {
+        return vec3f(0.0);
+    }
+    return s.color * (dot(s.ns, wi) * INV_PI);
+}
+
+// Density of `diffuse_sample`, per steradian of `wi`.
+fn diffuse_pdf(s: Scatter, wi: vec3f) -> f32 {
+    return max(dot(s.ns, wi), 0.0) * INV_PI;
+}

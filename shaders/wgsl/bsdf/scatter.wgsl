@@ -1,0 +1,70 @@
+// What a scattering model needs of a surface point, read once per vertex, and what it answers.
+
+#import "abi/material.wgsl"
+#import "math/vector.wgsl"
+#import "scene/constants.wgsl"
+#import "scene/texture.wgsl"
+#import "surface/surface.wgsl"
+
+// World frame; colours linear Rec. 709.
+struct Scatter {
+    // Geometric and shading normal, unit, on the side of `wo`.
+    ng: vec3f,
+    ns: vec3f,
+    // Reflectance or base colour, textures applied.
+    color: vec3f,
+    // `MaterialKind`.
+    kind: u32,
+    fuzz: f32,
+    // Principled: perceptual roughness and metallic weight, textures applied.
+    roughness: f32,
+    metallic: f32,
+    // Refractive index of the inside over the outside, and the same less one.
+    ior: f32,
+    ior_minus_1: f32,
+    // The path comes from the front side.
+    front: bool,
+}
+
+// A sampled direction. `weight` is f |cos| / pdf; 0 ends the path.
+struct Scattered {
+    // Unit, world frame.
+    wi: vec3f,
+    // Density of `wi` per steradian over all lobes; 0 marks a delta lobe.
+    pdf: f32,
+    weight: vec3f,
+    // Square of the refractive index behind the surface over the one before it; 1 for reflection.
+    eta2: f32,
+}
+
+// The parameters of material `m` at `s`.
+fn scatter_at(m: Material, s: Surface) -> Scatter {
+    let color = m.color * texture_fetch(m.color_texture, s.uv).xyz;
+    let mr = texture_fetch(m.metallic_roughness_texture, s.uv);
+    return Scatter(
+        s.ng, s.ns, color, m.kind, m.fuzz,
+        m.roughness * mr.y, m.metallic * mr.z,
+        m.ior, m.ior_minus_1, s.front,
+    );
+}
+
+// No direction: the path ends here.
+fn scatter_absorb() -> Scattered {
+    return Scattered(vec3f(0.0, 0.0, 1.0), 0.0, vec3f(0.0), 1.0);
+}
+
+// Whether reflection into `wi` is possible: above both the shading and the geometric surface. Without
+// the second test smooth normals would let light through closed meshes.
+fn scatter_above(s: Scatter, wi: vec3f) -> bool {
+    return dot(wi, s.ns) > 0.0 && dot(wi, s.ng) > 0.0;
+}
+
+// `wo` mirrored at the shading normal, or at the geometric normal where the former would go below the
+// surface: so a mirror with smooth normals loses no energy. Unit.
+fn scatter_mirror(s: Scatter, wo: vec3f) -> vec3f {
+    let r = s.ns * (2.0 * dot(s.ns, wo)) - wo;
+    if (dot(r, s.ng) > 0.0) {
+        return vector_unit(r);
+    }
+    return vector_unit(s.ng * (2.0 * dot(s.ng, wo)) - wo);
+}

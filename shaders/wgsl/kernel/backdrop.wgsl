@@ -1,0 +1,29 @@
+// The kernel of a scene without geometry: every camera ray sees the sky.
+
+#import "abi/film.wgsl"
+#import "camera/film_plane.wgsl"
+#import "kernel/film.wgsl"
+#import "sampler/pcg.wgsl"
+#import "scene/dispatch.wgsl"
+#import "scene/records.wgsl"
+
+@compute @workgroup_size(8, 8, 1)
+fn render(@builtin(global_invocation_id) gid: vec3<u32>) {
+    let frame = load_frame();
+    let pixel = frame.tile_origin + gid.xy;
+    if (any(gid.xy >= frame.tile_size) || any(pixel >= frame.image_size)) {
+        return;
+    }
+    var film = film_empty();
+    var sample = frame.sample_first;
+    let end = frame.sample_first + frame.sample_count;
+    loop {
+        if (sample == end) { break; }
+        let key = sample_key(pixel, sample, frame.seed);
+        let ray = dispatch_camera(key, vec2f(pixel) + sample_2d(key, PURPOSE_PIXEL));
+        film_add(&film, dispatch_sky(ray.dir), sample, 1u);
+        film.rays += 1u;
+        sample += 1u;
+    }
+    film_store(gid.y * frame.tile_size.x + gid.x, film);
+}

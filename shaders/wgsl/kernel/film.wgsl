@@ -1,0 +1,27 @@
+// Sums of one pixel over the samples of a dispatch.
+
+#import "abi/film.wgsl"
+
+// No sample yet.
+fn film_empty() -> FilmPixel {
+    return FilmPixel(vec3f(0.0), 0u, 0u, 0u, 0u, 0u);
+}
+
+// Adds sample number `sample`. A sample that is not finite adds 0, still counts, and is remembered: leaving
+// it out of the count would weigh the rest more.
+fn film_add(film: ptr<function, FilmPixel>, radiance: vec3f, sample: u32, segments: u32) {
+    if (film_finite(radiance.x) && film_finite(radiance.y) && film_finite(radiance.z)) {
+        (*film).sum += radiance;
+    } else {
+        if ((*film).bad == 0u) {
+            (*film).first_bad = sample;
+        }
+        (*film).bad += 1u;
+    }
+    (*film).depth = max((*film).depth, segments);
+}
+
+// By the bits: a compiler may assume that no number is infinite and fold a comparison away.
+fn film_finite(x: f32) -> bool {
+    return (bitcast<u32>(x) & 0x7f800000u) != 0x7f800000u;
+}

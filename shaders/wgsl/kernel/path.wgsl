@@ -1,0 +1,47 @@
+// The state of one path between two rays, and how a ray's answer moves it on.
+// A vertex may leave two rays to trace: the shadow ray to the sampled light, then the next segment. Both
+// go through the same call of `trace`, one a turn of the kernel's loop.
+
+#import "camera/film_plane.wgsl"
+#import "kernel/vertex.wgsl"
+#import "kernel/state.wgsl"
+#import "sampler/pcg.wgsl"
+#import "scene/constants.wgsl"
+#import "scene/dispatch.wgsl"
+#import "trace/ray.wgsl"
+
+// The camera path of `key` through `pixel`.
+fn path_begin(key: SampleKey, pixel: vec2u) -> Path {
+    let at = vec2f(pixel) + sample_2d(key, PURPOSE_PIXEL);
+    return state_at_camera(key, dispatch_camera(key, at));
+}
+
+// The ray to trace next.
+fn path_ray(path: Path) -> Ray {
+    let shadow = path.shadow_light != NONE;
+    let dir = select(path.dir, path.shadow_dir, shadow);
+    return Ray(state_origin(path.point, path.gap, dir), select(RAY_FAR, path.shadow_t, shadow), dir, path.skip, path.shadow_light);
+}
+
+// Whether there is no ray left.
+fn path_ended(path: Path) -> bool {
+    return !path.open && path.shadow_light == NONE;
+}
+
+// Moves the path on by what its ray has hit.
+fn path_advance(path: ptr<function, Path>, hit: Hit) {
+    if ((*path).shadow_light != NONE) {
+        if (hit.prim == NONE) {
+            (*path).radiance += (*path).shadow_radiance;
+        }
+        (*path).shadow_light = NONE;
+        return;
+    }
+    (*path).segments += 1u;
+    if (hit.prim == NONE) {
+        (*path).radiance += (*path).throughput * dispatch_sky((*path).dir);
+        (*path).open = false;
+        return;
+    }
+    vertex_scatter(path, hit);
+}

@@ -1,0 +1,33 @@
+// The path tracer: one thread renders one pixel of a tile, sample after sample. When a path ends its
+// thread begins the next one at once, so that lanes do not wait for the longest path.
+
+#import "abi/film.wgsl"
+#import "kernel/film.wgsl"
+#import "kernel/path.wgsl"
+#import "kernel/state.wgsl"
+#import "sampler/pcg.wgsl"
+#import "scene/records.wgsl"
+#import "trace/bvh.wgsl"
+
+@compute @workgroup_size(8, 8, 1)
+fn render(@builtin(global_invocation_id) gid: vec3<u32>) {
+    let frame = load_frame();
+    let pixel = frame.tile_origin + gid.xy;
+    if (any(gid.xy >= frame.tile_size) || any(pixel >= frame.image_size) || frame.sample_count == 0u) {
+        return;
+    }
+    let end = frame.sample_first + frame.sample_count;
+    var film = film_empty();
+    var path = path_begin(sample_key(pixel, frame.sample_first, frame.seed), pixel);
+    loop {
+        film.rays += 1u;
+        path_advance(&path, trace(path_ray(path)));
+        if (path_ended(path)) {
+            let sample = path.key.sample;
+            film_add(&film, path.radiance, sample, path.segments);
+            if (sample + 1u == end) { break; }
+            path = path_begin(sample_key(pixel, sample + 1u, frame.seed), pixel);
+        }
+    }
+    film_store(gid.y * frame.tile_size.x + gid.x, film);
+}

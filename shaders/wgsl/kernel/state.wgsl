@@ -1,0 +1,51 @@
+// What a path remembers between two rays. World frame, normalised units.
+
+#import "camera/film_plane.wgsl"
+#import "sampler/pcg.wgsl"
+#import "scene/constants.wgsl"
+
+struct Path {
+    // Which random numbers; `bounce` counts the vertices so far.
+    key: SampleKey,
+    // Radiance found so far.
+    radiance: vec3f,
+    // Segments traced.
+    segments: u32,
+    // Product of f |cos| / pdf over the vertices, roulette included.
+    throughput: vec3f,
+    // Product of eta^2: what refraction has taken from `throughput` for good until the path comes out again.
+    // Roulette must not mistake it for absorption.
+    eta_scale: f32,
+    // Last vertex: on its surface, or the camera.
+    point: vec3f,
+    // Density per steradian with which `dir` was sampled; 0 for the camera and for delta lobes.
+    pdf: f32,
+    // Next segment, unit. Meaningful while `open`.
+    dir: vec3f,
+    // Primitive of `point`, as in `Hit::prim`, or `NONE`.
+    skip: u32,
+    // Offset of a ray's start from `point`, on one side of the surface; the other side is its negative.
+    gap: vec3f,
+    // There is a next segment.
+    open: bool,
+    // The shadow ray to trace before it: unit direction, length, light (`NONE`: no shadow ray), and the
+    // radiance that it brings if nothing is in between.
+    shadow_dir: vec3f,
+    shadow_t: f32,
+    shadow_radiance: vec3f,
+    shadow_light: u32,
+}
+
+// A path that is about to leave the camera along `ray`.
+fn state_at_camera(key: SampleKey, ray: CameraRay) -> Path {
+    return Path(
+        key, vec3f(0.0), 0u, vec3f(1.0), 1.0,
+        ray.origin, 0.0, ray.dir, NONE, vec3f(0.0), true,
+        ray.dir, 0.0, vec3f(0.0), NONE,
+    );
+}
+
+// Where a ray along `dir` starts: off the surface, on the side that it goes to.
+fn state_origin(point: vec3f, gap: vec3f, dir: vec3f) -> vec3f {
+    return point + select(gap, -gap, dot(gap, dir) < 0.0);
+}

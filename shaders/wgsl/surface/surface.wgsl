@@ -1,0 +1,49 @@
+// The point where a path meets a surface. World frame, normalised units.
+
+#import "math/vector.wgsl"
+#import "scene/constants.wgsl"
+
+struct Surface {
+    // On the surface, from its own parametrisation and not from `origin + t dir`.
+    p: vec3f,
+    // Geometric normal, unit, on the side that the ray came from.
+    ng: vec3f,
+    // Shading normal, unit; dot(ns, ng) > 0 and dot(ns, wo) >= 0.
+    ns: vec3f,
+    uv: vec2f,
+    // How far a ray that leaves must start from `p`, along `ng` or against it.
+    gap: f32,
+    // Index of the `Material`.
+    material: u32,
+    // Index of the `Light`, or `NONE`.
+    light: u32,
+    // The ray came from the front side: outside of a sphere, counter-clockwise triangle.
+    front: bool,
+}
+
+// A flat surface at `p` with unit normal `out` of its front side, seen along `dir`. `reach`: the
+// largest coordinate that went into `p`. Normals are turned to the ray, so every surface is two-sided;
+// what depends on the side reads `front`.
+fn surface_new(p: vec3f, out: vec3f, dir: vec3f, reach: f32) -> Surface {
+    let front = dot(out, dir) <= 0.0;
+    let ng = select(-out, out, front);
+    // 16 ulp of the largest coordinate: measured to lose no neighbour and to hit no own primitive for
+    // triangles of any size and distance, down to grazing cosines of 1e-4, where the source is skipped.
+    let gap = 9.5367432e-7 * reach; // 16 * 2^-24
+    return Surface(p, ng, ng, vec2f(0.0), gap, 0u, NONE, front);
+}
+
+// A shading normal that can be used with `ng` (faces the ray) for a ray along `dir`, from an
+// interpolated unit normal `n` on any side.
+// First `n` is turned to the side of `ng`. Near silhouettes it may still face away from the ray, which
+// would make every model black; it is then bent towards the ray by the least amount that lifts its
+// cosine to 1e-3, or to that of `ng` if that is less: so a flat surface is never changed.
+fn surface_shading_normal(ng: vec3f, n: vec3f, dir: vec3f) -> vec3f {
+    let ns = select(-n, n, dot(n, ng) >= 0.0);
+    let lift = min(1e-3, -dot(ng, dir)) + dot(ns, dir);
+    if (lift <= 0.0) {
+        return ns;
+    }
+    // dot(ns - lift dir, -dir) is the wanted cosine, and its dot with ng only grows: not the zero vector.
+    return vector_unit_or(ns - dir * lift, ng);
+}

@@ -1,0 +1,51 @@
+// Bilinear lookup of an image. Row 0 of the texels is the top of the image, v = 1; texel centres are at
+// half integers.
+
+#import "abi/texture.wgsl"
+#import "scene/constants.wgsl"
+#import "scene/records.wgsl"
+#import "scene/texel.wgsl"
+
+// Linear red, green, blue and alpha of texture `i` at `uv`.
+fn bilinear_fetch(i: u32, uv: vec2f) -> vec4f {
+    let image = load_texture(i);
+    let x = bilinear_unit(uv.x, image.wrap_u) * f32(image.width) - 0.5;
+    let y = bilinear_unit(1.0 - uv.y, image.wrap_v) * f32(image.height) - 0.5;
+    let x0 = floor(x);
+    let y0 = floor(y);
+    let fx = x - x0;
+    let fy = y - y0;
+    let left = bilinear_index(i32(x0), image.width, image.wrap_u);
+    let right = bilinear_index(i32(x0) + 1, image.width, image.wrap_u);
+    let top = bilinear_index(i32(y0), image.height, image.wrap_v) * image.width;
+    let bottom = bilinear_index(i32(y0) + 1, image.height, image.wrap_v) * image.width;
+    let a = texel_decode(image, top + left) * (1.0 - fx) + texel_decode(image, top + right) * fx;
+    let b = texel_decode(image, bottom + left) * (1.0 - fx) + texel_decode(image, bottom + right) * fx;
+    return a * (1.0 - fy) + b * fy;
+}
+
+// Coordinate `u` brought into 0 ..= 1. The subtractions are exact, so large coordinates lose no more
+// than they have lost already.
+fn bilinear_unit(u: f32, wrap: u32) -> f32 {
+    if (wrap == WRAP_REPEAT) {
+        return u - floor(u);
+    }
+    if (wrap == WRAP_MIRROR) {
+        let m = u - 2.0 * floor(0.5 * u);
+        return select(m, 2.0 - m, m > 1.0);
+    }
+    return clamp(u, 0.0, 1.0);
+}
+
+// Texel index of `i` in -1 ..= n: the neighbour across the edge. A mirrored edge repeats its texel, as a
+// clamped one does.
+fn bilinear_index(i: i32, n: u32, wrap: u32) -> u32 {
+    let last = i32(n) - 1;
+    if (wrap == WRAP_REPEAT) {
+        if (i < 0) {
+            return u32(last);
+        }
+        return select(u32(i), 0u, i > last);
+    }
+    return u32(clamp(i, 0, last));
+}

@@ -1,0 +1,28 @@
+// A leaf of spheres.
+
+#import "abi/sphere.wgsl"
+#import "scene/candidate.wgsl"
+#import "scene/records.wgsl"
+#import "shape/sphere.wgsl"
+#import "trace/ray.wgsl"
+
+// The better of `best` and the hits of spheres `first .. first + count`.
+fn spheres_trace(first: u32, count: u32, ray: Ray, best: Hit) -> Hit {
+    var hit = best;
+    var i = first;
+    let end = first + count;
+    loop {
+        if (i == end) { break; }
+        let prim = i | PRIM_SPHERE;
+        let sphere = load_sphere(i);
+        let t = sphere_intersect(sphere, ray.origin, ray.dir, prim == ray.skip);
+        // The far end counts where the near end is behind the ray, or not there.
+        if (ray_accepts(hit, t.x, prim) && candidate_sphere(sphere, ray, t.x)) {
+            hit = Hit(t.x, prim, vec2f(0.0));
+        } else if (ray_accepts(hit, t.y, prim) && candidate_sphere(sphere, ray, t.y)) {
+            hit = Hit(t.y, prim, vec2f(0.0));
+        }
+        i += 1u;
+    }
+    return hit;
+}

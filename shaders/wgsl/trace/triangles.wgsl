@@ -1,0 +1,23 @@
+// A leaf of triangles.
+
+#import "abi/triangle.wgsl"
+#import "scene/candidate.wgsl"
+#import "scene/records.wgsl"
+#import "shape/triangle.wgsl"
+#import "trace/ray.wgsl"
+
+// The better of `best` and the hits of triangles `first .. first + count`.
+fn triangles_trace(first: u32, count: u32, ray: Ray, shear: TriangleShear, best: Hit) -> Hit {
+    var hit = best;
+    var i = first;
+    let end = first + count;
+    loop {
+        if (i == end) { break; }
+        let h = triangle_intersect(load_triangle(i), ray.origin, shear);
+        if (ray_accepts(hit, h.x, i) && i != ray.skip && candidate_triangle(i, h.yz, ray.light)) {
+            hit = Hit(h.x, i, h.yz);
+        }
+        i += 1u;
+    }
+    return hit;
+}
