@@ -14,7 +14,8 @@ use rayon::prelude::*;
 
 use crate::abi::TextureFormat;
 use crate::contents::Contents;
-use crate::error::{ElementFault, HeaderFault, PackError, Place};
+use crate::error::{PackError, Place};
+use crate::fault::{ElementFault, HeaderFault};
 use crate::features;
 use crate::kind::{Kind, PackRecord};
 use rules::{Broken, Ruled};

@@ -31,7 +31,8 @@ pub fn describe(pack: &Pack<Checked>) -> Vec<SectionRow> {
             count: section.count,
             elem_size: section.elem_size,
             bytes: section.bytes.len() as u64,
-            hash: section.hash.iter().map(|byte| format!("{byte:02x}")).collect(),
+            // Read as one big-endian number, the digits come in the order of the bytes.
+            hash: format!("{:032x}", u128::from_be_bytes(section.hash)),
         })
         .collect()
 }

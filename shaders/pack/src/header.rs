@@ -15,8 +15,11 @@ pub const FORMAT_MAJOR: u16 = 1;
 pub const FORMAT_MINOR: u16 = 0;
 
 pub(crate) const ENDIAN_TAG: u32 = 0x0102_0304;
-pub(crate) const HEADER_LEN: usize = 128;
-pub(crate) const ENTRY_LEN: usize = 64;
+/// The same two lengths as the header stores them.
+pub(crate) const HEADER_BYTES: u32 = 128;
+pub(crate) const ENTRY_BYTES: u32 = 64;
+pub(crate) const HEADER_LEN: usize = HEADER_BYTES as usize;
+pub(crate) const ENTRY_LEN: usize = ENTRY_BYTES as usize;
 /// Sections start at multiples of this, so that they can be mapped, advised and uploaded alone.
 pub(crate) const ALIGN: u64 = 4096;
 pub(crate) const MAX_SECTIONS: u32 = 256;
@@ -24,6 +27,7 @@ pub(crate) const MAX_SECTIONS: u32 = 256;
 pub(crate) const FLAG_MUST_UNDERSTAND: u32 = 1;
 
 /// The first 128 bytes.
+#[expect(clippy::struct_field_names, reason = "`header_len` is what the format calls it")]
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
 pub(crate) struct Header {
@@ -80,9 +84,9 @@ fn layout_listing() -> String {
         (abi::RenderSettings::NAME, abi::RenderSettings::FIELDS, size_of::<abi::RenderSettings>());
     let mut text = String::new();
     for (name, fields, size) in abi::records().into_iter().chain([render]) {
-        text += &format!("{name} {size}\n");
+        text.extend([name, " ", &size.to_string(), "\n"]);
         for Field { name, ty, offset } in fields {
-            text += &format!("  {offset} {name} {}\n", ty.wgsl());
+            text.extend(["  ", &offset.to_string(), " ", name, " ", ty.wgsl(), "\n"]);
         }
     }
     text

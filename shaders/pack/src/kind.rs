@@ -90,6 +90,7 @@ pub struct SectionSpec {
 }
 
 const fn table(kind: Kind, elem_size: usize, max_count: u64) -> SectionSpec {
+    #[expect(clippy::cast_possible_truncation, reason = "records are below 200 bytes")]
     let elem_size = elem_size as u32;
     SectionSpec {
         kind,
@@ -112,7 +113,7 @@ const MAX_PRIMITIVES: u64 = 1 << 27;
 /// Most bytes of a kernel: a hundred times what the largest scene links today.
 pub(crate) const MAX_KERNEL: u64 = 4 << 20;
 /// Most bytes of a manifest.
-pub(crate) const MAX_META: u64 = 16 << 20;
+pub(crate) const MAX_META: usize = 16 << 20;
 /// 16-byte words of the sRGB table: 256 values of 4 bytes.
 pub(crate) const SRGB_WORDS: u64 = 64;
 
@@ -133,7 +134,7 @@ pub const SECTIONS: [SectionSpec; 14] = [
     table(Kind::TEXEL, 16, 1 << 32),
     SectionSpec { min_count: SRGB_WORDS, ..table(Kind::SRGBLUT, 16, SRGB_WORDS) },
     SectionSpec { required: true, ..table(Kind::KERNEL, 1, MAX_KERNEL) },
-    SectionSpec { must_understand: false, ..table(Kind::META, 1, MAX_META) },
+    SectionSpec { must_understand: false, ..table(Kind::META, 1, MAX_META as u64) },
 ];
 
 /// A record that has a section of its own.

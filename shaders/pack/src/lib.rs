@@ -27,6 +27,7 @@ mod check;
 mod contents;
 mod describe;
 mod error;
+mod fault;
 pub mod features;
 mod header;
 mod kind;
@@ -37,7 +38,8 @@ mod table;
 mod writer;
 
 pub use describe::{SectionRow, describe};
-pub use error::{BvhFault, ElementFault, HeaderFault, PackError, Place, SectionFault};
+pub use error::{PackError, Place};
+pub use fault::{BvhFault, ElementFault, HeaderFault, SectionFault};
 pub use header::{FORMAT_MAJOR, FORMAT_MINOR, MAGIC, layout_id};
 pub use kind::{Kind, PackRecord, SECTIONS, SectionSpec};
 pub use manifest::Manifest;

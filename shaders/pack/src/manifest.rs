@@ -81,7 +81,7 @@ impl Manifest {
         }
         let bytes = bincode::serde::encode_to_vec(&manifest, config())
             .map_err(|error| PackError::Manifest(error.to_string()))?;
-        if bytes.len() as u64 > MAX_META {
+        if bytes.len() > MAX_META {
             let text = format!("{} bytes, at most {MAX_META} are allowed", bytes.len());
             return Err(PackError::Manifest(text));
         }
@@ -121,7 +121,7 @@ impl Manifest {
 }
 
 fn config() -> impl bincode::config::Config {
-    bincode::config::standard().with_limit::<{ MAX_META as usize }>()
+    bincode::config::standard().with_limit::<MAX_META>()
 }
 
 /// A list of at most [`MAX_LIST`] elements.

@@ -5,7 +5,8 @@
 //! before it ended, padding, completeness. Afterwards every section lies inside the file, aligned,
 //! without holes, and holds a whole number of elements. It does not know what records mean.
 
-use crate::error::{HeaderFault, PackError, SectionFault};
+use crate::error::PackError;
+use crate::fault::{HeaderFault, SectionFault};
 use crate::features;
 use crate::header::{
     ENDIAN_TAG, ENTRY_LEN, Entry, FLAG_MUST_UNDERSTAND, FORMAT_MAJOR, FORMAT_MINOR, HEADER_LEN,
@@ -201,7 +202,8 @@ fn unknown_entry_fault(entry: &Entry, before: &[Entry], header: &Header) -> Opti
     if entry.flags & FLAG_MUST_UNDERSTAND != 0 {
         return Some(SectionFault::Unknown);
     }
-    if header.minor <= FORMAT_MINOR {
+    let is_newer = header.minor.saturating_sub(FORMAT_MINOR) > 0;
+    if !is_newer {
         return Some(SectionFault::NotInFormat { major: header.major, minor: header.minor });
     }
     if entry.flags != 0 {

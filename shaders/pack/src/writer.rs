@@ -13,10 +13,11 @@ use rayon::prelude::*;
 
 use crate::abi::RenderSettings;
 use crate::contents::Contents;
-use crate::error::{PackError, SectionFault};
+use crate::error::PackError;
+use crate::fault::SectionFault;
 use crate::header::{
-    ALIGN, ENDIAN_TAG, ENTRY_LEN, Entry, FLAG_MUST_UNDERSTAND, FORMAT_MAJOR, FORMAT_MINOR,
-    HEADER_LEN, Header, MAGIC, align_up, layout_id, render_id, section_hash,
+    ENDIAN_TAG, ENTRY_BYTES, ENTRY_LEN, Entry, FLAG_MUST_UNDERSTAND, FORMAT_MAJOR, FORMAT_MINOR,
+    HEADER_BYTES, HEADER_LEN, Header, MAGIC, align_up, layout_id, render_id, section_hash,
 };
 use crate::kind::{Kind, PackRecord, SectionSpec};
 use crate::manifest::Manifest;
@@ -133,22 +134,22 @@ impl<'a> PackWriter<'a> {
     /// Sorts, checks, hashes and places the sections.
     fn plan(&self) -> Result<Plan<'_>, PackError> {
         let mut sections = Vec::with_capacity(self.sections.len());
-        for (kind, payload) in &self.sections {
+        for (index, (kind, payload)) in (0..).zip(&self.sections) {
             let spec = kind.spec().ok_or_else(|| {
                 let (major, minor) = (FORMAT_MAJOR, FORMAT_MINOR);
-                fault(*kind, SectionFault::NotInFormat { major, minor })
+                fault(*kind, index, SectionFault::NotInFormat { major, minor })
             })?;
             sections.push((spec, payload.as_slice()));
         }
         let order = |spec: &SectionSpec| crate::SECTIONS.iter().position(|s| s.kind == spec.kind);
         sections.sort_by_key(|(spec, _)| order(spec));
-        for pair in sections.windows(2) {
+        for (index, pair) in (1..).zip(sections.windows(2)) {
             if pair[0].0.kind == pair[1].0.kind {
-                return Err(fault(pair[0].0.kind, SectionFault::Twice));
+                return Err(fault(pair[1].0.kind, index, SectionFault::Twice));
             }
         }
-        for (spec, bytes) in &sections {
-            check_size(spec, bytes)?;
+        for (index, (spec, bytes)) in (0..).zip(&sections) {
+            check_size(index, spec, bytes)?;
         }
         let find = |kind| sections.iter().find(|(spec, _)| spec.kind == kind).map(|found| found.1);
         let contents = Contents::new(find)?;
@@ -158,24 +159,27 @@ impl<'a> PackWriter<'a> {
     }
 }
 
-fn fault(kind: Kind, fault: SectionFault) -> PackError {
-    PackError::Section { kind, index: 0, fault }
+fn fault(kind: Kind, index: u32, fault: SectionFault) -> PackError {
+    PackError::Section { kind, index, fault }
 }
 
-fn check_size(spec: &SectionSpec, bytes: &[u8]) -> Result<(), PackError> {
+fn check_size(index: u32, spec: &SectionSpec, bytes: &[u8]) -> Result<(), PackError> {
     let length = bytes.len() as u64;
     let size = u64::from(spec.elem_size);
     let count = length / size;
-    if length % size != 0 {
+    if !length.is_multiple_of(size) {
         let size = spec.elem_size;
-        return Err(fault(spec.kind, SectionFault::Length { found: length, count, size }));
+        return Err(fault(spec.kind, index, SectionFault::Length { found: length, count, size }));
     }
     if !(spec.min_count..=spec.max_count).contains(&count) {
         let (min, max) = (spec.min_count, spec.max_count);
-        return Err(fault(spec.kind, SectionFault::Count { found: count, min, max }));
+        return Err(fault(spec.kind, index, SectionFault::Count { found: count, min, max }));
     }
     Ok(())
 }
+
+/// Padding between two sections is shorter than a page.
+const ZEROS: [u8; 4096] = [0; 4096];
 
 /// A file that only needs to be written down.
 struct Plan<'a> {
@@ -216,8 +220,8 @@ impl<'a> Plan<'a> {
             major: FORMAT_MAJOR,
             minor: FORMAT_MINOR,
             endian: ENDIAN_TAG,
-            header_len: HEADER_LEN as u32,
-            entry_len: ENTRY_LEN as u32,
+            header_len: HEADER_BYTES,
+            entry_len: ENTRY_BYTES,
             table_off: HEADER_LEN as u64,
             section_count,
             features,
@@ -236,7 +240,7 @@ impl<'a> Plan<'a> {
         let mut end = (HEADER_LEN + self.entries.len() * ENTRY_LEN) as u64;
         for (entry, bytes) in self.entries.iter().zip(&self.payloads) {
             let gap = usize::try_from(entry.offset - end).expect("a gap is shorter than a page");
-            out.write_all(&[0; ALIGN as usize][..gap])?;
+            out.write_all(&ZEROS[..gap])?;
             out.write_all(bytes)?;
             end = entry.offset + entry.length;
         }

@@ -95,6 +95,7 @@ macro_rules! abi_struct {
     ($(#[$meta:meta])* pub struct $name:ident { $($(#[$fmeta:meta])* pub $field:ident: $ty:ty,)* }) => {
         $(#[$meta])*
         #[repr(C)]
+        #[allow(clippy::pub_underscore_fields, reason = "padding is part of the layout")]
         #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
         pub struct $name { $($(#[$fmeta])* pub $field: $ty,)* }
 

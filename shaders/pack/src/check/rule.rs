@@ -3,7 +3,7 @@
 //! Turns a value into `None` or the fault. No rule knows which record it is used for.
 
 use crate::abi::{NONE, f64_from_bits};
-use crate::error::ElementFault;
+use crate::fault::ElementFault;
 
 type Fault = Option<ElementFault>;
 
@@ -38,7 +38,7 @@ fn range(value: impl Lanes, expected: &'static str, inside: impl Fn(f32) -> bool
 
 /// Finite and not negative: colours, radiances, lengths that may be 0.
 pub(super) fn not_negative(value: impl Lanes) -> Fault {
-    range(value, "a finite number, 0 or more", |lane| lane >= 0.0 && lane < f32::INFINITY)
+    range(value, "a finite number, 0 or more", |lane| (0.0..f32::INFINITY).contains(&lane))
 }
 
 /// Finite and greater than 0.
@@ -58,7 +58,7 @@ pub(super) fn probability(value: impl Lanes) -> Fault {
 
 /// A refractive index.
 pub(super) fn refractive(value: impl Lanes) -> Fault {
-    range(value, "a finite number, 1 or more", |lane| lane >= 1.0 && lane < f32::INFINITY)
+    range(value, "a finite number, 1 or more", |lane| (1.0..f32::INFINITY).contains(&lane))
 }
 
 /// A direction of length 1, up to rounding and the three decimals of a careless source.

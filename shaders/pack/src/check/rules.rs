@@ -8,7 +8,7 @@ use crate::abi::{
     Texture, TextureFormat, ToneMap, TriShade, Triangle, Wrap, material_flag,
 };
 use crate::contents::Contents;
-use crate::error::ElementFault;
+use crate::fault::ElementFault;
 use crate::kind::{Kind, PackRecord};
 
 use super::rule::{

@@ -8,7 +8,8 @@ use rayon::prelude::*;
 
 use crate::abi::{Texture, TextureFormat};
 use crate::contents::Contents;
-use crate::error::{ElementFault, PackError, Place};
+use crate::error::{PackError, Place};
+use crate::fault::ElementFault;
 use crate::kind::Kind;
 
 use super::CHUNK;

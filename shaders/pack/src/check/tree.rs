@@ -9,7 +9,8 @@ use rayon::prelude::*;
 use crate::abi::{ChildRef, MAX_STACK, Node};
 use crate::bvh;
 use crate::contents::Contents;
-use crate::error::{BvhFault, PackError, Place};
+use crate::error::{PackError, Place};
+use crate::fault::BvhFault;
 use crate::kind::Kind;
 
 use super::rules::Ruled;
@@ -30,14 +31,15 @@ impl Taken {
         Self(vec![0; len.div_ceil(64)], len)
     }
 
-    /// Marks `first..first + count`, at most 64 elements, all inside; false when one was marked.
+    /// Marks `first..first + count`, 1 to 64 elements, all inside; false when one was marked.
     fn take(&mut self, first: usize, count: usize) -> bool {
         let (word, bit) = (first / 64, first % 64);
-        let mask = (u128::MAX >> (128 - count)) << bit;
-        let (low, high) = (mask as u64, (mask >> 64) as u64);
+        let mask = u64::MAX >> (64 - count);
+        let low = mask << bit;
         let mut free = self.0[word] & low == 0;
         self.0[word] |= low;
-        if high != 0 {
+        if bit + count > 64 {
+            let high = mask >> (64 - bit);
             free &= self.0[word + 1] & high == 0;
             self.0[word + 1] |= high;
         }
@@ -103,8 +105,9 @@ impl Walk<'_> {
                 Ok(())
             }
             ChildRef::Inner(_) => Err(BvhFault::Root { found: word }),
-            ChildRef::Triangles { first, count } => self.leaf("root", word, first, count),
-            ChildRef::Spheres { first, count } => self.leaf("root", word, first, count),
+            ChildRef::Triangles { first, count } | ChildRef::Spheres { first, count } => {
+                self.leaf("root", word, first, count)
+            }
         }
     }
 

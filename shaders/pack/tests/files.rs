@@ -1,0 +1,311 @@
+//! Truncated, flipped, foreign and hostile files: one clear line or a sound pack, never a panic.
+
+mod common;
+
+use common::{Draft, Scene, get32, put32};
+use pack::abi::{
+    ChildRef, Light, LightKind, Material, NONE, Node, Sphere, Texture, TriShade, Triangle,
+};
+use pack::{Kind, MapMode, Pack, PackError};
+
+fn open(bytes: &[u8]) -> Result<Pack, PackError> {
+    Pack::from_bytes(bytes.to_vec())
+}
+
+/// One line, not empty, no trailing full stop.
+fn assert_clear(error: &PackError) {
+    let text = error.to_string();
+    assert!(!text.is_empty() && !text.contains('\n') && !text.ends_with('.'), "{text}");
+}
+
+#[test]
+fn every_truncation_is_refused() {
+    let bytes = Scene::full().bytes();
+    let mut lengths: Vec<usize> = (0..1100).collect();
+    for page in (0..bytes.len()).step_by(4096) {
+        lengths.extend([page.saturating_sub(1), page, page + 1]);
+    }
+    for (entry, section) in Draft::new(&bytes).sections {
+        let end = common::index64(&entry, 16) + section.len();
+        lengths.extend([end - 1, end, end + 1]);
+    }
+    for len in lengths.into_iter().filter(|len| *len < bytes.len()) {
+        assert_clear(&open(&bytes[..len]).expect_err("a truncated pack"));
+    }
+}
+
+#[test]
+fn appended_bytes_are_refused() {
+    let bytes = Scene::full().bytes();
+    for tail in [&[0][..], &[0; 4096], b"another file"] {
+        assert_clear(&open(&[&bytes, tail].concat()).expect_err("a pack with a tail"));
+    }
+}
+
+/// Whatever bit of header or table flips, the pack is refused or means the same.
+#[test]
+fn every_flipped_bit_of_header_and_table_is_refused_or_means_nothing() {
+    let bytes = Scene::full().bytes();
+    let original = open(&bytes).unwrap();
+    let end = 128 + 64 * get32(&bytes, 32) as usize;
+    let mut accepted = 0;
+    for bit in 0..end * 8 {
+        let mut flipped = bytes.clone();
+        flipped[bit / 8] ^= 1 << (bit % 8);
+        match open(&flipped) {
+            Err(error) => assert_clear(&error),
+            Ok(pack) => {
+                accepted += 1;
+                let byte = bit / 8;
+                let minor = (10..12).contains(&byte);
+                let recipe = (96..128).contains(&byte);
+                let meta_hash = (end - 16..end).contains(&byte);
+                assert!(minor || recipe || meta_hash, "bit {bit}");
+                assert_eq!(pack.render_id(), original.render_id());
+                for (new, old) in pack.sections().zip(original.sections()) {
+                    assert_eq!((new.kind, new.bytes), (old.kind, old.bytes));
+                }
+            }
+        }
+    }
+    // The minor version, the recipe, and the hash of a section that does not render.
+    assert_eq!(accepted, (2 + 32 + 16) * 8);
+}
+
+/// The relations that a kernel relies on, written a second time.
+fn assert_sound(pack: &Pack) {
+    let n_materials = pack.records::<Material>().len();
+    let n_lights = pack.records::<Light>().len();
+    let n_textures = pack.records::<Texture>().len();
+    let (n_triangles, n_spheres) =
+        (pack.records::<Triangle>().len(), pack.records::<Sphere>().len());
+    let or_none = |index: u32, count: usize| index == NONE || (index as usize) < count;
+    assert_eq!(pack.records::<TriShade>().len(), n_triangles);
+    for shade in pack.records::<TriShade>() {
+        assert!((shade.material as usize) < n_materials && or_none(shade.light, n_lights));
+    }
+    for sphere in pack.records::<Sphere>() {
+        assert!((sphere.material as usize) < n_materials && or_none(sphere.light, n_lights));
+        assert!(sphere.radius > 0.0 && sphere.center.iter().all(|x| x.is_finite()));
+    }
+    for light in pack.records::<Light>() {
+        let kind = LightKind::from_tag(light.kind).unwrap();
+        let count = if kind == LightKind::Sphere { n_spheres } else { n_triangles };
+        assert!((light.primitive as usize) < count && (light.material as usize) < n_materials);
+    }
+    for material in pack.records::<Material>() {
+        for id in [
+            material.color_texture,
+            material.emission_texture,
+            material.metallic_roughness_texture,
+            material.alpha_texture,
+        ] {
+            assert!(or_none(id, n_textures));
+        }
+    }
+    for texture in pack.records::<Texture>() {
+        let end = u64::from(texture.offset) + texture.words().unwrap();
+        assert!(end <= pack.texels().len() as u64);
+    }
+    assert_tree(pack, n_triangles, n_spheres);
+}
+
+/// Walks the tree with a stack of exactly the promised length and counts every primitive.
+fn assert_tree(pack: &Pack, n_triangles: usize, n_spheres: usize) {
+    let nodes = pack.records::<Node>();
+    let mut seen = (vec![0; nodes.len()], vec![0; n_triangles], vec![0; n_spheres]);
+    let mut stack = Vec::new();
+    let mut current = Some(pack.render().root);
+    while let Some(word) = current {
+        current = match ChildRef::decode(word) {
+            ChildRef::Inner(index) => {
+                seen.0[index as usize] += 1;
+                let node = &nodes[index as usize];
+                stack.push(node.right);
+                assert!(stack.len() <= pack.render().stack_need as usize);
+                Some(node.left)
+            }
+            ChildRef::Triangles { first, count } => {
+                (first..first + count).for_each(|index| seen.1[index as usize] += 1);
+                stack.pop()
+            }
+            ChildRef::Spheres { first, count } => {
+                (first..first + count).for_each(|index| seen.2[index as usize] += 1);
+                stack.pop()
+            }
+            ChildRef::Empty => None,
+        };
+    }
+    assert!([seen.0, seen.1, seen.2].concat().iter().all(|count| *count == 1));
+}
+
+/// A small generator, so that the test is the same everywhere (Steele et al. 2014, `SplitMix64`).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn below(&mut self, end: usize) -> usize {
+        usize::try_from(self.next() % end as u64).unwrap()
+    }
+}
+
+/// 10^4 packs with random changes inside the sections, hashes put right.
+#[test]
+fn accepted_packs_are_sound_whatever_bytes_change() {
+    let scene = Scene::full();
+    let original = Draft::new(&scene.bytes());
+    let mut random = Random(1);
+    let mut accepted = 0;
+    for _ in 0..10_000 {
+        let mut draft = original.clone();
+        for _ in 0..=random.below(3) {
+            let at = random.below(draft.sections.len());
+            let section = &mut draft.sections[at].1;
+            let at = random.below(section.len() / 4) * 4;
+            match random.below(4) {
+                0 => section[at + random.below(4)] ^= 1 << random.below(8),
+                1 => section[at + random.below(4)] = random.next().to_le_bytes()[0],
+                // Small numbers are plausible indices, counts and tags.
+                2 => put32(section, at, u32::try_from(random.below(12)).unwrap()),
+                _ => {
+                    let word = get32(section, at) ^ (1 << random.below(32));
+                    put32(section, at, word);
+                }
+            }
+        }
+        match Pack::from_bytes(draft.seal()) {
+            Ok(pack) => {
+                accepted += 1;
+                assert_sound(&pack);
+                drop(pack.manifest());
+                pack.verify_hashes().unwrap();
+            }
+            Err(error) => assert_clear(&error),
+        }
+    }
+    assert!((1000..9000).contains(&accepted), "{accepted} accepted: the test tests one side only");
+}
+
+/// Random bytes anywhere in the file, nothing put right.
+#[test]
+fn random_damage_never_panics() {
+    let bytes = Scene::full().bytes();
+    let mut random = Random(2);
+    for _ in 0..2_000 {
+        let mut damaged = bytes.clone();
+        for _ in 0..=random.below(8) {
+            let at =
+                if random.below(2) == 0 { random.below(1024) } else { random.below(bytes.len()) };
+            damaged[at] = random.next().to_le_bytes()[0];
+        }
+        match open(&damaged) {
+            Ok(pack) => assert_sound(&pack),
+            Err(error) => assert_clear(&error),
+        }
+    }
+}
+
+#[test]
+fn foreign_files_are_named_for_what_they_are() {
+    let source = "is this a scene source? compile it first: rtc X -o X.pack";
+    let long = format!("rts 1\n{}", "material clay = diffuse { color: srgb(0.8) }\n".repeat(90));
+    // Cut in the middle of a character after 128 bytes.
+    let split = format!("rts 1\n#{}ä and so on", "x".repeat(120));
+    let png = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR";
+    let cases: [(&[u8], &str); 10] = [
+        (b"rts 1", source),
+        (b"\xef\xbb\xbfrts 1\n", source),
+        (b"\n  rts 1\n", source),
+        (long.as_bytes(), source),
+        (split.as_bytes(), source),
+        (b"", "not a render pack: the first bytes are none, the file is empty"),
+        (png, "not a render pack: the first bytes are 89 50 4e 47 0d 0a 1a 0a"),
+        (b"glTF\x02", "not a render pack: the first bytes are 67 6c 54 46 02"),
+        (
+            b"rts\xff\xff\xff\xff\xff",
+            "not a render pack: the first bytes are 72 74 73 ff ff ff ff ff",
+        ),
+        (
+            b"\x09RTP\n\x1a\n",
+            "header: the first bytes were altered, perhaps by a transfer in text mode",
+        ),
+    ];
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("file");
+    for (bytes, expected) in cases {
+        assert_eq!(open(bytes).unwrap_err().to_string(), expected);
+        std::fs::write(&path, bytes).unwrap();
+        for mode in [MapMode::Map, MapMode::Read] {
+            assert_eq!(Pack::open(&path, mode).unwrap_err().to_string(), expected);
+        }
+    }
+}
+
+#[test]
+fn directories_are_not_packs() {
+    let dir = tempfile::tempdir().unwrap();
+    for mode in [MapMode::Map, MapMode::Read] {
+        let text = Pack::open(dir.path(), mode).unwrap_err().to_string();
+        // Windows refuses to open a directory at all.
+        assert!(text.ends_with(" is not a regular file") || text.starts_with("cannot open "));
+    }
+}
+
+/// The first 128 bytes of a pack of format 2, frozen here as they might be written one day.
+#[test]
+fn another_major_format_is_refused_politely() {
+    const FROZEN: [u8; 128] = {
+        let mut bytes = [0x5a; 128];
+        let start = [0x89, b'R', b'T', b'P', 0x0d, 0x0a, 0x1a, 0x0a, 2, 0, 7, 0, 4, 3, 2, 1];
+        let mut at = 0;
+        while at < start.len() {
+            bytes[at] = start[at];
+            at += 1;
+        }
+        bytes
+    };
+    let expected = "header: format 2, this program reads format 1: compile the scene again: \
+                    rtc X -o X.pack";
+    assert_eq!(open(&FROZEN).unwrap_err().to_string(), expected);
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("future.pack");
+    std::fs::write(&path, FROZEN).unwrap();
+    assert_eq!(Pack::open(&path, MapMode::Map).unwrap_err().to_string(), expected);
+}
+
+/// The error does not depend on how many threads looked for it.
+#[test]
+fn the_first_error_is_reported_on_any_number_of_threads() {
+    let mut scene = Scene::full();
+    let shade = scene.shades[0];
+    let triangle = scene.triangles[0];
+    scene.shades = vec![shade; 100_000];
+    scene.triangles = vec![triangle; 100_000];
+    for bad in [99_999, 70_000, 40_000] {
+        scene.shades[bad].material = 5;
+        scene.shades[bad].uv0[0] = f32::NAN;
+    }
+    for threads in [1, 4] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let error = pool.install(|| scene.writer().to_bytes().unwrap_err());
+        assert_eq!(
+            error.to_string(),
+            "TRISHADE[40000] at byte 0x1d4c0c: material is 5, but MATERIAL has 5 elements"
+        );
+    }
+}
+
+/// `Kind` prints whatever bytes a file holds.
+#[test]
+fn names_are_printed_safely() {
+    assert_eq!(Kind::SKY.to_string(), "SKY");
+    assert_eq!(Kind(*b"A\x1b[2J   ").to_string(), "A\\u{1b}[2J");
+    assert_eq!(Kind([0xff; 8]).to_string(), "0xffffffffffffffff");
+}
