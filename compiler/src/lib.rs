@@ -1,7 +1,13 @@
-//! (to be written)
+//! The compiler: a text scene becomes a render pack.
+//!
+//! Turns a checked `Scene` and the files it names into flat arrays, a BVH and a linked kernel. It
+//! keeps two promises: the same inputs give the same bytes, and what a scene does not need is not
+//! in its pack. It does not know wgpu.
 
 pub mod bvh;
 pub mod cache;
-pub mod normalize;
-pub mod weld;
 pub mod import;
+pub mod lower;
+pub mod normalize;
+pub mod report;
+pub mod weld;

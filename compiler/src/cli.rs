@@ -1,0 +1,134 @@
+//! The command line of `rtc`: words become a command, a command becomes an exit code.
+//!
+//! Exit codes: 0 done, 1 the scene is wrong, 2 the command line is wrong, 3 a file cannot be read
+//! or written, 70 a bug of ours.
+
+mod build;
+mod cache;
+mod explain;
+mod files;
+mod fmt;
+mod inspect;
+mod show;
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+use crate::report::{Color, ErrorFormat, Reporter};
+
+/// Done.
+pub const OK: u8 = 0;
+/// The scene has errors.
+pub const SCENE: u8 = 1;
+/// The command line has errors.
+pub const USAGE: u8 = 2;
+/// A file cannot be read or written.
+pub const IO: u8 = 3;
+/// A bug of ours.
+pub const BUG: u8 = 70;
+
+const EXAMPLES: &str = "\
+Examples:
+  rtc scene.rts -o scene.pack        compile a scene; then: rtr scene.pack
+  rtc check scene.rts                only look for errors
+  rtc scene.rts -D hour=7h           override a `param` of the scene
+  rtc fmt scene.rts                  tidy the text
+  rtc explain E0301                  what an error means, with an example
+  rtc show --resolved scene.rts      every value, defaults included
+  rtc inspect scene.pack             what is in a pack";
+
+/// Compiles a text scene into a render pack.
+#[derive(Debug, Parser)]
+#[command(name = "rtc", version, about, after_help = EXAMPLES, max_term_width = 100)]
+#[command(args_conflicts_with_subcommands = true, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    build: build::BuildArgs,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Compile a scene; the default command.
+    Build(build::BuildArgs),
+    /// Look for errors without writing anything.
+    Check(build::CheckArgs),
+    /// Tidy scene texts in place; comments and numbers stay as written.
+    Fmt(fmt::FmtArgs),
+    /// Explain an error code (`E0301`) or a kind (`material.diffuse`).
+    Explain(explain::ExplainArgs),
+    /// Print a scene as the compiler understands it.
+    Show(show::ShowArgs),
+    /// Print what a pack contains.
+    Inspect(inspect::InspectArgs),
+    /// Look at or clear the BVH cache.
+    Cache(cache::CacheArgs),
+}
+
+/// How to report; the same for every command that reads scenes.
+#[derive(Debug, Clone, Args)]
+struct ReportArgs {
+    /// How errors look.
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    error_format: ErrorFormat,
+    /// Colours on the terminal.
+    #[arg(long, value_enum, default_value_t, value_name = "WHEN")]
+    color: Color,
+    /// Errors shown in full; 0 shows all.
+    #[arg(long, default_value_t = 50, value_name = "N")]
+    max_errors: usize,
+}
+
+impl ReportArgs {
+    fn reporter(&self) -> Reporter {
+        let max = if self.max_errors == 0 { usize::MAX } else { self.max_errors };
+        Reporter::new(self.error_format, self.color, max)
+    }
+}
+
+/// A scene and the values that override its parameters.
+#[derive(Debug, Clone, Args)]
+struct SceneArgs {
+    /// The scene text (`.rts`).
+    scene: PathBuf,
+    /// Override a `param`, as in `-D hour=7h`; may be given several times.
+    #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = parse_define)]
+    define: Vec<(String, String)>,
+}
+
+fn parse_define(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.is_empty() && !value.is_empty() => {
+            Ok((name.trim().to_owned(), value.trim().to_owned()))
+        }
+        _ => Err("write it as NAME=VALUE, for instance -D hour=7h".to_owned()),
+    }
+}
+
+/// Runs `rtc` with these arguments, the program's name first; returns the exit code.
+pub fn run<I, T>(arguments: I) -> u8
+where
+    I: IntoIterator<Item = T>,
+    T: Into<OsString> + Clone,
+{
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(error) => {
+            // clap prints help and version on standard output, mistakes on standard error.
+            let _ = error.print();
+            return if error.use_stderr() { USAGE } else { OK };
+        }
+    };
+    match cli.command.unwrap_or(Command::Build(cli.build)) {
+        Command::Build(args) => build::build(&args),
+        Command::Check(args) => build::check(&args),
+        Command::Fmt(args) => fmt::fmt(&args),
+        Command::Explain(args) => explain::explain(&args),
+        Command::Show(args) => show::show(&args),
+        Command::Inspect(args) => inspect::inspect(&args),
+        Command::Cache(args) => cache::cache(&args),
+    }
+}

@@ -1,0 +1,237 @@
+//! `rtc build` and `rtc check`: a scene text becomes a pack, or a list of what is wrong with it.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use clap::Args;
+use lang::Analysis;
+
+use super::files::{DiskLoader, TextError, read_text};
+use super::{BUG, IO, OK, ReportArgs, SCENE, SceneArgs};
+use crate::cache::Cache;
+use crate::import::Limits;
+use crate::lower::srgb_table;
+use crate::pipeline::{self, CompileError, Compiled, Options, Phase};
+use crate::report::Reporter;
+
+#[derive(Debug, Args)]
+pub(super) struct BuildArgs {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// Where the pack goes [default: the scene's name with `.pack`, in the working directory].
+    #[arg(short, long, value_name = "PACK")]
+    output: Option<PathBuf>,
+    /// Also write the linked kernel, for reading.
+    #[arg(long, value_name = "FILE")]
+    emit_wgsl: Option<PathBuf>,
+    /// Print what each phase cost and what the cache saved.
+    #[arg(long)]
+    timings: bool,
+    /// Build every tree anew and store none.
+    #[arg(long)]
+    no_cache: bool,
+    /// Threads to use [default: all].
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    #[command(flatten)]
+    report: ReportArgs,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CheckArgs {
+    #[command(flatten)]
+    scene: SceneArgs,
+    #[command(flatten)]
+    report: ReportArgs,
+}
+
+pub(super) fn build(args: &BuildArgs) -> u8 {
+    let reporter = args.report.reporter();
+    match args.threads {
+        None => build_here(args, &reporter),
+        Some(threads) => match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
+            Ok(pool) => pool.install(|| build_here(args, &reporter)),
+            Err(error) => {
+                reporter.failure(&format!("cannot start {threads} threads: {error}"));
+                IO
+            }
+        },
+    }
+}
+
+fn build_here(args: &BuildArgs, reporter: &Reporter) -> u8 {
+    let start = Instant::now();
+    let cache = if args.no_cache { Cache::disabled() } else { Cache::from_env() };
+    let output = args.output.clone().unwrap_or_else(|| default_output(&args.scene.scene));
+    let (compiled, mut phases) = match compile(&args.scene, &cache, reporter) {
+        Ok(done) => done,
+        Err(code) => return code,
+    };
+    if let Some(path) = &args.emit_wgsl
+        && let Err(error) =
+            pack::write_atomic(path, |file| file.write_all(compiled.kernel.text.as_bytes()))
+    {
+        reporter.failure(&error.to_string());
+        return IO;
+    }
+    let writing = Instant::now();
+    let srgb = srgb_table();
+    if let Err(error) = compiled.writer(&srgb).and_then(|writer| writer.write(&output)) {
+        reporter.failure(&error.to_string());
+        return IO;
+    }
+    phases.push(Phase { name: "write the pack", time: writing.elapsed() });
+    for warning in &compiled.lowered.cache_warnings {
+        reporter.warning(&warning.to_string());
+    }
+    if let Err(error) = cache.prune() {
+        reporter.warning(&error.to_string());
+    }
+    if args.timings {
+        reporter.status(&timings(&phases, &compiled));
+    }
+    reporter.status(&done(&output, &compiled, start.elapsed()));
+    OK
+}
+
+pub(super) fn check(args: &CheckArgs) -> u8 {
+    let reporter = args.report.reporter();
+    let cache = Cache::from_env();
+    match compile(&args.scene, &cache, &reporter) {
+        Ok(_) => OK,
+        Err(code) => code,
+    }
+}
+
+/// Reads and checks the text; an unreadable file is reported and becomes an exit code.
+pub(super) fn analyze(scene: &SceneArgs, reporter: &Reporter) -> Result<Analysis, u8> {
+    let shown = scene.scene.display().to_string();
+    let text = read_text(&scene.scene).map_err(|error| {
+        reporter.failure(&format!("cannot read {shown}: {error}"));
+        if scene.scene.extension().is_some_and(|e| e == "pack") {
+            reporter.status("help: this is a pack already; render it with `rtr`");
+        }
+        match error {
+            TextError::Io(_) => IO,
+            TextError::NotText(_) => SCENE,
+        }
+    })?;
+    let options = lang::Options { defines: scene.define.clone(), ..lang::Options::default() };
+    Ok(lang::analyze(&shown, &text, &mut DiskLoader, &options))
+}
+
+fn compile(
+    args: &SceneArgs,
+    cache: &Cache,
+    reporter: &Reporter,
+) -> Result<(Compiled, Vec<Phase>), u8> {
+    let start = Instant::now();
+    let Analysis { sources, scene, mut diagnostics, .. } = analyze(args, reporter)?;
+    let Some(scene) = scene else {
+        reporter.diagnostics(&sources, &diagnostics);
+        return Err(SCENE);
+    };
+    let mut phases = vec![Phase { name: "read and check the text", time: start.elapsed() }];
+    let options = Options {
+        root: args.scene.parent().unwrap_or(Path::new("")),
+        cache,
+        limits: Limits::default(),
+        defines: &args.define,
+    };
+    let result = pipeline::compile(&scene, &sources, &options, &mut diagnostics);
+    reporter.diagnostics(&sources, &diagnostics);
+    match result {
+        Ok(mut compiled) => {
+            phases.append(&mut compiled.phases);
+            Ok((compiled, phases))
+        }
+        Err(error) => Err(failed(&error, reporter)),
+    }
+}
+
+fn failed(error: &CompileError, reporter: &Reporter) -> u8 {
+    match error {
+        CompileError::Scene => SCENE,
+        CompileError::Lower(_) | CompileError::Pack(_) => {
+            reporter.failure(&error.to_string());
+            IO
+        }
+        CompileError::Shader(_) | CompileError::Layout(_) => {
+            reporter.failure(&format!("{error}\nThis is a bug of rtc, not of your scene."));
+            BUG
+        }
+    }
+}
+
+fn default_output(scene: &Path) -> PathBuf {
+    PathBuf::from(scene.file_stem().unwrap_or(scene.as_os_str())).with_extension("pack")
+}
+
+fn done(output: &Path, compiled: &Compiled, time: Duration) -> String {
+    let counters = &compiled.lowered.counters;
+    let size = std::fs::metadata(output).map_or(0, |meta| meta.len());
+    let mut things = Vec::new();
+    for (count, what) in [
+        (counters.triangles, "triangles"),
+        (counters.spheres, "spheres"),
+        (counters.lights, "lights"),
+        (compiled.lowered.textures.len() as u64, "textures"),
+    ] {
+        if count > 0 {
+            things.push(format!("{} {what}", grouped(count)));
+        }
+    }
+    if counters.trees_cached > 0 {
+        things.push(format!("bvh {}/{} cached", counters.trees_cached, counters.trees));
+    }
+    format!(
+        "{}: {:.1} MB, {} in {:.2} s",
+        output.display(),
+        size as f64 / 1e6,
+        if things.is_empty() { "nothing but sky".to_owned() } else { things.join(", ") },
+        time.as_secs_f64(),
+    )
+}
+
+fn timings(phases: &[Phase], compiled: &Compiled) -> String {
+    let mut text = String::from("phase                               ms\n");
+    for Phase { name, time } in phases {
+        text += &format!("{name:<30} {:>7.1}\n", time.as_secs_f64() * 1e3);
+    }
+    let counters = &compiled.lowered.counters;
+    let saved = compiled.lowered.times.bvh_saved.as_secs_f64() * 1e3;
+    text + &format!(
+        "bvh {}/{} cached, saved {saved:.1} ms of building",
+        counters.trees_cached, counters.trees
+    )
+}
+
+/// 1234567 as 1,234,567.
+fn grouped(n: u64) -> String {
+    let digits = n.to_string();
+    let mut out = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            out.push(',');
+        }
+        out.push(digit);
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thousands_are_grouped() {
+        assert_eq!(grouped(0), "0");
+        assert_eq!(grouped(999), "999");
+        assert_eq!(grouped(1_234_567), "1,234,567");
+    }
+
+    #[test]
+    fn the_pack_is_named_after_the_scene() {
+        assert_eq!(default_output(Path::new("a/b.rts")), Path::new("b.pack"));
+    }
+}

@@ -1,0 +1,42 @@
+//! `rtc cache`: what the BVH cache holds, and how to empty it.
+
+use clap::Args;
+
+use super::{IO, OK};
+use crate::cache::Cache;
+use crate::report::{Color, ErrorFormat, Reporter};
+
+#[derive(Debug, Args)]
+pub(super) struct CacheArgs {
+    /// Delete every cached tree.
+    #[arg(long, conflicts_with = "stats")]
+    clear: bool,
+    /// Say where the cache is and how much it holds; the default.
+    #[arg(long)]
+    stats: bool,
+}
+
+pub(super) fn cache(args: &CacheArgs) -> u8 {
+    let reporter = Reporter::new(ErrorFormat::Human, Color::Auto, usize::MAX);
+    let cache = Cache::from_env();
+    let Some(root) = cache.root().map(|root| root.display().to_string()) else {
+        reporter.output("there is no cache: neither RTC_CACHE_DIR nor a home directory is set");
+        return OK;
+    };
+    let (result, what) = if args.clear {
+        (cache.clear(), "deleted")
+    } else {
+        (cache.stats(), "cached")
+    };
+    match result {
+        Ok(stats) => {
+            let megabytes = stats.bytes as f64 / 1e6;
+            reporter.output(&format!("{root}: {} trees {what}, {megabytes:.1} MB", stats.entries));
+            OK
+        }
+        Err(error) => {
+            reporter.failure(&error.to_string());
+            IO
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Reads scene texts for the language, which does not know the disk.
+
+use std::path::{Path, PathBuf};
+
+use lang::source::{LoadError, Loader, MAX_FILE_BYTES};
+
+/// Finds imports beside the file that imports them.
+#[derive(Debug, Default)]
+pub(crate) struct DiskLoader;
+
+impl Loader for DiskLoader {
+    fn load(&mut self, importing: &str, path: &str) -> Result<(String, String), LoadError> {
+        let dir = Path::new(importing).parent().unwrap_or(Path::new(""));
+        let file = tidy(&dir.join(path));
+        let name = file.display().to_string();
+        match read_text(&file) {
+            Ok(text) => Ok((name, text)),
+            Err(TextError::NotText(byte)) => Err(LoadError::NotText(byte)),
+            Err(TextError::Io(error)) if error.kind() == std::io::ErrorKind::NotFound => {
+                Err(other_case(&file).map_or(LoadError::NotFound, LoadError::WrongCase))
+            }
+            Err(TextError::Io(error)) => Err(LoadError::Unreadable(error.to_string())),
+        }
+    }
+}
+
+/// Why a text could not be read.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum TextError {
+    /// The file is missing, unreadable or too large.
+    #[error("{0}")]
+    Io(#[from] std::io::Error),
+    /// Byte at this offset is not UTF-8.
+    #[error("this file is not UTF-8 text: wrong byte at offset {0}")]
+    NotText(u64),
+}
+
+/// The whole text of a regular file of at most `MAX_FILE_BYTES`.
+pub(crate) fn read_text(path: &Path) -> Result<String, TextError> {
+    let meta = std::fs::metadata(path)?;
+    if !meta.is_file() {
+        return Err(std::io::Error::other("this is not a regular file").into());
+    }
+    if meta.len() > MAX_FILE_BYTES as u64 {
+        let message = format!("{} bytes are too many for a scene text", meta.len());
+        return Err(std::io::Error::other(message).into());
+    }
+    let bytes = std::fs::read(path)?;
+    String::from_utf8(bytes).map_err(|e| TextError::NotText(e.utf8_error().valid_up_to() as u64))
+}
+
+/// `a/./b` and `a/x/../b` become `a/b`, so that one file has one name.
+fn tidy(path: &Path) -> PathBuf {
+    use std::path::Component;
+    let mut out = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir if matches!(out.components().next_back(), Some(Component::Normal(_))) => {
+                out.pop();
+            }
+            part => out.push(part),
+        }
+    }
+    out
+}
+
+/// The real name of a file that differs from `path` in case only.
+fn other_case(path: &Path) -> Option<String> {
+    let wanted = path.file_name()?.to_str()?.to_lowercase();
+    let dir = path.parent().filter(|dir| !dir.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let names = std::fs::read_dir(dir).ok()?.flatten().filter_map(|e| e.file_name().into_string().ok());
+    names.filter(|name| name.to_lowercase() == wanted).min()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_file_has_one_name() {
+        assert_eq!(tidy(Path::new("a/./b/../c.rts")), Path::new("a/c.rts"));
+        assert_eq!(tidy(Path::new("../c.rts")), Path::new("../c.rts"));
+    }
+}

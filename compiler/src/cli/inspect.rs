@@ -1,0 +1,70 @@
+//! `rtc inspect`: the sections of a pack as a table.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use pack::{Checked, MapMode, Pack};
+
+use super::{IO, OK};
+use crate::report::{Color, ErrorFormat, Reporter};
+
+#[derive(Debug, Args)]
+pub(super) struct InspectArgs {
+    /// A pack that `rtc` wrote.
+    pack: PathBuf,
+    /// Also compare every section with its hash.
+    #[arg(long)]
+    verify: bool,
+}
+
+pub(super) fn inspect(args: &InspectArgs) -> u8 {
+    let reporter = Reporter::new(ErrorFormat::Human, Color::Auto, usize::MAX);
+    let opened = Pack::open(&args.pack, MapMode::Map).and_then(|pack| {
+        if args.verify {
+            pack.verify_hashes()?;
+        }
+        Ok(pack)
+    });
+    match opened {
+        Ok(pack) => {
+            reporter.output(&table(&pack));
+            OK
+        }
+        Err(error) => {
+            reporter.failure(&format!("{}: {error}", args.pack.display()));
+            IO
+        }
+    }
+}
+
+fn table(pack: &Pack<Checked>) -> String {
+    let render = pack.render();
+    let [width, height] = render.image_size;
+    let features = pack::features::names(pack.features()).join(", ");
+    let mut text = format!(
+        "render id   {}\nimage       {width} x {height} px, {} samples, depth {}\nstack need  {}\nholds       {features}\n\n",
+        hex(&pack.render_id()),
+        render.samples,
+        render.max_depth,
+        render.stack_need,
+    );
+    let _ = writeln!(
+        text,
+        "{:<9} {:>12} {:>6} {:>15}  {}",
+        "section", "elements", "size", "bytes", "blake3"
+    );
+    for row in pack::describe(pack) {
+        let kind = row.kind.to_string();
+        let _ = writeln!(
+            text,
+            "{kind:<9} {:>12} {:>6} {:>15}  {}",
+            row.count, row.elem_size, row.bytes, row.hash
+        );
+    }
+    text
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}

@@ -1,0 +1,48 @@
+//! `rtc show`: a scene as the compiler understands it.
+
+use clap::Args;
+
+use super::build::analyze;
+use super::{OK, ReportArgs, SCENE, SceneArgs};
+
+#[derive(Debug, Args)]
+pub(super) struct ShowArgs {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// Every value in its unit, defaults included, expressions evaluated.
+    #[arg(long)]
+    resolved: bool,
+    #[command(flatten)]
+    report: ReportArgs,
+}
+
+pub(super) fn show(args: &ShowArgs) -> u8 {
+    let reporter = args.report.reporter();
+    let analysis = match analyze(&args.scene, &reporter) {
+        Ok(analysis) => analysis,
+        Err(code) => return code,
+    };
+    reporter.diagnostics(&analysis.sources, &analysis.diagnostics);
+    let Some(scene) = &analysis.scene else { return SCENE };
+    let text = if args.resolved { lang::resolved(scene) } else { summary(scene) };
+    reporter.output(&text);
+    OK
+}
+
+/// How many of each kind, and what will be rendered.
+fn summary(scene: &lang::scene::Scene) -> String {
+    let [width, height] = scene.film.size;
+    let output = scene.render.output.as_deref().unwrap_or("named after the pack");
+    format!(
+        "instances  {}\nmaterials  {}\ntextures   {}\nassets     {}\nlights     {}\nsky        {}\ncamera     {}\nfilm       {width} x {height} px\nsamples    {}\ndepth      {}\noutput     {output}\n\n`rtc show --resolved` prints every value.\n",
+        scene.instances.len(),
+        scene.materials.len(),
+        scene.textures.len(),
+        scene.assets.len(),
+        scene.lights.len(),
+        scene.sky.as_ref().map_or("none", |sky| sky.name.text.as_str()),
+        scene.camera.name.text,
+        scene.render.samples,
+        scene.render.max_depth,
+    )
+}

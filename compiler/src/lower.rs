@@ -1,0 +1,36 @@
+//! A checked scene and its loaded files become the records of a pack.
+//!
+//! Each submodule turns one kind of declaration into one kind of record; `assemble` puts them
+//! together. What no instance uses never gets here: materials and textures are numbered in the
+//! order in which geometry first asks for them. It does not know text or the disk.
+
+#![expect(
+    clippy::cast_possible_truncation,
+    reason = "records hold f32 and u32; indices are bounded by the format's limits before"
+)]
+
+mod assemble;
+mod camera;
+mod forest;
+mod geometry;
+mod light;
+mod material;
+mod order;
+mod sky;
+mod texture;
+
+pub use assemble::{Counters, LowerError, Lowered, Times, lower};
+pub use geometry::Placement;
+pub use texture::{TextureTable, srgb_table};
+
+use crate::import::{Image, MeshFile};
+
+/// What the files of a scene turned out to contain, in the order of `Scene::assets` and
+/// `Scene::textures`; an entry is `None` when nothing uses it.
+#[derive(Debug, Default)]
+pub struct Loaded {
+    /// Mesh files.
+    pub assets: Vec<Option<MeshFile>>,
+    /// Images.
+    pub textures: Vec<Option<Image>>,
+}

@@ -1,0 +1,264 @@
+//! Puts the records of a scene together, in the order in which the pack stores them.
+//!
+//! World geometry in `f64` is normalised once, triangles without area are dropped and counted,
+//! each mesh gets its tree, the trees are joined, and primitives and lights are renumbered to leaf
+//! order.
+
+use std::time::{Duration, Instant};
+
+use glam::DVec3;
+use lang::diagnostic::{Code, Diagnostic};
+use lang::scene::{Name, Scene, ToneMap};
+use lang::source::Span;
+use pack::abi;
+
+use super::forest::Forest;
+use super::geometry::{self, Placement};
+use super::material::{MaterialRef, MaterialTable};
+use super::order::{Declared, order};
+use super::{Loaded, camera, sky};
+use crate::bvh::{self, BvhError, Joined};
+use crate::cache::{Cache, CacheWarning};
+use crate::normalize::Normalization;
+use crate::weld::weld;
+
+/// What was counted while lowering.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Triangles in the pack.
+    pub triangles: u64,
+    /// Triangles that had no area once positions were rounded; not in the pack.
+    pub dropped_triangles: u64,
+    /// Distinct vertex positions.
+    pub vertices: u64,
+    /// Spheres in the pack.
+    pub spheres: u64,
+    /// Entries of the light table.
+    pub lights: u64,
+    /// Trees that came from the cache, and trees in all.
+    pub trees_cached: u64,
+    /// Trees of meshes and of the spheres.
+    pub trees: u64,
+}
+
+/// Time spent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Times {
+    /// Placing instances, normalising, welding.
+    pub geometry: Duration,
+    /// Building, fetching and joining trees.
+    pub bvh: Duration,
+    /// What building the cached trees once took.
+    pub bvh_saved: Duration,
+    /// Putting primitives in order, lights.
+    pub order: Duration,
+}
+
+/// All records of a pack.
+#[derive(Clone, Debug)]
+pub struct Lowered {
+    /// Settings.
+    pub render: abi::RenderSettings,
+    /// Camera.
+    pub camera: abi::Camera,
+    /// Sky; `None` is black.
+    pub sky: Option<abi::Sky>,
+    /// Nodes of the joined tree.
+    pub nodes: Vec<abi::Node>,
+    /// Triangles in leaf order.
+    pub triangles: Vec<abi::Triangle>,
+    /// Shading data in leaf order.
+    pub shades: Vec<abi::TriShade>,
+    /// Spheres in leaf order.
+    pub spheres: Vec<abi::Sphere>,
+    /// Materials in use.
+    pub materials: Vec<abi::Material>,
+    /// Name and place of each material.
+    pub material_names: Vec<(String, Option<Span>)>,
+    /// Light table.
+    pub lights: Vec<abi::Light>,
+    /// Textures in use.
+    pub textures: Vec<abi::Texture>,
+    /// Texels of all textures.
+    pub texels: Vec<[u32; 4]>,
+    /// What was counted.
+    pub counters: Counters,
+    /// What took how long.
+    pub times: Times,
+    /// What went wrong with the cache, without harm.
+    pub cache_warnings: Vec<CacheWarning>,
+}
+
+/// Why a scene could not be lowered, apart from faults in its text.
+#[derive(Debug, thiserror::Error)]
+pub enum LowerError {
+    /// The tree could not be built.
+    #[error(transparent)]
+    Bvh(#[from] BvhError),
+    /// More triangles than the pack can number.
+    #[error("{count} triangles are too many; at most {} are possible", bvh::MAX_PRIMITIVES)]
+    TooManyTriangles {
+        /// How many there are.
+        count: usize,
+    },
+}
+
+/// Lowers a scene whose files are loaded. Faults of single instances are added to `diagnostics`.
+///
+/// # Errors
+/// When the scene is too large for the format.
+pub fn lower(
+    scene: &Scene,
+    loaded: &Loaded,
+    cache: &Cache,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<Lowered, LowerError> {
+    let start = Instant::now();
+    let mut materials = MaterialTable::new(scene, loaded);
+    let mut placement = geometry::place(scene, loaded, &mut materials, diagnostics);
+    if placement.corners.len() > bvh::MAX_PRIMITIVES {
+        return Err(LowerError::TooManyTriangles { count: placement.corners.len() });
+    }
+    let frame = normalization(&placement);
+    let mut counters = Counters::default();
+    let corners = normalised(&mut placement, &frame, &mut counters);
+    let welded = weld(&corners);
+    counters.vertices = u64::from(welded.n_ids);
+    let mut times = Times { geometry: start.elapsed(), ..Times::default() };
+
+    let start = Instant::now();
+    let sphere = |(center, radius): &(DVec3, f64)| {
+        (frame.point(center.to_array()), frame.length(*radius).max(f32::MIN_POSITIVE))
+    };
+    let balls: Vec<([f32; 3], f32)> = placement.spheres.iter().map(sphere).collect();
+    let forest = Forest::grow(cache, &corners, &placement.groups, &balls)?;
+    let joined = bvh::join(&forest.groups)?;
+    (counters.trees, counters.trees_cached) = (forest.groups.len() as u64, forest.n_cached);
+    (times.bvh, times.bvh_saved) = (start.elapsed(), forest.saved);
+    let cache_warnings = forest.warnings;
+    drop(forest.groups);
+
+    let start = Instant::now();
+    let declared = Declared { corners, welded, balls };
+    let ordered = order(&placement, &declared, &joined);
+    drop(declared);
+    counters.triangles = ordered.triangles.len() as u64;
+    counters.spheres = ordered.spheres.len() as u64;
+    counters.lights = ordered.lights.len() as u64;
+    times.order = start.elapsed();
+
+    let sky = scene.sky.as_ref().and_then(sky::sky);
+    if ordered.lights.is_empty() && sky.is_none() {
+        diagnostics.push(darkness(scene));
+    }
+    let material_names = names(scene, loaded, materials.refs());
+    let render = settings(scene, &frame, &joined, ordered.lights.len());
+    let (materials, textures) = materials.into_records();
+    let (textures, texels) = textures.into_records();
+    Ok(Lowered {
+        render,
+        camera: camera::camera(&scene.camera, &frame),
+        sky,
+        nodes: joined.nodes,
+        triangles: ordered.triangles,
+        shades: ordered.shades,
+        spheres: ordered.spheres,
+        materials,
+        material_names,
+        lights: ordered.lights,
+        textures,
+        texels,
+        counters,
+        times,
+        cache_warnings,
+    })
+}
+
+fn darkness(scene: &Scene) -> Diagnostic {
+    Diagnostic::error(Code("E0710"), "nothing in this scene gives light")
+        .at(scene.render.name.span, "this picture would be black")
+        .with_help("add a `light`, a `sky`, or an instance with an `emissive` material")
+}
+
+fn settings(
+    scene: &Scene,
+    frame: &Normalization,
+    joined: &Joined,
+    n_lights: usize,
+) -> abi::RenderSettings {
+    let tone_map = match scene.film.tone_map {
+        ToneMap::None => abi::ToneMap::None,
+        ToneMap::Reinhard => abi::ToneMap::Reinhard,
+        ToneMap::Aces => abi::ToneMap::Aces,
+    };
+    abi::RenderSettings {
+        image_size: scene.film.size,
+        samples: scene.render.samples,
+        max_depth: scene.render.max_depth,
+        roulette_depth: scene.render.roulette_depth,
+        seed: scene.render.seed,
+        exposure: scene.film.exposure as f32,
+        tone_map: tone_map as u32,
+        root: joined.root,
+        stack_need: joined.stack_need,
+        scale_bits: abi::f64_bits(frame.scale()),
+        center_x_bits: abi::f64_bits(frame.center[0]),
+        center_y_bits: abi::f64_bits(frame.center[1]),
+        center_z_bits: abi::f64_bits(frame.center[2]),
+        n_lights: n_lights as u32,
+        ..Default::default()
+    }
+}
+
+/// Name and place of declaration of each material in use.
+fn names(scene: &Scene, loaded: &Loaded, refs: &[MaterialRef]) -> Vec<(String, Option<Span>)> {
+    let name = |of: &MaterialRef| match *of {
+        MaterialRef::Scene(index) => declared(&scene.materials[index].name),
+        MaterialRef::Light(index) => declared(&scene.lights[index].name),
+        MaterialRef::Default => ("default".to_owned(), None),
+        MaterialRef::Asset { asset, material } => {
+            let file = loaded.assets[asset].as_ref();
+            let own = file.map_or("", |file| file.materials[material].name.as_str());
+            let asset = &scene.assets[asset].name;
+            (format!("{}/{own}", asset.text), Some(asset.span))
+        }
+    };
+    refs.iter().map(name).collect()
+}
+
+fn declared(name: &Name) -> (String, Option<Span>) {
+    (name.text.clone(), Some(name.span))
+}
+
+fn normalization(placement: &Placement) -> Normalization {
+    let corners = placement.corners.iter().flatten().map(|p| p.to_array());
+    let balls = placement.spheres.iter().flat_map(|(center, radius)| {
+        [(*center - *radius).to_array(), (*center + *radius).to_array()]
+    });
+    Normalization::of_points(corners.chain(balls))
+}
+
+/// Corners in the normalised frame; triangles that have no area there are taken out of `placement`.
+fn normalised(
+    placement: &mut Placement,
+    frame: &Normalization,
+    counters: &mut Counters,
+) -> Vec<[[f32; 3]; 3]> {
+    let point = |p: DVec3| frame.point(p.to_array());
+    let corners: Vec<[[f32; 3]; 3]> =
+        placement.corners.iter().map(|corners| corners.map(point)).collect();
+    placement.corners = Vec::new();
+    let flat: Vec<bool> = corners.iter().map(has_no_area).collect();
+    counters.dropped_triangles = flat.iter().filter(|flat| **flat).count() as u64;
+    if counters.dropped_triangles == 0 {
+        return corners;
+    }
+    placement.remove_triangles(&flat);
+    corners.into_iter().zip(flat).filter(|(_, flat)| !flat).map(|(corners, _)| corners).collect()
+}
+
+/// Whether the corners lie on one line, with products in `f64`, where they round least.
+fn has_no_area(corners: &[[f32; 3]; 3]) -> bool {
+    let [a, b, c] = corners.map(|p| DVec3::from(p.map(f64::from)));
+    (b - a).cross(c - a) == DVec3::ZERO
+}

@@ -1,0 +1,353 @@
+//! Instances become triangles and spheres in the world, in `f64`, with their shading data.
+//!
+//! Instances are flattened: each writes its own triangles. Rectangles are two triangles, boxes
+//! twelve. Everything that emits is noted as an `Emitter` on the way.
+
+use glam::{DMat3, DVec2, DVec3};
+use lang::diagnostic::{Code, Diagnostic};
+use lang::scene::{Instance, Scene, Shape};
+use pack::abi::{self, LightKind, NONE, material_flag};
+
+use super::Loaded;
+use super::light::{Emitter, luminance};
+use super::material::{MaterialRef, MaterialTable};
+use crate::import::{MeshFile, Part};
+
+/// Bit 0 of `TriShade::flags`.
+const SMOOTH: u32 = 1;
+
+/// Geometry of the whole scene before normalisation, in order of declaration.
+#[derive(Debug, Default)]
+pub struct Placement {
+    /// Corners of every triangle, world frame, metres.
+    pub corners: Vec<[DVec3; 3]>,
+    /// Shading data, one a triangle; `light` is `NONE` still.
+    pub shades: Vec<abi::TriShade>,
+    /// Triangles of each mesh instance: `groups[i]` is where group `i` ends.
+    pub groups: Vec<u32>,
+    /// Centre and radius of every sphere, metres.
+    pub spheres: Vec<(DVec3, f64)>,
+    /// Material of every sphere.
+    pub sphere_materials: Vec<u32>,
+    /// What emits, in order of declaration.
+    pub(super) emitters: Vec<Emitter>,
+}
+
+/// Places everything; complaints about single instances go to `diagnostics`.
+pub(super) fn place(
+    scene: &Scene,
+    loaded: &Loaded,
+    materials: &mut MaterialTable<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Placement {
+    let mut placement = Placement::default();
+    for instance in &scene.instances {
+        let mut placer = Placer {
+            transform: Transform::of(instance),
+            instance,
+            materials: &mut *materials,
+            placement: &mut placement,
+        };
+        match &instance.shape {
+            Shape::Sphere { radius } => placer.sphere(*radius, diagnostics),
+            Shape::Rectangle { size } => placer.rectangles(&[rectangle(*size)]),
+            Shape::Box { size } => placer.rectangles(&box_faces(*size)),
+            Shape::Mesh { asset, part } => {
+                let file = loaded.assets[*asset].as_ref().expect("used assets are loaded");
+                placer.mesh(*asset, file, part.as_deref());
+            }
+        }
+        placement.close_group();
+    }
+    for (index, light) in scene.lights.iter().enumerate() {
+        let material = materials.index(MaterialRef::Light(index));
+        placement.add_sphere(DVec3::from(light.center), light.radius, material, materials);
+    }
+    placement
+}
+
+/// Corner, first and second edge of a parallelogram, object frame; front is `cross(edge1, edge2)`.
+type Parallelogram = [DVec3; 3];
+
+fn rectangle([x, z]: [f64; 2]) -> Parallelogram {
+    [DVec3::new(-x, 0.0, z) / 2.0, DVec3::new(x, 0.0, 0.0), DVec3::new(0.0, 0.0, -z)]
+}
+
+/// The six faces of a box around the origin, fronts outside.
+fn box_faces(size: [f64; 3]) -> Vec<Parallelogram> {
+    let size = DVec3::from(size);
+    let mut faces = Vec::with_capacity(6);
+    for axis in 0..3 {
+        let edge = |k: usize| DVec3::AXES[k] * size[k];
+        let (u, v) = (edge((axis + 1) % 3), edge((axis + 2) % 3));
+        let normal = edge(axis);
+        faces.push([(normal - u - v) / 2.0, u, v]);
+        faces.push([(-normal - u - v) / 2.0, v, u]);
+    }
+    faces
+}
+
+/// `world_from_object`, split.
+struct Transform {
+    linear: DMat3,
+    translation: DVec3,
+    /// Turns normals: the cofactor matrix, signed so that outside stays outside.
+    normal: DMat3,
+    /// The transform mirrors: winding must be reversed.
+    mirrors: bool,
+}
+
+impl Transform {
+    fn of(instance: &Instance) -> Self {
+        let m = instance.world_from_object;
+        let column = |k: usize| DVec3::new(m[0][k], m[1][k], m[2][k]);
+        let linear = DMat3::from_cols(column(0), column(1), column(2));
+        let (x, y, z) = (linear.x_axis, linear.y_axis, linear.z_axis);
+        let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
+        let mirrors = linear.determinant() < 0.0;
+        let normal = if mirrors { cofactors * -1.0 } else { cofactors };
+        Self { linear, translation: column(3), normal, mirrors }
+    }
+
+    fn point(&self, p: DVec3) -> DVec3 {
+        self.linear * p + self.translation
+    }
+
+    /// The common length of the axes, or `None` when the transform is not a similarity.
+    fn uniform_scale(&self) -> Option<f64> {
+        let axes = [self.linear.x_axis, self.linear.y_axis, self.linear.z_axis];
+        let scale = axes[0].length();
+        // Rotations written in degrees leave errors of a few units in the last place.
+        let close = |value: f64, to: f64| libm::fabs(value - to) <= 1e-9 * scale * scale;
+        let equal = axes.iter().all(|axis| close(axis.length_squared(), scale * scale));
+        let square = (0..3).all(|k| close(axes[k].dot(axes[(k + 1) % 3]), 0.0));
+        (equal && square && scale > 0.0).then_some(scale)
+    }
+}
+
+/// One instance on its way into the world.
+struct Placer<'a, 'b> {
+    instance: &'a Instance,
+    transform: Transform,
+    materials: &'a mut MaterialTable<'b>,
+    placement: &'a mut Placement,
+}
+
+impl Placer<'_, '_> {
+    /// The instance's own material, else `fallback`.
+    fn material(&mut self, fallback: MaterialRef) -> u32 {
+        let of = self.instance.material.map_or(fallback, MaterialRef::Scene);
+        self.materials.index(of)
+    }
+
+    fn sphere(&mut self, radius: f64, diagnostics: &mut Vec<Diagnostic>) {
+        let Some(scale) = self.transform.uniform_scale() else {
+            let name = &self.instance.name.text;
+            diagnostics.push(
+                Diagnostic::error(Code("E0803"), format!("`{name}` would not stay a sphere"))
+                    .at(self.instance.shape_span, "a sphere, scaled differently along its axes")
+                    .with_help("give `scale` one number, or use a mesh"),
+            );
+            return;
+        };
+        let material = self.material(MaterialRef::Default);
+        let center = self.transform.point(DVec3::ZERO);
+        self.placement.add_sphere(center, radius * scale, material, self.materials);
+    }
+
+    fn rectangles(&mut self, faces: &[Parallelogram]) {
+        let material = self.material(MaterialRef::Default);
+        let emits = self.placement.emits(material, self.materials);
+        for [corner, edge1, edge2] in faces {
+            let origin = self.transform.point(*corner);
+            let (mut edge1, mut edge2) = (self.transform.linear * *edge1, self.transform.linear * *edge2);
+            let mut uv = [DVec2::X, DVec2::Y];
+            if self.transform.mirrors {
+                (edge1, edge2) = (edge2, edge1);
+                uv.swap(0, 1);
+            }
+            let corners = [origin, origin + edge1, origin + edge1 + edge2, origin + edge2];
+            let uvs = [DVec2::ZERO, uv[0], DVec2::ONE, uv[1]];
+            let first = self.placement.corners.len() as u32;
+            for [a, b, c] in [[0, 1, 2], [0, 2, 3]] {
+                let shade = abi::TriShade {
+                    material,
+                    uv0: uvs[a].as_vec2().to_array(),
+                    uv1: uvs[b].as_vec2().to_array(),
+                    uv2: uvs[c].as_vec2().to_array(),
+                    light: NONE,
+                    ..Default::default()
+                };
+                self.placement.corners.push([corners[a], corners[b], corners[c]]);
+                self.placement.shades.push(shade);
+            }
+            if let Some(radiance) = emits {
+                self.placement.emitters.push(Emitter {
+                    kind: LightKind::Rectangle,
+                    primitive: first,
+                    count: 2,
+                    material,
+                    power: radiance * edge1.cross(edge2).length(),
+                });
+            }
+        }
+    }
+
+    fn mesh(&mut self, asset: usize, file: &MeshFile, part: Option<&str>) {
+        let parts = match part {
+            None => (0..file.parts.len()).collect(),
+            Some(name) => file.find_parts(name),
+        };
+        for part in parts {
+            let part = &file.parts[part];
+            let own = part.material.map_or(MaterialRef::Default, |material| {
+                MaterialRef::Asset { asset, material: material as usize }
+            });
+            let material = self.material(own);
+            self.part(part, material);
+        }
+    }
+
+    fn part(&mut self, part: &Part, material: u32) {
+        let emits = self.placement.emits(material, self.materials);
+        for tri_idx in 0..part.triangles.len() {
+            let corners = part.corners(tri_idx).map(|p| {
+                self.transform.point(DVec3::from(p.map(f64::from)))
+            });
+            let normals = part.corner_normals(tri_idx).map(|normals| {
+                normals.map(|n| octahedral(self.transform.normal * DVec3::from(n.map(f64::from))))
+            });
+            let uvs = part.corner_uvs(tri_idx).unwrap_or_default();
+            let order = if self.transform.mirrors { [0, 2, 1] } else { [0, 1, 2] };
+            let corners = order.map(|k| corners[k]);
+            let [uv0, uv1, uv2] = order.map(|k| uvs[k]);
+            let flags = if normals.is_some() { SMOOTH } else { 0 };
+            let normals = normals.map_or([0; 3], |normals| order.map(|k| normals[k]));
+            if let Some(radiance) = emits {
+                let [a, b, c] = corners;
+                self.placement.emitters.push(Emitter {
+                    kind: LightKind::Triangle,
+                    primitive: self.placement.corners.len() as u32,
+                    count: 1,
+                    material,
+                    power: radiance * 0.5 * (b - a).cross(c - a).length(),
+                });
+            }
+            self.placement.corners.push(corners);
+            let shade =
+                abi::TriShade { normals, material, uv0, uv1, uv2, light: NONE, flags };
+            self.placement.shades.push(shade);
+        }
+    }
+}
+
+impl Placement {
+    fn add_sphere(
+        &mut self,
+        center: DVec3,
+        radius: f64,
+        material: u32,
+        materials: &MaterialTable<'_>,
+    ) {
+        if let Some(radiance) = self.emits(material, materials) {
+            self.emitters.push(Emitter {
+                kind: LightKind::Sphere,
+                primitive: self.spheres.len() as u32,
+                count: 1,
+                material,
+                power: radiance * 4.0 * std::f64::consts::PI * radius * radius,
+            });
+        }
+        self.spheres.push((center, radius));
+        self.sphere_materials.push(material);
+    }
+
+    /// Luminance of a material's mean radiance, counted for each emitting side; `None` if dark.
+    #[expect(clippy::unused_self, reason = "reads as a question about what is being placed")]
+    fn emits(&self, material: u32, materials: &MaterialTable<'_>) -> Option<f64> {
+        let flags = materials.records()[material as usize].flags;
+        let sides = if flags & material_flag::EMIT_BOTH_SIDES != 0 { 2.0 } else { 1.0 };
+        let radiance = luminance(materials.mean_emission(material));
+        (radiance > 0.0).then_some(sides * radiance)
+    }
+
+    /// Takes triangles out. A rectangle that loses one of its two is no longer a rectangle light.
+    pub(super) fn remove_triangles(&mut self, remove: &[bool]) {
+        // `left[i]`: how many of the first `i` triangles stay.
+        let mut left = Vec::with_capacity(remove.len() + 1);
+        left.push(0);
+        for &removed in remove {
+            left.push(left[left.len() - 1] + u32::from(!removed));
+        }
+        self.emitters.retain_mut(|emitter| {
+            if emitter.kind == LightKind::Sphere {
+                return true;
+            }
+            let (first, end) = (emitter.primitive as usize, (emitter.primitive + emitter.count) as usize);
+            emitter.primitive = left[first];
+            left[end] - left[first] == emitter.count
+        });
+        for end in &mut self.groups {
+            *end = left[*end as usize];
+        }
+        self.groups.dedup();
+        self.groups.retain(|end| *end > 0);
+        let mut index = 0;
+        self.shades.retain(|_| {
+            index += 1;
+            !remove[index - 1]
+        });
+    }
+
+    /// Ends the triangles of one instance; instances without triangles make no group.
+    fn close_group(&mut self) {
+        let end = self.corners.len() as u32;
+        if self.groups.last().copied().unwrap_or(0) < end {
+            self.groups.push(end);
+        }
+    }
+}
+
+/// A direction as two 16-bit signed normalised integers, x in the low half (Cigolle et al. 2014,
+/// "A Survey of Efficient Representations for Independent Unit Vectors", JCGT 3(2)). Zero gives +z.
+fn octahedral(n: DVec3) -> u32 {
+    let sum = n.x.abs() + n.y.abs() + n.z.abs();
+    let (mut x, mut y) = if sum > 0.0 { (n.x / sum, n.y / sum) } else { (0.0, 0.0) };
+    if n.z < 0.0 {
+        let sign = |v: f64| if v < 0.0 { -1.0 } else { 1.0 };
+        (x, y) = ((1.0 - y.abs()) * sign(x), (1.0 - x.abs()) * sign(y));
+    }
+    let quantise = |v: f64| (libm::round(v.clamp(-1.0, 1.0) * 32767.0) as i16) as u16;
+    u32::from(quantise(x)) | u32::from(quantise(y)) << 16
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faces_of_a_box_look_outside_and_enclose_its_volume() {
+        let size = [1.0, 2.0, 3.0];
+        let mut volume = 0.0;
+        for [corner, u, v] in box_faces(size) {
+            let normal = u.cross(v);
+            assert!(normal.dot(corner + (u + v) / 2.0) > 0.0);
+            volume += corner.dot(normal) / 3.0;
+        }
+        assert!((volume - 6.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_rectangle_looks_up() {
+        let [_, u, v] = rectangle([2.0, 3.0]);
+        assert_eq!(u.cross(v).normalize(), DVec3::Y);
+    }
+
+    #[test]
+    fn octahedral_keeps_the_axes_exactly() {
+        assert_eq!(octahedral(DVec3::Z), 0);
+        assert_eq!(octahedral(DVec3::X), 32767);
+        assert_eq!(octahedral(DVec3::NEG_Y), u32::from((-32767_i16) as u16) << 16);
+        assert_eq!(octahedral(DVec3::ZERO), 0);
+    }
+}

@@ -1,0 +1,160 @@
+//! Emitting primitives become the light selection table.
+//!
+//! A light is chosen with a probability proportional to its power. Random numbers have 24 bits, so
+//! probabilities are whole multiples of 2^-24: then the probability that the estimator divides by
+//! is exactly the frequency with which the kernel chooses.
+
+use pack::abi::{self, LightKind, NONE};
+
+/// An emitter before primitives are in leaf order.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Emitter {
+    pub(super) kind: LightKind,
+    /// Index of its first primitive among all triangles, or among all spheres.
+    pub(super) primitive: u32,
+    /// Triangles it consists of; 1 for spheres.
+    pub(super) count: u32,
+    pub(super) material: u32,
+    /// Luminance of the mean radiance, times sides, times area: proportional to power.
+    pub(super) power: f64,
+}
+
+/// Steps of a 24-bit random number.
+const STEPS: u64 = 1 << 24;
+
+/// Luminance of a linear Rec. 709 colour (ITU-R BT.709).
+pub(super) fn luminance(color: [f64; 3]) -> f64 {
+    0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2]
+}
+
+/// Shares of `STEPS` by power: at least one step each, summing to `STEPS` exactly. `None` for
+/// emitters that are not selected: without power, or weakest of too many.
+fn shares(powers: &[f64]) -> Vec<Option<u64>> {
+    let mut order: Vec<usize> = (0..powers.len()).filter(|&i| powers[i] > 0.0).collect();
+    // Strongest first, ties by index; past a quarter of the steps, one step each would distort.
+    order.sort_by(|&a, &b| powers[b].total_cmp(&powers[a]).then(a.cmp(&b)));
+    order.truncate((STEPS / 4) as usize);
+    let total: f64 = order.iter().map(|&i| powers[i]).sum();
+    let mut shares = vec![None; powers.len()];
+    let mut used = 0;
+    for &i in order.iter().rev() {
+        let steps = libm::floor(powers[i] / total * STEPS as f64).max(1.0) as u64;
+        shares[i] = Some(steps);
+        used += steps;
+    }
+    // What rounding left over, or what the single steps took, is the strongest lights' affair.
+    for &i in order.iter().cycle() {
+        let share = shares[i].as_mut().expect("every light in `order` has a share");
+        if used < STEPS {
+            *share += STEPS - used;
+            used = STEPS;
+        }
+        if used == STEPS {
+            break;
+        }
+        let give = (used - STEPS).min(*share / 2);
+        *share -= give;
+        used -= give;
+    }
+    shares
+}
+
+/// The records, and for each emitter the index of its light or `NONE`. `triangles` and `spheres`
+/// are in leaf order; `triangle_at` and `sphere_at` say where a primitive went.
+pub(super) fn table(
+    emitters: &[Emitter],
+    geometry: &Geometry<'_>,
+) -> (Vec<abi::Light>, Vec<u32>) {
+    let powers: Vec<f64> = emitters.iter().map(|e| e.power).collect();
+    let mut lights = Vec::new();
+    let mut ids = vec![NONE; emitters.len()];
+    let mut sum = 0;
+    for (i, share) in shares(&powers).into_iter().enumerate() {
+        let Some(share) = share else { continue };
+        sum += share;
+        ids[i] = lights.len() as u32;
+        lights.push(abi::Light {
+            pmf: (share as f64 / STEPS as f64) as f32,
+            cdf: (sum as f64 / STEPS as f64) as f32,
+            ..geometry.light(&emitters[i])
+        });
+    }
+    (lights, ids)
+}
+
+/// Primitives in leaf order and where each went.
+pub(super) struct Geometry<'a> {
+    pub(super) triangles: &'a [abi::Triangle],
+    pub(super) triangle_at: &'a [u32],
+    pub(super) spheres: &'a [abi::Sphere],
+    pub(super) sphere_at: &'a [u32],
+}
+
+impl Geometry<'_> {
+    fn light(&self, emitter: &Emitter) -> abi::Light {
+        let base = abi::Light {
+            kind: emitter.kind as u32,
+            material: emitter.material,
+            ..Default::default()
+        };
+        if emitter.kind == LightKind::Sphere {
+            let primitive = self.sphere_at[emitter.primitive as usize];
+            let sphere = &self.spheres[primitive as usize];
+            let (origin, edge1) = (sphere.center, [sphere.radius, 0.0, 0.0]);
+            return abi::Light { origin, edge1, primitive, ..base };
+        }
+        let primitive = self.triangle_at[emitter.primitive as usize];
+        let first = &self.triangles[primitive as usize];
+        let origin = glam::Vec3::from(first.v0);
+        // Rectangles are (v0, v1, v2) and (v0, v2, v3): v1 of the first and v2 of the second.
+        let corner = if emitter.kind == LightKind::Rectangle {
+            let second = self.triangle_at[emitter.primitive as usize + 1];
+            self.triangles[second as usize].v2
+        } else {
+            first.v2
+        };
+        let edge1 = glam::Vec3::from(first.v1) - origin;
+        let edge2 = glam::Vec3::from(corner) - origin;
+        let parallelogram = edge1.as_dvec3().cross(edge2.as_dvec3()).length();
+        let share = if emitter.kind == LightKind::Rectangle { 1.0 } else { 0.5 };
+        abi::Light {
+            origin: origin.to_array(),
+            edge1: edge1.to_array(),
+            edge2: edge2.to_array(),
+            area: (share * parallelogram) as f32,
+            primitive,
+            ..base
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_are_proportional_to_power_and_sum_to_all_steps() {
+        let shares = shares(&[1.0, 3.0, 0.0, 4.0]);
+        assert_eq!(shares, [Some(STEPS / 8), Some(3 * STEPS / 8), None, Some(STEPS / 2)]);
+    }
+
+    #[test]
+    fn the_weakest_light_still_has_a_step() {
+        let mut powers = vec![1e-30; 1000];
+        powers.push(1e30);
+        let shares = shares(&powers);
+        assert!(shares[..1000].iter().all(|share| *share == Some(1)));
+        assert_eq!(shares.iter().flatten().sum::<u64>(), STEPS);
+    }
+
+    #[test]
+    fn many_equal_lights_share_all_steps() {
+        let shares = shares(&vec![2.0; 100_000]);
+        assert_eq!(shares.iter().flatten().sum::<u64>(), STEPS);
+    }
+
+    #[test]
+    fn no_power_means_no_light() {
+        assert_eq!(shares(&[0.0, 0.0]), [None, None]);
+    }
+}

@@ -1,0 +1,264 @@
+//! Materials in use become `Material` records, numbered in the order in which geometry asks.
+
+use lang::scene::{self, Color, ColorSpace, MaterialModel, Principled, Scalar, Scene, Wrap};
+use pack::abi::{self, MaterialKind, NONE, material_flag};
+
+use super::Loaded;
+use super::texture::{ImageRef, TextureTable};
+use crate::import::{ImportedMaterial, MapUse};
+
+/// Where a material is declared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum MaterialRef {
+    /// Index into `Scene::materials`.
+    Scene(usize),
+    /// Material of a mesh file.
+    Asset {
+        /// Index into `Scene::assets`.
+        asset: usize,
+        /// Index into `MeshFile::materials`.
+        material: usize,
+    },
+    /// The emission of a `light`, index into `Scene::lights`.
+    Light(usize),
+    /// Grey Lambert, for parts of mesh files that name no material.
+    Default,
+}
+
+/// Reflectance of surfaces that nobody gave a material: a neutral 50 % grey.
+const DEFAULT_COLOR: f32 = 0.5;
+
+/// Materials, and the textures they use.
+pub(super) struct MaterialTable<'a> {
+    scene: &'a Scene,
+    loaded: &'a Loaded,
+    pub(super) textures: TextureTable<'a>,
+    refs: Vec<MaterialRef>,
+    records: Vec<abi::Material>,
+}
+
+impl<'a> MaterialTable<'a> {
+    pub(super) fn new(scene: &'a Scene, loaded: &'a Loaded) -> Self {
+        let textures = TextureTable::new(loaded);
+        Self { scene, loaded, textures, refs: Vec::new(), records: Vec::new() }
+    }
+
+    /// The index of a material, which is lowered at its first use.
+    pub(super) fn index(&mut self, of: MaterialRef) -> u32 {
+        if let Some(index) = self.refs.iter().position(|known| *known == of) {
+            return index as u32;
+        }
+        let record = match of {
+            MaterialRef::Scene(index) => self.declared(&self.scene.materials[index].model),
+            MaterialRef::Asset { asset, material } => self.imported(asset, material),
+            MaterialRef::Light(index) => {
+                let emission = self.scene.lights[index].radiance.map(|c| c as f32);
+                abi::Material { emission, ..blank(MaterialKind::Emissive) }
+            }
+            MaterialRef::Default => {
+                abi::Material { color: [DEFAULT_COLOR; 3], ..blank(MaterialKind::Diffuse) }
+            }
+        };
+        self.refs.push(of);
+        self.records.push(record);
+        (self.records.len() - 1) as u32
+    }
+
+    pub(super) fn records(&self) -> &[abi::Material] {
+        &self.records
+    }
+
+    pub(super) fn refs(&self) -> &[MaterialRef] {
+        &self.refs
+    }
+
+    /// Mean emitted radiance of a material, over its texture if it has one.
+    pub(super) fn mean_emission(&self, index: u32) -> [f64; 3] {
+        let record = &self.records[index as usize];
+        let factor = record.emission.map(f64::from);
+        if record.emission_texture == NONE {
+            return factor;
+        }
+        let mean = self.textures.mean(record.emission_texture);
+        [0, 1, 2].map(|k| factor[k] * mean[k])
+    }
+
+    pub(super) fn into_records(self) -> (Vec<abi::Material>, TextureTable<'a>) {
+        (self.records, self.textures)
+    }
+
+    fn declared(&mut self, model: &MaterialModel) -> abi::Material {
+        match model {
+            MaterialModel::Diffuse { color } => {
+                let (color, color_texture) = self.color(*color);
+                abi::Material { color, color_texture, ..blank(MaterialKind::Diffuse) }
+            }
+            MaterialModel::Metal { color, fuzz } => {
+                let (color, color_texture) = self.color(*color);
+                let fuzz = *fuzz as f32;
+                abi::Material { color, color_texture, fuzz, ..blank(MaterialKind::Metal) }
+            }
+            MaterialModel::Dielectric { ior } => {
+                abi::Material { ..with_ior(blank(MaterialKind::Dielectric), *ior) }
+            }
+            MaterialModel::Emissive { color, strength, both_sides } => {
+                let (emission, emission_texture) = self.color(*color);
+                let emission = emission.map(|c| (f64::from(c) * strength) as f32);
+                let flags = if *both_sides { material_flag::EMIT_BOTH_SIDES } else { 0 };
+                let base = blank(MaterialKind::Emissive);
+                abi::Material { emission, emission_texture, flags, ..base }
+            }
+            MaterialModel::Principled(principled) => self.principled(principled),
+        }
+    }
+
+    fn principled(&mut self, principled: &Principled) -> abi::Material {
+        let (color, color_texture) = self.color(principled.color);
+        let (emission, emission_texture) = self.color(principled.emission);
+        let strength = principled.emission_strength;
+        let mut record = abi::Material {
+            color,
+            color_texture,
+            emission: emission.map(|c| (f64::from(c) * strength) as f32),
+            emission_texture,
+            roughness: factor(principled.roughness),
+            metallic: factor(principled.metallic),
+            flags: material_flag::EMIT_BOTH_SIDES,
+            ..with_ior(blank(MaterialKind::Principled), principled.ior)
+        };
+        let (roughness, metallic) = (channel(principled.roughness), channel(principled.metallic));
+        if roughness.is_some() || metallic.is_some() {
+            let wrap = self.wrap(principled.roughness, principled.metallic);
+            record.metallic_roughness_texture =
+                self.textures.gathered([None, roughness, metallic, None], wrap);
+        }
+        if let Some(cutoff) = principled.alpha_clip {
+            record.flags |= material_flag::ALPHA_CLIP;
+            record.alpha_cutoff = cutoff as f32;
+            record.alpha = factor(principled.alpha);
+            if let Some(alpha) = channel(principled.alpha) {
+                let wrap = self.wrap(principled.alpha, principled.alpha);
+                record.alpha_texture =
+                    self.textures.gathered([None, None, None, Some(alpha)], wrap);
+            }
+        }
+        record
+    }
+
+    fn imported(&mut self, asset: usize, material: usize) -> abi::Material {
+        let file = self.loaded.assets[asset].as_ref();
+        let file = file.expect("an asset whose material is used has been loaded");
+        let from: &ImportedMaterial = &file.materials[material];
+        let mut record = if from.unlit {
+            let map = self.map(asset, from.color_map);
+            let emission = from.color.map(|c| c as f32);
+            abi::Material { emission, emission_texture: map, ..blank(MaterialKind::Emissive) }
+        } else {
+            let kind = if from.diffuse_only && from.emission == [0.0; 3] {
+                MaterialKind::Diffuse
+            } else {
+                MaterialKind::Principled
+            };
+            self.imported_surface(asset, from, kind)
+        };
+        record.flags |= material_flag::EMIT_BOTH_SIDES;
+        if let Some(cutoff) = from.alpha_clip {
+            record.flags |= material_flag::ALPHA_CLIP;
+            record.alpha_cutoff = cutoff as f32;
+            record.alpha = from.alpha as f32;
+            record.alpha_texture = self.map(asset, from.alpha_map);
+        }
+        record
+    }
+
+    fn imported_surface(
+        &mut self,
+        asset: usize,
+        from: &ImportedMaterial,
+        kind: MaterialKind,
+    ) -> abi::Material {
+        let record = abi::Material {
+            color: from.color.map(|c| c as f32),
+            color_texture: self.map(asset, from.color_map),
+            ..blank(kind)
+        };
+        if kind == MaterialKind::Diffuse {
+            return record;
+        }
+        abi::Material {
+            emission: from.emission.map(|c| c as f32),
+            emission_texture: self.map(asset, from.emission_map),
+            metallic: from.metallic as f32,
+            roughness: from.roughness as f32,
+            metallic_roughness_texture: self.map(asset, from.metallic_roughness_map),
+            ..with_ior(record, from.ior)
+        }
+    }
+
+    /// Factor and texture of a declared colour.
+    fn color(&mut self, color: Color) -> ([f32; 3], u32) {
+        match color {
+            Color::Constant(rgb) => (rgb.map(|c| c as f32), NONE),
+            Color::Texture(texture) => {
+                let scene::Texture { space, wrap, .. } = &self.scene.textures[texture];
+                let id = self.textures.whole(ImageRef::Scene(texture), *space, *wrap);
+                ([1.0; 3], id)
+            }
+        }
+    }
+
+    fn map(&mut self, asset: usize, map: Option<MapUse>) -> u32 {
+        map.map_or(NONE, |map| {
+            let image = ImageRef::Asset { asset, image: map.image as usize };
+            // Bytes that are not colours are the same numbers under either linear name.
+            let space = match map.space {
+                ColorSpace::Data => ColorSpace::Linear,
+                space => space,
+            };
+            self.textures.whole(image, space, map.wrap)
+        })
+    }
+
+    /// How the texture of the first textured scalar wraps.
+    fn wrap(&self, first: Scalar, second: Scalar) -> [Wrap; 2] {
+        [first, second]
+            .into_iter()
+            .find_map(|scalar| match scalar {
+                Scalar::Texture { texture, .. } => Some(self.scene.textures[texture].wrap),
+                Scalar::Constant(_) => None,
+            })
+            .unwrap_or([Wrap::Repeat; 2])
+    }
+}
+
+/// A material of this kind without textures, opaque, black, ior 1.5.
+fn blank(kind: MaterialKind) -> abi::Material {
+    let base = abi::Material {
+        kind: kind as u32,
+        alpha: 1.0,
+        color_texture: NONE,
+        emission_texture: NONE,
+        metallic_roughness_texture: NONE,
+        alpha_texture: NONE,
+        ..Default::default()
+    };
+    with_ior(base, 1.5)
+}
+
+fn with_ior(material: abi::Material, ior: f64) -> abi::Material {
+    abi::Material { ior: ior as f32, ior_minus_1: (ior - 1.0) as f32, ..material }
+}
+
+fn factor(scalar: Scalar) -> f32 {
+    match scalar {
+        Scalar::Constant(value) => value as f32,
+        Scalar::Texture { .. } => 1.0,
+    }
+}
+
+fn channel(scalar: Scalar) -> Option<(ImageRef, u8)> {
+    match scalar {
+        Scalar::Constant(_) => None,
+        Scalar::Texture { texture, channel } => Some((ImageRef::Scene(texture), channel)),
+    }
+}

@@ -1,0 +1,79 @@
+//! Primitives in leaf order, lights numbered, each primitive knowing its light.
+
+use pack::abi::{self, LightKind, NONE};
+
+use super::geometry::Placement;
+use super::light::{self, Geometry};
+use crate::bvh::Joined;
+use crate::weld::Welded;
+
+/// Primitives in the normalised frame, in order of declaration.
+pub(super) struct Declared {
+    pub(super) corners: Vec<[[f32; 3]; 3]>,
+    pub(super) welded: Welded,
+    pub(super) balls: Vec<([f32; 3], f32)>,
+}
+
+/// Primitives as the pack stores them.
+pub(super) struct Ordered {
+    pub(super) triangles: Vec<abi::Triangle>,
+    pub(super) shades: Vec<abi::TriShade>,
+    pub(super) spheres: Vec<abi::Sphere>,
+    pub(super) lights: Vec<abi::Light>,
+}
+
+/// Renumbers everything to the leaf order of `joined`.
+pub(super) fn order(placement: &Placement, declared: &Declared, joined: &Joined) -> Ordered {
+    let triangle = |&i: &u32| {
+        let [v0, v1, v2] = declared.corners[i as usize];
+        let [id0, id1, id2] = declared.welded.ids[i as usize];
+        abi::Triangle { v0, id0, v1, id1, v2, id2 }
+    };
+    let sphere = |&i: &u32| {
+        let (center, radius) = declared.balls[i as usize];
+        let material = placement.sphere_materials[i as usize];
+        abi::Sphere { center, radius, material, light: NONE, _pad0: 0, _pad1: 0 }
+    };
+    let shade = |&i: &u32| placement.shades[i as usize];
+    let mut ordered = Ordered {
+        triangles: joined.triangle_order.iter().map(triangle).collect(),
+        shades: joined.triangle_order.iter().map(shade).collect(),
+        spheres: joined.sphere_order.iter().map(sphere).collect(),
+        lights: Vec::new(),
+    };
+    ordered.connect_lights(placement, joined);
+    ordered
+}
+
+impl Ordered {
+    fn connect_lights(&mut self, placement: &Placement, joined: &Joined) {
+        let triangle_at = inverse(&joined.triangle_order);
+        let sphere_at = inverse(&joined.sphere_order);
+        let geometry = Geometry {
+            triangles: &self.triangles,
+            triangle_at: &triangle_at,
+            spheres: &self.spheres,
+            sphere_at: &sphere_at,
+        };
+        let (lights, ids) = light::table(&placement.emitters, &geometry);
+        self.lights = lights;
+        for (emitter, id) in placement.emitters.iter().zip(ids) {
+            for primitive in emitter.primitive..emitter.primitive + emitter.count {
+                if emitter.kind == LightKind::Sphere {
+                    self.spheres[sphere_at[primitive as usize] as usize].light = id;
+                } else {
+                    self.shades[triangle_at[primitive as usize] as usize].light = id;
+                }
+            }
+        }
+    }
+}
+
+/// Where each element went: `inverse(order)[order[i]] == i`.
+fn inverse(order: &[u32]) -> Vec<u32> {
+    let mut at = vec![0; order.len()];
+    for (new, &old) in (0..).zip(order) {
+        at[old as usize] = new;
+    }
+    at
+}

@@ -1,0 +1,222 @@
+//! Images in use become `Texture` records and one run of texels.
+//!
+//! An image used twice in the same way is stored once. Where a material takes single channels from
+//! several images, they are gathered into one image, because the kernel reads roughness and
+//! metallic from green and blue of one texture, and coverage from a fourth channel.
+
+use lang::scene::{ColorSpace, Wrap};
+use pack::abi::{self, TextureFormat};
+
+use super::Loaded;
+use crate::import::{Image, Pixels};
+
+/// Which file an image comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum ImageRef {
+    /// Index into `Scene::textures`.
+    Scene(usize),
+    /// Image of a mesh file.
+    Asset {
+        /// Index into `Scene::assets`.
+        asset: usize,
+        /// Index into `MeshFile::images`.
+        image: usize,
+    },
+}
+
+/// One channel of an image.
+pub(super) type Channel = (ImageRef, u8);
+
+/// How a texture is made; equal recipes are stored once.
+#[derive(Clone, Debug, PartialEq)]
+enum Recipe {
+    Whole { image: ImageRef, space: ColorSpace, wrap: [Wrap; 2] },
+    Gathered { channels: [Option<Channel>; 4], wrap: [Wrap; 2] },
+}
+
+/// Textures in the order in which materials asked for them.
+pub struct TextureTable<'a> {
+    loaded: &'a Loaded,
+    recipes: Vec<Recipe>,
+    records: Vec<abi::Texture>,
+    texels: Vec<[u32; 4]>,
+    means: Vec<[f64; 4]>,
+}
+
+impl<'a> TextureTable<'a> {
+    /// An empty table over the images in `loaded`.
+    #[must_use]
+    pub fn new(loaded: &'a Loaded) -> Self {
+        let (recipes, records, texels, means) = Default::default();
+        Self { loaded, recipes, records, texels, means }
+    }
+
+    /// Records and texels, for the pack.
+    #[must_use]
+    pub fn into_records(self) -> (Vec<abi::Texture>, Vec<[u32; 4]>) {
+        (self.records, self.texels)
+    }
+
+    /// Mean of red, green, blue, alpha over the texels of texture `id`, linear.
+    pub(super) fn mean(&self, id: u32) -> [f64; 4] {
+        self.means[id as usize]
+    }
+
+    /// The id of a whole image.
+    pub(super) fn whole(&mut self, image: ImageRef, space: ColorSpace, wrap: [Wrap; 2]) -> u32 {
+        let recipe = Recipe::Whole { image, space, wrap };
+        if let Some(id) = self.recipes.iter().position(|known| *known == recipe) {
+            return id as u32;
+        }
+        let source = self.image(image);
+        let size = [source.width, source.height];
+        let (format, words, mean) = match (&source.data, space) {
+            (Pixels::Rgba8(bytes), ColorSpace::Srgb) => {
+                (TextureFormat::Rgba8Srgb, byte_words(bytes), byte_mean(bytes, srgb_to_linear))
+            }
+            (Pixels::Rgba8(bytes), _) => {
+                (TextureFormat::Rgba8Linear, byte_words(bytes), byte_mean(bytes, |x| x))
+            }
+            (Pixels::Rgba16F(bits), space) => {
+                let decode = if space == ColorSpace::Srgb { srgb_to_linear } else { |x| x };
+                let (words, mean) = half_words(bits, decode);
+                (TextureFormat::Rgba16Float, words, mean)
+            }
+        };
+        self.push(recipe, size, format, &words, mean)
+    }
+
+    /// The id of a linear image whose channels come from single channels; absent ones are 1.
+    pub(super) fn gathered(&mut self, channels: [Option<Channel>; 4], wrap: [Wrap; 2]) -> u32 {
+        let recipe = Recipe::Gathered { channels, wrap };
+        if let Some(id) = self.recipes.iter().position(|known| *known == recipe) {
+            return id as u32;
+        }
+        let sources = channels.map(|channel| channel.map(|(image, _)| self.image(image)));
+        let largest = |side: fn(&Image) -> u32| sources.iter().flatten().map(|i| side(i)).max();
+        let size = [largest(|i| i.width).unwrap_or(1), largest(|i| i.height).unwrap_or(1)];
+        let mut bytes = Vec::with_capacity(4 * size[0] as usize * size[1] as usize);
+        for y in 0..size[1] {
+            for x in 0..size[0] {
+                bytes.extend((0..4).map(|k| match (sources[k], channels[k]) {
+                    (Some(image), Some((_, channel))) => nearest(image, [x, y], size, channel),
+                    _ => u8::MAX,
+                }));
+            }
+        }
+        let mean = byte_mean(&bytes, |x| x);
+        self.push(recipe, size, TextureFormat::Rgba8Linear, &byte_words(&bytes), mean)
+    }
+
+    fn push(
+        &mut self,
+        recipe: Recipe,
+        size: [u32; 2],
+        format: TextureFormat,
+        words: &[u32],
+        mean: [f64; 4],
+    ) -> u32 {
+        let id = self.records.len() as u32;
+        let wrap = |w: Wrap| match w {
+            Wrap::Repeat => abi::Wrap::Repeat as u32,
+            Wrap::Clamp => abi::Wrap::Clamp as u32,
+            Wrap::Mirror => abi::Wrap::Mirror as u32,
+        };
+        let (Recipe::Whole { wrap: wraps, .. } | Recipe::Gathered { wrap: wraps, .. }) = &recipe;
+        self.records.push(abi::Texture {
+            width: size[0],
+            height: size[1],
+            format: format as u32,
+            offset: self.texels.len() as u32,
+            wrap_u: wrap(wraps[0]),
+            wrap_v: wrap(wraps[1]),
+            ..Default::default()
+        });
+        let (whole, rest) = words.as_chunks::<4>();
+        self.texels.extend(whole);
+        if !rest.is_empty() {
+            let mut last = [0; 4];
+            last[..rest.len()].copy_from_slice(rest);
+            self.texels.push(last);
+        }
+        self.recipes.push(recipe);
+        self.means.push(mean);
+        id
+    }
+
+    fn image(&self, image: ImageRef) -> &'a Image {
+        let found = match image {
+            ImageRef::Scene(texture) => self.loaded.textures[texture].as_ref(),
+            ImageRef::Asset { asset, image } => {
+                self.loaded.assets[asset].as_ref().map(|file| &file.images[image].image)
+            }
+        };
+        found.expect("every image that a used material names has been loaded")
+    }
+}
+
+/// The linear value of each sRGB byte (IEC 61966-2-1), as the SRGBLUT section holds it.
+#[must_use]
+pub fn srgb_table() -> [f32; 256] {
+    std::array::from_fn(|byte| srgb_to_linear(byte as f64 / 255.0) as f32)
+}
+
+fn srgb_to_linear(x: f64) -> f64 {
+    if x <= 0.04045 { x / 12.92 } else { libm::pow((x + 0.055) / 1.055, 2.4) }
+}
+
+fn byte_words(bytes: &[u8]) -> Vec<u32> {
+    bytes.as_chunks::<4>().0.iter().map(|texel| u32::from_le_bytes(*texel)).collect()
+}
+
+/// Mean over texels; `decode` is applied to the colour channels only.
+fn byte_mean(bytes: &[u8], decode: fn(f64) -> f64) -> [f64; 4] {
+    let mut counts = [[0_u64; 256]; 4];
+    for texel in bytes.as_chunks::<4>().0 {
+        for (count, byte) in counts.iter_mut().zip(texel) {
+            count[usize::from(*byte)] += 1;
+        }
+    }
+    let texels = (bytes.len() / 4).max(1) as f64;
+    [0, 1, 2, 3].map(|k| {
+        let value = |byte: usize| byte as f64 / 255.0;
+        let decoded = |byte| if k < 3 { decode(value(byte)) } else { value(byte) };
+        let sum: f64 = (0..256).map(|byte| counts[k][byte] as f64 * decoded(byte)).sum();
+        sum / texels
+    })
+}
+
+/// Two words a texel, colour channels decoded; and the mean.
+fn half_words(bits: &[u16], decode: fn(f64) -> f64) -> (Vec<u32>, [f64; 4]) {
+    let mut words = Vec::with_capacity(bits.len() / 2);
+    let mut sum = [0.0; 4];
+    for texel in bits.as_chunks::<4>().0 {
+        let mut halves = *texel;
+        for (k, half) in halves.iter_mut().enumerate() {
+            let raw = f64::from(half::f16::from_bits(*half).to_f32());
+            let value = if k < 3 { decode(raw) } else { raw };
+            if value.to_bits() != raw.to_bits() {
+                *half = half::f16::from_f64(value).to_bits();
+            }
+            sum[k] += value;
+        }
+        words.push(u32::from(halves[0]) | u32::from(halves[1]) << 16);
+        words.push(u32::from(halves[2]) | u32::from(halves[3]) << 16);
+    }
+    let texels = (bits.len() / 4).max(1) as f64;
+    (words, sum.map(|s| s / texels))
+}
+
+/// The texel of `image` at the place of texel `at` of a picture of `size`, one channel as a byte.
+fn nearest(image: &Image, at: [u32; 2], size: [u32; 2], channel: u8) -> u8 {
+    let scale = |x: u32, to: u32, from: u32| (u64::from(x) * u64::from(to) / u64::from(from)) as usize;
+    let (x, y) = (scale(at[0], image.width, size[0]), scale(at[1], image.height, size[1]));
+    let index = 4 * (y * image.width as usize + x) + usize::from(channel);
+    match &image.data {
+        Pixels::Rgba8(bytes) => bytes[index],
+        Pixels::Rgba16F(bits) => {
+            let value = half::f16::from_bits(bits[index]).to_f32();
+            (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! A checked scene becomes a pack: files are read, the scene lowered, the kernel linked and proven.
+//!
+//! It does not parse, print, or decide where the pack goes.
+
+mod features;
+mod load;
+mod manifest;
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use lang::diagnostic::Diagnostic;
+use lang::scene::Scene;
+use lang::source::SourceSet;
+use pack::{PackError, PackWriter};
+use shaders::{FeatureSet, LayoutError, Linked, ShaderError};
+
+use crate::cache::Cache;
+use crate::import::Limits;
+use crate::lower::{self, LowerError, Lowered};
+
+pub use load::FileRead;
+
+/// What a compilation is given besides the scene.
+#[derive(Debug)]
+pub struct Options<'a> {
+    /// Directory of the root `.rts` file; names in the pack are relative to it.
+    pub root: &'a Path,
+    /// Trees of earlier runs.
+    pub cache: &'a Cache,
+    /// How large inputs may be.
+    pub limits: Limits,
+    /// Overrides of parameters, for the manifest.
+    pub defines: &'a [(String, String)],
+}
+
+/// A phase and what it took.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Phase {
+    /// What was done.
+    pub name: &'static str,
+    /// Wall time.
+    pub time: Duration,
+}
+
+/// Everything that goes into a pack.
+#[derive(Debug)]
+pub struct Compiled {
+    /// The records.
+    pub lowered: Lowered,
+    /// What the kernel must be able to do.
+    pub features: FeatureSet,
+    /// The kernel.
+    pub kernel: Linked,
+    /// Names and places, for people.
+    pub manifest: pack::Manifest,
+    /// Name of the inputs: files, options and compiler version.
+    pub recipe_id: [u8; 32],
+    /// Files that were read besides the scene texts.
+    pub files: Vec<FileRead>,
+    /// What took how long.
+    pub phases: Vec<Phase>,
+}
+
+/// Why there is no pack, apart from faults in the scene's text or files.
+#[derive(Debug, thiserror::Error)]
+pub enum CompileError {
+    /// The scene has errors; they are among the diagnostics.
+    #[error("the scene has errors")]
+    Scene,
+    /// The scene is too large for the format.
+    #[error(transparent)]
+    Lower(#[from] LowerError),
+    /// The kernel could not be linked or is not valid: a bug of ours, or too many bindings.
+    #[error(transparent)]
+    Shader(#[from] ShaderError),
+    /// The kernel reads other bytes than the compiler writes: a bug of ours.
+    #[error(transparent)]
+    Layout(#[from] LayoutError),
+    /// The pack could not be put together or written.
+    #[error(transparent)]
+    Pack(#[from] PackError),
+}
+
+/// Compiles a scene. Faults in its files and warnings are added to `diagnostics`.
+///
+/// # Errors
+/// `CompileError::Scene` when `diagnostics` has errors; otherwise what stopped the compiler.
+pub fn compile(
+    scene: &Scene,
+    sources: &SourceSet,
+    options: &Options<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<Compiled, CompileError> {
+    let mut clock = Clock::start();
+    let (loaded, files) = load::load(scene, sources, options, diagnostics);
+    clock.phase("read files");
+    if diagnostics.iter().any(Diagnostic::is_error) {
+        return Err(CompileError::Scene);
+    }
+    let lowered = lower::lower(scene, &loaded, options.cache, diagnostics)?;
+    drop(loaded);
+    if diagnostics.iter().any(Diagnostic::is_error) {
+        return Err(CompileError::Scene);
+    }
+    clock.times(&lowered.times);
+    let features = features::of(&lowered);
+    let kernel = shaders::link(&features)?;
+    let (module, _) = shaders::validate(&kernel)?;
+    shaders::check_layouts(&module)?;
+    clock.phase("link and prove the kernel");
+    let context = manifest::Context { scene, sources, options, files: &files };
+    let manifest = context.manifest(&lowered, &features);
+    let recipe_id = context.recipe_id();
+    Ok(Compiled { lowered, features, kernel, manifest, recipe_id, files, phases: clock.phases })
+}
+
+impl Compiled {
+    /// A writer over everything; write it to a file or to memory.
+    ///
+    /// # Errors
+    /// When the manifest is too large.
+    pub fn writer<'a>(&'a self, srgb: &'a [f32; 256]) -> Result<PackWriter<'a>, PackError> {
+        let lowered = &self.lowered;
+        let mut writer = PackWriter::new();
+        writer.record(&lowered.render).record(&lowered.camera);
+        if let Some(sky) = &lowered.sky {
+            writer.record(sky);
+        }
+        writer
+            .records(&lowered.nodes)
+            .records(&lowered.triangles)
+            .records(&lowered.shades)
+            .records(&lowered.spheres)
+            .records(&lowered.materials)
+            .records(&lowered.lights)
+            .records(&lowered.textures)
+            .texels(&lowered.texels)
+            .kernel(&self.kernel.text)
+            .recipe_id(self.recipe_id);
+        let format = pack::abi::TextureFormat::Rgba8Srgb as u32;
+        if lowered.textures.iter().any(|texture| texture.format == format) {
+            writer.srgb_table(srgb);
+        }
+        writer.manifest(&self.manifest)?;
+        Ok(writer)
+    }
+}
+
+/// Collects phases.
+struct Clock {
+    last: Instant,
+    phases: Vec<Phase>,
+}
+
+impl Clock {
+    fn start() -> Self {
+        Self { last: Instant::now(), phases: Vec::new() }
+    }
+
+    fn phase(&mut self, name: &'static str) {
+        let now = Instant::now();
+        self.phases.push(Phase { name, time: now - self.last });
+        self.last = now;
+    }
+
+    fn times(&mut self, times: &lower::Times) {
+        for (name, time) in [
+            ("place and weld geometry", times.geometry),
+            ("build or fetch trees", times.bvh),
+            ("put primitives in leaf order", times.order),
+        ] {
+            self.phases.push(Phase { name, time });
+        }
+        self.last = Instant::now();
+    }
+}

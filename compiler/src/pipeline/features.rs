@@ -1,0 +1,97 @@
+//! What a scene needs of the kernel, and why: read off the records, so that it cannot be wrong.
+
+use std::collections::BTreeSet;
+
+use pack::abi::{LightKind, MaterialKind, SkyKind, TextureFormat, material_flag};
+use shaders::{FeatureSet, WINDOW_WORDS, Windows};
+
+use crate::lower::Lowered;
+
+/// The features that the records use.
+pub(super) fn of(lowered: &Lowered) -> FeatureSet {
+    let materials = &lowered.materials;
+    let words = |bytes: usize| (bytes / 16).div_ceil(WINDOW_WORDS as usize).max(1) as u32;
+    FeatureSet {
+        triangles: !lowered.triangles.is_empty(),
+        spheres: !lowered.spheres.is_empty(),
+        smooth_normals: lowered.shades.iter().any(|shade| shade.flags & 1 != 0),
+        materials: MaterialKind::ALL
+            .into_iter()
+            .filter(|kind| materials.iter().any(|m| m.kind == *kind as u32))
+            .collect(),
+        lights: [LightKind::Sphere, LightKind::Rectangle, LightKind::Triangle]
+            .into_iter()
+            .filter(|kind| lowered.lights.iter().any(|light| light.kind == *kind as u32))
+            .collect(),
+        skies: lowered.sky.iter().map(sky_kind).collect::<BTreeSet<_>>(),
+        lens: lowered.camera.lens_radius > 0.0,
+        textures: FORMATS
+            .into_iter()
+            .filter(|format| lowered.textures.iter().any(|t| t.format == *format as u32))
+            .collect(),
+        alpha_clip: materials.iter().any(|m| m.flags & material_flag::ALPHA_CLIP != 0),
+        stack_size: lowered.render.stack_need.max(1),
+        windows: Windows {
+            node: words(size_of_val(lowered.nodes.as_slice())),
+            tri: words(size_of_val(lowered.triangles.as_slice())),
+            shade: words(size_of_val(lowered.shades.as_slice())),
+            sphere: words(size_of_val(lowered.spheres.as_slice())),
+            texel: words(size_of_val(lowered.texels.as_slice())),
+        },
+    }
+}
+
+const FORMATS: [TextureFormat; 3] =
+    [TextureFormat::Rgba8Srgb, TextureFormat::Rgba8Linear, TextureFormat::Rgba16Float];
+
+fn sky_kind(sky: &pack::abi::Sky) -> SkyKind {
+    if sky.kind == SkyKind::Gradient as u32 { SkyKind::Gradient } else { SkyKind::Constant }
+}
+
+type Reasons = Vec<(String, String)>;
+
+/// Features that are in, and features that are not, each with its reason.
+pub(super) fn explain(features: &FeatureSet, lowered: &Lowered) -> (Reasons, Reasons) {
+    let mut rows: Vec<(String, bool, String)> = vec![
+        row("triangles", features.triangles, format!("{} triangles", lowered.triangles.len())),
+        row("spheres", features.spheres, format!("{} spheres", lowered.spheres.len())),
+        row("smooth normals", features.smooth_normals, "a mesh has normals".to_owned()),
+        row("lens", features.lens, "the aperture is open".to_owned()),
+        row("alpha clip", features.alpha_clip, "a material cuts out by alpha".to_owned()),
+    ];
+    for kind in MaterialKind::ALL {
+        let users: Vec<&str> = (lowered.materials.iter().zip(&lowered.material_names))
+            .filter(|(material, _)| material.kind == kind as u32)
+            .map(|(_, (name, _))| name.as_str())
+            .collect();
+        let name = format!("material {}", format!("{kind:?}").to_lowercase());
+        let reason = match users.as_slice() {
+            [] => String::new(),
+            [one] => format!("used by `{one}`"),
+            [first, rest @ ..] => format!("used by `{first}` and {} more", rest.len()),
+        };
+        rows.push((name, features.materials.contains(&kind), reason));
+    }
+    for kind in [LightKind::Sphere, LightKind::Rectangle, LightKind::Triangle] {
+        let count = lowered.lights.iter().filter(|light| light.kind == kind as u32).count();
+        let name = format!("light {}", format!("{kind:?}").to_lowercase());
+        rows.push((name, count > 0, format!("{count} in the light table")));
+    }
+    for kind in [SkyKind::Constant, SkyKind::Gradient] {
+        let name = format!("sky {}", format!("{kind:?}").to_lowercase());
+        rows.push((name, features.skies.contains(&kind), "declared".to_owned()));
+    }
+    for format in FORMATS {
+        let count = lowered.textures.iter().filter(|t| t.format == format as u32).count();
+        let name = format!("texture {}", format!("{format:?}").to_lowercase());
+        rows.push((name, count > 0, format!("{count} images")));
+    }
+    let (kept, left): (Vec<_>, Vec<_>) = rows.into_iter().partition(|(_, kept, _)| *kept);
+    let kept = kept.into_iter().map(|(name, _, reason)| (name, reason)).collect();
+    let left = left.into_iter().map(|(name, ..)| (name, "nothing uses it".to_owned())).collect();
+    (kept, left)
+}
+
+fn row(name: &str, kept: bool, reason: String) -> (String, bool, String) {
+    (name.to_owned(), kept, reason)
+}

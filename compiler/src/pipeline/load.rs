@@ -1,0 +1,252 @@
+//! Reads the files that instances use; what cannot be read becomes a diagnostic at its path.
+
+use std::path::{Path, PathBuf};
+
+use lang::diagnostic::{Code, Diagnostic, Fix};
+use lang::scene::{Asset, AssetFormat, Color, MaterialModel, Scalar, Scene, Shape};
+use lang::source::{SourceSet, Span};
+use rayon::prelude::*;
+
+use super::Options;
+use crate::import::{
+    ErrorKind, Image, ImportError, ImportReport, MeshFile, Pixels, load_gltf, load_image, load_obj,
+};
+use crate::lower::Loaded;
+
+/// A file that went into the pack.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileRead {
+    /// Path relative to the root scene's directory, as far as it can be.
+    pub name: String,
+    /// BLAKE3 of its bytes; for images of what they show.
+    pub hash: [u8; 32],
+}
+
+/// Loads every asset and texture that is used, in parallel; results are in declaration order.
+pub(super) fn load(
+    scene: &Scene,
+    sources: &SourceSet,
+    options: &Options<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> (Loaded, Vec<FileRead>) {
+    let used = Used::of(scene);
+    let assets: Vec<_> = (scene.assets.par_iter().zip(&used.assets))
+        .map(|(asset, used)| {
+            used.then(|| read_asset(asset, &beside(sources, asset.path_span, &asset.path), options))
+        })
+        .collect();
+    let textures: Vec<_> = (scene.textures.par_iter().zip(&used.textures))
+        .map(|(texture, used)| {
+            let path = beside(sources, texture.path_span, &texture.path);
+            used.then(|| load_image(&path, &options.limits).map(|image| (image, path)))
+        })
+        .collect();
+    let mut files = Vec::new();
+    let mut loaded = Loaded::default();
+    for (asset, result) in scene.assets.iter().zip(assets) {
+        let file = result.and_then(|r| {
+            r.map_err(|e| diagnostics.push(failed(&e, asset.path_span, &asset.path))).ok()
+        });
+        if let Some(file) = &file {
+            report(&file.report, asset.path_span, diagnostics);
+            let read = file.report.files.iter();
+            files.extend(read.map(|f| FileRead { name: relative(&f.path, options.root), hash: f.hash }));
+        }
+        loaded.assets.push(file);
+    }
+    for (texture, result) in scene.textures.iter().zip(textures) {
+        let image = result.and_then(|r| {
+            r.map_err(|e| diagnostics.push(failed(&e, texture.path_span, &texture.path))).ok()
+        });
+        loaded.textures.push(image.map(|(image, path)| {
+            files.push(FileRead { name: relative(&path, options.root), hash: content(&image) });
+            image
+        }));
+    }
+    find_parts(scene, &loaded, diagnostics);
+    files.sort_by(|a, b| a.name.cmp(&b.name));
+    files.dedup();
+    (loaded, files)
+}
+
+/// Which assets and textures something asks for.
+struct Used {
+    assets: Vec<bool>,
+    textures: Vec<bool>,
+}
+
+impl Used {
+    fn of(scene: &Scene) -> Self {
+        let mut used = Self {
+            assets: vec![false; scene.assets.len()],
+            textures: vec![false; scene.textures.len()],
+        };
+        let mut materials = vec![false; scene.materials.len()];
+        for instance in &scene.instances {
+            if let Shape::Mesh { asset, .. } = &instance.shape {
+                used.assets[*asset] = true;
+            }
+            if let Some(material) = instance.material {
+                materials[material] = true;
+            }
+        }
+        for (material, _) in scene.materials.iter().zip(materials).filter(|(_, used)| *used) {
+            used.material(&material.model);
+        }
+        used
+    }
+
+    fn material(&mut self, model: &MaterialModel) {
+        match model {
+            MaterialModel::Diffuse { color }
+            | MaterialModel::Metal { color, .. }
+            | MaterialModel::Emissive { color, .. } => self.color(*color),
+            MaterialModel::Dielectric { .. } => {}
+            MaterialModel::Principled(p) => {
+                self.color(p.color);
+                self.color(p.emission);
+                for scalar in [p.metallic, p.roughness, p.alpha] {
+                    if let Scalar::Texture { texture, .. } = scalar {
+                        self.textures[texture] = true;
+                    }
+                }
+            }
+        }
+    }
+
+    fn color(&mut self, color: Color) {
+        if let Color::Texture(texture) = color {
+            self.textures[texture] = true;
+        }
+    }
+}
+
+fn read_asset(
+    asset: &Asset,
+    path: &Path,
+    options: &Options<'_>,
+) -> Result<MeshFile, ImportError> {
+    match asset.format {
+        AssetFormat::Obj { metres_per_unit, up } => {
+            load_obj(path, metres_per_unit, up, &options.limits)
+        }
+        AssetFormat::Gltf => load_gltf(path, &options.limits),
+    }
+}
+
+/// BLAKE3 over what the image shows, whatever its file looks like.
+fn content(image: &Image) -> [u8; 32] {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(&image.width.to_le_bytes());
+    hasher.update(match &image.data {
+        Pixels::Rgba8(bytes) => bytes,
+        Pixels::Rgba16F(bits) => bytemuck::cast_slice(bits),
+    });
+    *hasher.finalize().as_bytes()
+}
+
+/// A path in the text is relative to the file in which it stands.
+fn beside(sources: &SourceSet, at: Span, path: &str) -> PathBuf {
+    let dir = Path::new(sources.name(at.file)).parent().unwrap_or(Path::new(""));
+    dir.join(path)
+}
+
+/// The path as seen from `root`, with `/` between its parts.
+pub(super) fn relative(path: &Path, root: &Path) -> String {
+    let path = path.strip_prefix(root).unwrap_or(path);
+    let parts: Vec<_> = path.components().map(|part| part.as_os_str().to_string_lossy()).collect();
+    parts.join("/")
+}
+
+fn failed(error: &ImportError, span: Span, written: &str) -> Diagnostic {
+    let code = match error.kind {
+        ErrorKind::Missing | ErrorKind::Io => "E0501",
+        ErrorKind::Format => "E0503",
+        ErrorKind::Number => "E0504",
+        ErrorKind::Index => "E0505",
+        ErrorKind::Accessor => "E0506",
+        ErrorKind::Extension => "E0507",
+        ErrorKind::Empty => "E0508",
+        ErrorKind::Limit => "E0509",
+        ErrorKind::Image => "E0602",
+    };
+    let message = match error.kind {
+        ErrorKind::Missing => format!("there is no file `{written}`"),
+        _ => format!("`{written}` cannot be used"),
+    };
+    let found = Diagnostic::error(Code(code), message).at(span, "named here");
+    let found = found.with_note(error.to_string());
+    if error.help.is_empty() { found } else { found.with_help(error.help.clone()) }
+}
+
+/// Things that were counted during import and that the user should know.
+fn report(report: &ImportReport, span: Span, diagnostics: &mut Vec<Diagnostic>) {
+    let mut warn = |code, lint, message: String, first: &Option<String>| {
+        let warning = Diagnostic::warning(Code(code), lint, message).at(span, "");
+        diagnostics.push(match first {
+            Some(place) => warning.with_note(format!("the first is at {place}")),
+            None => warning,
+        });
+    };
+    let plural = |n: u64, one: &str, many: &str| {
+        if n == 1 { format!("1 {one}") } else { format!("{n} {many}") }
+    };
+    let zero = &report.zero_area;
+    if zero.count > 0 {
+        let what = plural(zero.count, "triangle without area was", "triangles without area were");
+        warn("W0520", "zero_area", format!("{what} left out"), &zero.first);
+    }
+    let needles = &report.needles;
+    if needles.count > 0 {
+        let what = plural(needles.count, "triangle is", "triangles are");
+        let message = format!("{what} a needle, more than 1e5 times as long as high: expect noise there");
+        warn("W0521", "needles", message, &needles.first);
+    }
+    let normals = &report.zero_normals;
+    if normals.count > 0 {
+        let what = plural(normals.count, "normal has", "normals have");
+        warn("W0522", "zero_normals", format!("{what} no length and was replaced"), &normals.first);
+    }
+    if report.clamped_texels > 0 {
+        let what = plural(report.clamped_texels, "texel channel was", "texel channels were");
+        warn("W0523", "clamped_texels", format!("{what} clamped to what a half float holds"), &None);
+    }
+    for warning in &report.warnings {
+        let message = format!("{}: {}", warning.place, warning.message);
+        warn("W0524", "import", message, &None);
+    }
+}
+
+/// A part that a file does not have is an unknown name, with the names it has.
+fn find_parts(scene: &Scene, loaded: &Loaded, diagnostics: &mut Vec<Diagnostic>) {
+    for instance in &scene.instances {
+        let Shape::Mesh { asset, part: Some(part) } = &instance.shape else { continue };
+        let Some(file) = &loaded.assets[*asset] else { continue };
+        if !file.find_parts(part).is_empty() {
+            continue;
+        }
+        let names = file.part_names();
+        let asset = &scene.assets[*asset];
+        let message = format!("`{}` has no part named `{part}`", asset.name.text);
+        let mut found = Diagnostic::error(Code("E0521"), message)
+            .at(instance.shape_span, "not in the file")
+            .because(asset.path_span, "the file");
+        if let [similar, ..] = lang::suggest::suggest(part, names.iter().copied()).as_slice() {
+            let text = format!("{}.{similar}", asset.name.text);
+            let message = format!("a part with a similar name exists: `{similar}`");
+            found = found.with_fix(Fix::guess(message, instance.shape_span, text));
+        } else {
+            found = found.with_note(listed(&names));
+        }
+        diagnostics.push(found);
+    }
+}
+
+fn listed(names: &[&str]) -> String {
+    const MOST: usize = 12; // a screen line or two
+    match names.len() {
+        0 => "the file names no parts; use the asset as a whole".to_owned(),
+        n if n <= MOST => format!("its parts: {}", names.join(", ")),
+        n => format!("its parts: {}, and {} more", names[..MOST].join(", "), n - MOST),
+    }
+}

@@ -1,0 +1,92 @@
+//! Names, places and counts for people who look into a pack, and the name of its inputs.
+
+use lang::scene::{Name, Scene};
+use lang::source::{SourceSet, Span};
+use pack::Manifest;
+use pack::manifest::Named;
+use shaders::FeatureSet;
+
+use super::{FileRead, Options, features, load};
+use crate::lower::Lowered;
+
+/// What a manifest is made from.
+pub(super) struct Context<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) sources: &'a SourceSet,
+    pub(super) options: &'a Options<'a>,
+    pub(super) files: &'a [FileRead],
+}
+
+impl Context<'_> {
+    pub(super) fn manifest(&self, lowered: &Lowered, features: &FeatureSet) -> Manifest {
+        let scene = self.scene;
+        let counters = &lowered.counters;
+        let texts = self.sources.ids().map(|id| self.file_name(self.sources.name(id)));
+        let assets = self.files.iter().map(|file| file.name.clone());
+        let (features_kept, features_left_out) = features::explain(features, lowered);
+        Manifest {
+            scene: scene.render.name.text.clone(),
+            rtc_version: env!("CARGO_PKG_VERSION").to_owned(),
+            output: scene.render.output.clone(),
+            files: texts.chain(assets).collect(),
+            materials: lowered
+                .material_names
+                .iter()
+                .map(|(name, span)| self.named(name, *span))
+                .collect(),
+            instances: scene.instances.iter().map(|i| self.declared(&i.name)).collect(),
+            textures: scene.textures.iter().map(|t| self.declared(&t.name)).collect(),
+            lights: scene.lights.iter().map(|l| self.declared(&l.name)).collect(),
+            cameras: vec![self.declared(&scene.camera.name)],
+            features_kept,
+            features_left_out,
+            options: self.options.defines.iter().map(|(n, v)| format!("-D {n}={v}")).collect(),
+            counters: vec![
+                ("triangles".to_owned(), counters.triangles),
+                ("triangles without area, left out".to_owned(), counters.dropped_triangles),
+                ("vertices".to_owned(), counters.vertices),
+                ("spheres".to_owned(), counters.spheres),
+                ("lights".to_owned(), counters.lights),
+            ],
+        }
+    }
+
+    /// BLAKE3 over compiler version, overrides, scene texts and files.
+    pub(super) fn recipe_id(&self) -> [u8; 32] {
+        let mut hasher = blake3::Hasher::new();
+        let mut field = |bytes: &[u8]| {
+            // The length first: no two lists of fields hash the same bytes.
+            hasher.update(&(bytes.len() as u64).to_le_bytes());
+            hasher.update(bytes);
+        };
+        field(env!("CARGO_PKG_VERSION").as_bytes());
+        for (name, value) in self.options.defines {
+            field(name.as_bytes());
+            field(value.as_bytes());
+        }
+        for id in self.sources.ids() {
+            field(self.sources.text(id).as_bytes());
+        }
+        for file in self.files {
+            field(file.name.as_bytes());
+            field(&file.hash);
+        }
+        *hasher.finalize().as_bytes()
+    }
+
+    fn declared(&self, name: &Name) -> Named {
+        self.named(&name.text, Some(name.span))
+    }
+
+    fn named(&self, name: &str, span: Option<Span>) -> Named {
+        let name = name.to_owned();
+        match span {
+            Some(span) => Named { name, file: span.file.0, line: self.sources.start(span).line },
+            None => Named { name, file: u32::MAX, line: 0 },
+        }
+    }
+
+    fn file_name(&self, name: &str) -> String {
+        load::relative(name.as_ref(), self.options.root)
+    }
+}

@@ -1,0 +1,85 @@
+//! A diagnostic as one line of JSON, modelled on rustc's `--error-format=json`.
+//!
+//! `{"message", "code", "level", "lint", "spans": [...], "children": [...], "rendered"}`; byte
+//! offsets count from 0, lines and columns from 1, columns in characters.
+
+use lang::diagnostic::{Applicability, Diagnostic, Edit, Fix, Severity};
+use lang::source::{SourceSet, Span};
+use serde_json::{Value, json};
+
+/// One line, without a line break.
+pub(super) fn render(sources: &SourceSet, diagnostic: &Diagnostic) -> String {
+    let level = match diagnostic.severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+    };
+    let spans: Vec<Value> = diagnostic
+        .labels
+        .iter()
+        .map(|label| {
+            let mut object = place(sources, label.span);
+            object["is_primary"] = json!(label.primary);
+            object["label"] = json!(label.text);
+            object
+        })
+        .collect();
+    let remark = |level: &str, text: &String| json!({ "level": level, "message": text, "spans": [] });
+    let notes = diagnostic.notes.iter().map(|note| remark("note", note));
+    let helps = diagnostic.helps.iter().map(|help| remark("help", help));
+    let fixes = diagnostic.fixes.iter().map(|fix| suggestion(sources, fix));
+    let children: Vec<Value> = notes.chain(helps).chain(fixes).collect();
+    json!({
+        "message": diagnostic.message,
+        "code": diagnostic.code.0,
+        "level": level,
+        "lint": diagnostic.lint,
+        "spans": spans,
+        "children": children,
+        "rendered": super::human::render(sources, diagnostic, false),
+    })
+    .to_string()
+}
+
+/// A failure that has no place in a source text.
+pub(super) fn failure(message: &str) -> String {
+    bare("error", message)
+}
+
+/// A warning that has no place in a source text.
+pub(super) fn warning(message: &str) -> String {
+    bare("warning", message)
+}
+
+fn bare(level: &str, message: &str) -> String {
+    json!({ "message": message, "code": null, "level": level, "spans": [], "children": [] })
+        .to_string()
+}
+
+fn place(sources: &SourceSet, span: Span) -> Value {
+    let start = sources.start(span);
+    let end = sources.place(span.file, span.end);
+    json!({
+        "file": sources.name(span.file),
+        "byte_start": span.start,
+        "byte_end": span.end,
+        "line_start": start.line,
+        "column_start": start.column,
+        "line_end": end.line,
+        "column_end": end.column,
+    })
+}
+
+fn suggestion(sources: &SourceSet, fix: &Fix) -> Value {
+    let applicability = match fix.applicability {
+        Applicability::MachineApplicable => "MachineApplicable",
+        Applicability::MaybeIncorrect => "MaybeIncorrect",
+    };
+    let edit = |edit: &Edit| {
+        let mut object = place(sources, edit.span);
+        object["suggested_replacement"] = json!(edit.replacement);
+        object["suggestion_applicability"] = json!(applicability);
+        object
+    };
+    let spans: Vec<Value> = fix.edits.iter().map(edit).collect();
+    json!({ "level": "help", "message": fix.message, "spans": spans })
+}
