@@ -127,8 +127,8 @@ impl FunctionWriter<'_> {
                 Ok(format!("Vec3::new({}, {}, {})", lane(1, 2), lane(2, 0), lane(0, 1)))
             }
             (MathFunction::Normalize, &[v]) => {
-                let v_name = self.atom(v)?;
-                Ok(format!("{v_name} * (1.0 / ({}).sqrt())", self.dot_text(v, v)?))
+                let name = self.atom(v)?;
+                Ok(format!("{name} / ({}).sqrt()", self.dot_text(v, v)?))
             }
             (MathFunction::FaceForward, &[n, incident, reference]) => {
                 let n = self.atom(n)?;
@@ -163,27 +163,24 @@ impl FunctionWriter<'_> {
             TypeInner::Vector { size, .. } => (self.lanes(argument, size as usize)?, Some(size)),
             _ => (vec![self.atom(argument)?], None),
         };
-        let (first, second, kind): (fn(&str) -> String, fn(&str) -> String, ScalarKind) =
-            match builtin.fun {
-                MathFunction::Modf => (
-                    |x| format!("{x} - {x}.trunc()"),
-                    |x| format!("{x}.trunc()"),
-                    ScalarKind::Float,
-                ),
-                _ => (
-                    |x| format!("wgsl::frexp({x}).0"),
-                    |x| format!("wgsl::frexp({x}).1"),
-                    ScalarKind::Sint,
-                ),
-            };
-        let gather = |f: fn(&str) -> String, kind: ScalarKind| {
-            let texts: Vec<String> = lanes.iter().map(|lane| f(lane)).collect();
+        let gather = |kind: ScalarKind, f: fn(&String) -> String| {
+            let texts: Vec<String> = lanes.iter().map(f).collect();
             match size {
                 Some(size) => call(&format!("{}::new", vector_name(size, kind)), &texts),
                 None => texts.concat(),
             }
         };
-        let parts = [gather(first, ScalarKind::Float), gather(second, kind)];
+        let parts = if builtin.fun == MathFunction::Modf {
+            [
+                gather(ScalarKind::Float, |x| format!("{x} - {x}.trunc()")),
+                gather(ScalarKind::Float, |x| format!("{x}.trunc()")),
+            ]
+        } else {
+            [
+                gather(ScalarKind::Float, |x| format!("wgsl::frexp({x}).0")),
+                gather(ScalarKind::Sint, |x| format!("wgsl::frexp({x}).1")),
+            ]
+        };
         self.cx.compose(ty, &parts, self.span_of(builtin.handle)).map_err(|e| self.place(e))
     }
 

@@ -1,6 +1,7 @@
 //! Value conversions and `bitcast`. In the f64 twin bits are still those of the f32 nearest.
 
 use crate::functions::FunctionWriter;
+use crate::text::unwrap;
 use crate::{NativeError, Precision};
 use naga::{Bytes, Expression, Handle, ScalarKind, TypeInner};
 
@@ -29,7 +30,10 @@ impl FunctionWriter<'_> {
         };
         match text {
             Some([before, after]) => {
-                self.lanewise(handle, &[operand], |x| format!("{before}{}{after}", x[0]))
+                let within = before.ends_with('(') && after.starts_with(')');
+                self.lanewise(handle, &[operand], |x| {
+                    format!("{before}{}{after}", if within { unwrap(&x[0]) } else { &x[0] })
+                })
             }
             None => Err(self.refuse(handle, &format!("a conversion from {from:?} to {to:?}"))),
         }
@@ -43,8 +47,8 @@ fn value_conversion(from: ScalarKind, to: ScalarKind) -> Option<[&'static str; 2
         (K::Float, K::Uint) => ["wgsl::to_u32(", ")"],
         (K::Float, K::Sint) => ["wgsl::to_i32(", ")"],
         (K::Uint | K::Sint, K::Float) => ["", " as Real"],
-        (K::Uint, K::Sint) | (K::Bool, K::Sint) => ["", " as i32"],
-        (K::Sint, K::Uint) | (K::Bool, K::Uint) => ["", " as u32"],
+        (K::Uint | K::Bool, K::Sint) => ["", " as i32"],
+        (K::Sint | K::Bool, K::Uint) => ["", " as u32"],
         (K::Bool, K::Float) => ["if ", " { 1.0 } else { 0.0 }"],
         (K::Float, K::Bool) => ["", " != 0.0"],
         (K::Uint | K::Sint, K::Bool) => ["", " != 0"],

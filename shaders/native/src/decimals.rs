@@ -37,21 +37,28 @@ impl Context<'_> {
     }
 
     fn evaluate(&self, span: Span, depth: u32) -> Option<f64> {
-        let text = self.source.get(span.to_range()?)?;
-        let mut reader = Reader { cx: self, rest: text, depth };
-        let value = reader.sum()?;
-        reader.skip_space();
-        reader.rest.is_empty().then_some(value)
+        evaluate(self.source, self.source.get(span.to_range()?)?, depth)
     }
+}
 
-    fn constant_value(&self, name: &str, depth: u32) -> Option<f64> {
-        let (_, constant) =
-            self.module.constants.iter().find(|(_, c)| c.name.as_deref() == Some(name))?;
-        let span = self.module.global_expressions.get_span(constant.init);
-        let text = self.source.get(span.to_range()?)?;
-        // A span that is the name itself would lead back here.
-        if text.trim() == name { None } else { self.evaluate(span, depth + 1) }
-    }
+/// The value of an arithmetic expression, whose constants are declared in `source`.
+fn evaluate(source: &str, text: &str, depth: u32) -> Option<f64> {
+    let mut reader = Reader { source, rest: text, depth };
+    let value = reader.sum()?;
+    reader.skip_space();
+    reader.rest.is_empty().then_some(value)
+}
+
+/// The value of `const name = …;`. naga forgets the constants that have no concrete type, so this
+/// looks in the text.
+fn constant_value(source: &str, name: &str, depth: u32) -> Option<f64> {
+    source.match_indices("const ").find_map(|(start, word)| {
+        let rest = source[start + word.len()..].trim_start().strip_prefix(name)?;
+        let rest = rest.trim_start();
+        let rest = if rest.starts_with(':') { &rest[rest.find('=')?..] } else { rest };
+        let (value, _) = rest.strip_prefix('=')?.split_once(';')?;
+        evaluate(source, value, depth + 1)
+    })
 }
 
 /// Whether two values differ by no more than folding in f32 can explain.
@@ -61,13 +68,13 @@ fn is_close(typed: f64, value: f32) -> bool {
 }
 
 /// A reader of numbers, names of constants, `+ - * /` and parentheses; anything else ends it.
-struct Reader<'a, 'm> {
-    cx: &'a Context<'m>,
+struct Reader<'a> {
+    source: &'a str,
     rest: &'a str,
     depth: u32,
 }
 
-impl Reader<'_, '_> {
+impl Reader<'_> {
     fn skip_space(&mut self) {
         self.rest = self.rest.trim_start();
     }
@@ -154,6 +161,6 @@ impl Reader<'_, '_> {
             self.rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(self.rest.len());
         let (name, rest) = self.rest.split_at(end);
         self.rest = rest;
-        if name.is_empty() { None } else { self.cx.constant_value(name, self.depth) }
+        if name.is_empty() { None } else { constant_value(self.source, name, self.depth) }
     }
 }

@@ -31,9 +31,15 @@ impl NativeError {
         Self { message, line: location.line_number, column: location.line_position }
     }
 
+    /// The same error; where it has no place of its own, at `span`.
+    pub(crate) fn or_at(self, span: Span, source: &str) -> Self {
+        if self.line == 0 { Self::at(span, source, self.message) } else { self }
+    }
+
     /// The front end's refusal.
     pub(crate) fn parse(error: &ParseError, source: &str) -> Self {
-        let span = error.labels().next().map_or(Span::UNDEFINED, |(span, _)| span);
+        let mut spans = error.labels().map(|(span, _)| span);
+        let span = spans.find(Span::is_defined).unwrap_or_default();
         Self::at(span, source, error.message())
     }
 

@@ -70,8 +70,8 @@ impl FunctionWriter<'_> {
         Ok(name)
     }
 
-    /// Whether every operand is constant, so that naga never emits the expression.
-    fn is_emitted(&self, handle: Handle<Expression>) -> bool {
+    /// Whether the value depends on when it is evaluated; a constant's does not.
+    pub(crate) fn is_emitted(&self, handle: Handle<Expression>) -> bool {
         let expression = &self.fun.expressions[handle];
         match expression {
             Expression::Literal(_)
@@ -130,16 +130,13 @@ impl FunctionWriter<'_> {
 
     /// Gives `text` the name of an expression.
     pub(crate) fn bind_as(&mut self, handle: Handle<Expression>, text: &str) {
-        let name = match self.hoisted[handle.index()].clone() {
-            Some(name) => {
-                self.out.line(&format!("{name} = {text};"));
-                name
-            }
-            None => {
-                let name = self.new_name(handle);
-                self.out.line(&format!("let {name} = {text};"));
-                name
-            }
+        let name = if let Some(name) = self.hoisted[handle.index()].clone() {
+            self.out.line(&format!("{name} = {text};"));
+            name
+        } else {
+            let name = self.new_name(handle);
+            self.out.line(&format!("let {name} = {text};"));
+            name
         };
         self.bound[handle.index()] = Some(name);
     }
@@ -369,8 +366,9 @@ impl FunctionWriter<'_> {
             return Err(self.refuse(handle, "this select"));
         };
         let (c, a, r) = (self.lanes(condition, n)?, self.lanes(accept, n)?, self.lanes(reject, n)?);
-        let lanes: Vec<String> =
-            (0..n).map(|i| format!("if {} {{ {} }} else {{ {} }}", c[i], a[i], r[i])).collect();
+        let lanes: Vec<String> = (0..n)
+            .map(|i| format!("if {} {{ {} }} else {{ {} }}", c[i], unwrap(&a[i]), unwrap(&r[i])))
+            .collect();
         Ok(crate::text::call(&format!("{}::new", vector_name(size, kind)), &lanes))
     }
 

@@ -13,8 +13,9 @@ use crate::text::Text;
 use naga::valid::FunctionInfo;
 use naga::{
     AddressSpace, Binding, BuiltIn, EntryPoint, Expression, Function, FunctionArgument,
-    GlobalVariable, Handle, ShaderStage, Span, TypeInner,
+    GlobalVariable, Handle, ShaderStage, Span, Statement, TypeInner,
 };
+use std::fmt::Write as _;
 
 /// Where `break` and `continue` go.
 pub(crate) enum Scope {
@@ -87,7 +88,7 @@ impl<'a> FunctionWriter<'a> {
         let mut parameters = String::new();
         for (argument, given) in self.fun.arguments.iter().zip(&self.arguments) {
             let ty = self.parameter_type(argument)?;
-            parameters.push_str(&format!(", {given}: {ty}"));
+            let _ = write!(parameters, ", {given}: {ty}");
         }
         let result = match &self.fun.result {
             Some(result) => {
@@ -125,7 +126,7 @@ impl<'a> FunctionWriter<'a> {
                     return Err(self.cx.refuse(span, "an entry point with a struct argument"));
                 }
             }
-            parameters.push_str(&format!(", {given}: UVec3"));
+            let _ = write!(parameters, ", {given}: UVec3");
         }
         self.out.open(&format!("pub fn {name}(&mut self{parameters}) {{"));
         for (handle, global) in self.cx.module.global_variables.iter() {
@@ -175,24 +176,25 @@ impl<'a> FunctionWriter<'a> {
 
     /// Gives an error without a location the function's.
     pub(crate) fn place(&self, error: NativeError) -> NativeError {
-        if error.line == 0 {
-            return NativeError::at(self.span, self.cx.source, error.message);
-        }
-        error
+        error.or_at(self.span, self.cx.source)
     }
 
     fn write_body(&mut self) -> Result<(), NativeError> {
         self.write_aliases()?;
         for (handle, local) in self.fun.local_variables.iter() {
             let span = self.fun.local_variables.get_span(handle);
-            let ty = self.cx.handle_type(local.ty).map_err(|e| relocate(e, span, self.cx))?;
+            let ty = self.cx.handle_type(local.ty).map_err(|e| e.or_at(span, self.cx.source))?;
             let value = match local.init {
                 Some(init) => self.value(init)?,
                 None => self.cx.handle_zero(local.ty)?,
             };
             self.out.line(&format!("let mut {}: {ty} = {value};", self.locals[handle.index()]));
         }
-        self.write_block(&self.fun.body)
+        let mut body = self.fun.body.clone();
+        if let Some(Statement::Return { value: None }) = body.last() {
+            body.cull(body.len() - 1..);
+        }
+        self.write_block(&body)
     }
 
     /// Copies the references to read-only resources, so that writes through `self` cannot be
@@ -245,7 +247,7 @@ impl<'a> FunctionWriter<'a> {
             Some(ty) => self.cx.handle_type(ty),
             None => self.cx.rust_type(self.ty(handle), self.fun.expressions.get_span(handle)),
         }
-        .map_err(|e| relocate(e, self.fun.expressions.get_span(handle), self.cx))
+        .map_err(|e| e.or_at(self.span_of(handle), self.cx.source))
     }
 
     /// The error for an expression that cannot be translated.
@@ -253,8 +255,4 @@ impl<'a> FunctionWriter<'a> {
         let error = self.cx.refuse(self.fun.expressions.get_span(handle), construct);
         self.place(error)
     }
-}
-
-fn relocate(error: NativeError, span: Span, cx: &Context) -> NativeError {
-    if error.line == 0 { NativeError::at(span, cx.source, error.message) } else { error }
 }

@@ -6,6 +6,13 @@ use crate::functions::FunctionWriter;
 use crate::types::{LANES, column, matrix_of};
 use naga::{BinaryOperator, Expression, Handle, MathFunction, TypeInner, VectorSize};
 
+/// The sum of a matrix's columns times the lanes of a vector, last to first: the order of Mesa.
+fn sum_of_columns(columns: &[String], lanes: &[String]) -> String {
+    let products: Vec<String> =
+        columns.iter().zip(lanes).rev().map(|(a, b)| format!("{a} * {b}")).collect();
+    products.join(" + ")
+}
+
 /// The sum of products of two lists, in their order.
 pub(crate) fn sum_of_products(left: &[String], right: &[String]) -> String {
     let products: Vec<String> = left.iter().zip(right).map(|(a, b)| format!("{a} * {b}")).collect();
@@ -64,39 +71,29 @@ impl FunctionWriter<'_> {
                 let a = self.columns(left)?;
                 let b = self.columns(right)?;
                 let products: Vec<String> =
-                    b.iter().map(|b| sum_of_products(&a, &lanes_of(b, columns))).collect();
+                    b.iter().map(|b| sum_of_columns(&a, &lanes_of(b, columns))).collect();
                 Ok(matrix_of(&products, rows))
             }
-            (BinaryOperator::Multiply, Some((columns, rows)), None) => match self.ty(right) {
-                TypeInner::Vector { .. } => {
-                    let a = self.columns(left)?;
+            (BinaryOperator::Multiply, Some((columns, rows)), None) => {
+                let a = self.columns(left)?;
+                if let TypeInner::Vector { .. } = self.ty(right) {
                     let v = self.lanes(right, columns as usize)?;
-                    Ok(sum_of_products(&a, &v))
+                    return Ok(sum_of_columns(&a, &v));
                 }
-                _ => {
-                    let s = self.atom(right)?;
-                    let scaled: Vec<String> =
-                        self.columns(left)?.iter().map(|c| format!("{c} * {s}")).collect();
-                    Ok(matrix_of(&scaled, rows))
-                }
-            },
-            (BinaryOperator::Multiply, None, Some((_, rows))) => match self.ty(left) {
-                TypeInner::Vector { .. } => {
+                let s = self.atom(right)?;
+                Ok(scaled(&a, &s, rows))
+            }
+            (BinaryOperator::Multiply, None, Some((_, rows))) => {
+                let a = self.columns(right)?;
+                if let TypeInner::Vector { .. } = self.ty(left) {
                     let v = self.lanes(left, rows as usize)?;
-                    let dots: Vec<String> = self
-                        .columns(right)?
-                        .iter()
-                        .map(|c| sum_of_products(&v, &lanes_of(c, rows)))
-                        .collect();
-                    Ok(format!("Vec{}::new({})", dots.len(), dots.join(", ")))
+                    let dots: Vec<String> =
+                        a.iter().map(|c| sum_of_products(&v, &lanes_of(c, rows))).collect();
+                    return Ok(format!("Vec{}::new({})", dots.len(), dots.join(", ")));
                 }
-                _ => {
-                    let s = self.atom(left)?;
-                    let scaled: Vec<String> =
-                        self.columns(right)?.iter().map(|c| format!("{c} * {s}")).collect();
-                    Ok(matrix_of(&scaled, rows))
-                }
-            },
+                let s = self.atom(left)?;
+                Ok(scaled(&a, &s, rows))
+            }
             _ => Err(self.refuse(handle, &format!("{op:?} of matrices"))),
         }
     }
@@ -144,30 +141,36 @@ impl FunctionWriter<'_> {
     }
 }
 
+/// Every column times a scalar.
+fn scaled(columns: &[String], scalar: &str, rows: VectorSize) -> String {
+    let columns: Vec<String> = columns.iter().map(|c| format!("{c} * {scalar}")).collect();
+    matrix_of(&columns, rows)
+}
+
 fn lanes_of(vector: &str, n: VectorSize) -> Vec<String> {
     LANES[..n as usize].iter().map(|lane| format!("{vector}.{lane}")).collect()
 }
 
-/// Expansion by minors along the first lane of each column.
+/// Expansion by minors along the first column, in the order of Mesa.
 fn determinant(columns: &[String]) -> String {
-    fn minor(columns: &[&str], lanes: &[&str]) -> String {
-        if let ([c], [lane]) = (columns, lanes) {
-            return format!("{c}.{lane}");
-        }
-        let mut text = String::new();
-        for (i, c) in columns.iter().enumerate() {
-            let rest: Vec<&str> =
-                columns.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, c)| *c).collect();
-            let sign = match (i, i % 2) {
-                (0, _) => "",
-                (_, 0) => " + ",
-                _ => " - ",
+    let lanes = &LANES[..columns.len()];
+    match columns {
+        [a, b] => format!("{a}.x * {b}.y - {a}.y * {b}.x"),
+        [a, b, c] => determinant_of_three([a, b, c], [lanes[0], lanes[1], lanes[2]]),
+        [a, b, c, d] => {
+            let minor = |i: usize| {
+                let rest: Vec<&str> = (0..4).filter(|j| *j != i).map(|j| lanes[j]).collect();
+                let inner = determinant_of_three([b, c, d], [rest[0], rest[1], rest[2]]);
+                format!("{a}.{} * ({inner})", lanes[i])
             };
-            let inner = minor(&rest, &lanes[1..]);
-            text.push_str(&format!("{sign}{c}.{} * ({inner})", lanes[0]));
+            format!("({} - {}) + ({} - {})", minor(0), minor(1), minor(2), minor(3))
         }
-        text
+        _ => String::new(),
     }
-    let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
-    minor(&columns, &LANES[..columns.len()])
+}
+
+fn determinant_of_three([a, b, c]: [&String; 3], [x, y, z]: [&str; 3]) -> String {
+    let term =
+        |x: &str, y: &str, z: &str| format!("{a}.{x} * ({b}.{y} * {c}.{z} - {b}.{z} * {c}.{y})");
+    format!("{} + {} + {}", term(x, y, z), term(y, z, x), term(z, x, y))
 }

@@ -316,7 +316,7 @@ impl Place {
                 is_ref = true;
                 continue;
             }
-            text = step.into_part(&text);
+            text = step.part_of(&text);
             is_ref = false;
         }
         (text, is_ref)
@@ -328,7 +328,7 @@ impl Place {
             Step::Column { index, square: true, columns } if index.is_dynamic() => {
                 format!("*{text}.col_mut({})", index.clamped(*columns))
             }
-            step => step.into_part(&text),
+            step => step.part_of(&text),
         })
     }
 
@@ -344,7 +344,7 @@ impl Place {
             let last = n + 1 == self.steps.len();
             let (index, length) = match step {
                 Step::Field(_) => {
-                    text = step.into_part(&text);
+                    text = step.part_of(&text);
                     continue;
                 }
                 Step::Element { index, length } => (index, length.to_string()),
@@ -362,7 +362,7 @@ impl Place {
                     format!("{star}{text}.col_mut({})", index.plain())
                 }
                 _ if index.is_dynamic() => format!("{text}[{}]", index.plain()),
-                step => step.into_part(&text),
+                step => step.part_of(&text),
             };
         }
         (guards, text)
@@ -371,7 +371,7 @@ impl Place {
 
 impl Step {
     /// The text of the part of `text` that this step leads to, for reading.
-    fn into_part(&self, text: &str) -> String {
+    fn part_of(&self, text: &str) -> String {
         match self {
             Self::Field(name) => format!("{text}.{name}"),
             Self::Element { index, length } => format!("{text}[{}]", index.clamped(*length)),

@@ -87,11 +87,13 @@ impl Context<'_> {
     pub(crate) fn write_structs(&self, out: &mut Text) -> Result<(), NativeError> {
         for (handle, ty) in self.module.types.iter() {
             let TypeInner::Struct { members, .. } = &ty.inner else { continue };
+            let span = self.module.types.get_span(handle);
+            let place = |error: NativeError| error.or_at(span, self.source);
             let name = self.struct_name(handle);
             out.line("#[derive(Clone, Copy, Debug, PartialEq)]");
             out.open(&format!("pub struct {name} {{"));
             for (field, member) in self.field_names(handle).iter().zip(members) {
-                out.line(&format!("pub {field}: {},", self.handle_type(member.ty)?));
+                out.line(&format!("pub {field}: {},", self.handle_type(member.ty).map_err(place)?));
             }
             out.close("}");
             out.line("");
@@ -99,9 +101,9 @@ impl Context<'_> {
             out.line("/// All members zero.");
             let mut zeros = Vec::new();
             for member in members {
-                zeros.push(self.handle_zero(member.ty)?);
+                zeros.push(self.handle_zero(member.ty).map_err(place)?);
             }
-            let zero = self.compose(handle, &zeros, self.module.types.get_span(handle))?;
+            let zero = self.compose(handle, &zeros, span)?;
             out.line(&format!("pub const ZERO: Self = {zero};"));
             out.close("}");
             out.line("");
@@ -122,11 +124,14 @@ impl Context<'_> {
         for (handle, global) in self.module.global_variables.iter() {
             let name = self.global_name(handle);
             let holding = self.holding(handle)?;
+            let span = self.module.global_variables.get_span(handle);
+            let place = |error: NativeError| error.or_at(span, self.source);
             if holding == Holding::Private {
-                members.push(format!("pub {name}: {},", self.handle_type(global.ty)?));
+                members
+                    .push(format!("pub {name}: {},", self.handle_type(global.ty).map_err(place)?));
                 continue;
             }
-            let element = self.stored_type(self.element(global.ty))?;
+            let element = self.stored_type(self.element(global.ty)).map_err(place)?;
             let (given, held) = match holding {
                 Holding::Private => continue,
                 Holding::Fixed(n) => (format!("&'a [{element}]"), format!("&'a [{element}; {n}]")),
@@ -147,12 +152,12 @@ impl Context<'_> {
         }
         out.line("/// What the kernel reads and writes, one member a WGSL resource.");
         out.open("pub struct Bindings<'a> {");
-        bindings.iter().for_each(|line| out.line(line));
+        out.lines(&bindings);
         out.close("}");
         out.line("");
         out.line("/// The resources and the private variables of one invocation after another.");
         out.open("pub struct Kernel<'a> {");
-        members.iter().for_each(|line| out.line(line));
+        out.lines(&members);
         out.close("}");
         out.line("");
         Ok(())

@@ -5,29 +5,32 @@ use crate::NativeError;
 use crate::expressions::operands;
 use crate::functions::{FunctionWriter, Scope};
 use naga::{
-    AddressSpace, Block, Expression, Function, Handle, Range, Span, Statement, SwitchCase,
-    SwitchValue, TypeInner,
+    AddressSpace, Block, Expression, Function, Handle, Span, Statement, SwitchCase, SwitchValue,
+    TypeInner,
 };
 
 impl FunctionWriter<'_> {
     /// Writes a block's statements in order.
     pub(crate) fn write_block(&mut self, block: &Block) -> Result<(), NativeError> {
-        let statements: Vec<(&Statement, &Span)> = block.span_iter().collect();
-        for (index, (statement, span)) in statements.iter().enumerate() {
-            match statement {
-                Statement::Emit(range) => {
-                    let next = statements.get(index + 1).map(|(next, _)| *next);
-                    self.write_emit(range.clone(), next)?;
-                }
-                statement => self.write_statement(statement, **span)?,
+        let mut evaluated: Vec<Handle<Expression>> = Vec::new();
+        for (statement, span) in block.span_iter() {
+            if let Statement::Emit(range) = statement {
+                // Nothing can be written between neighbours, so they are one.
+                evaluated.extend(range.clone());
+                continue;
             }
+            self.write_emitted(&evaluated, read_at_once(statement))?;
+            evaluated.clear();
+            self.write_statement(statement, *span)?;
         }
-        Ok(())
+        self.write_emitted(&evaluated, Vec::new())
     }
 
     fn write_statement(&mut self, statement: &Statement, span: Span) -> Result<(), NativeError> {
         match statement {
-            Statement::Emit(range) => self.write_emit(range.clone(), None),
+            Statement::Emit(range) => {
+                self.write_emitted(&range.clone().collect::<Vec<_>>(), Vec::new())
+            }
             Statement::Block(block) => {
                 self.out.open("{");
                 self.write_block(block)?;
@@ -54,33 +57,30 @@ impl FunctionWriter<'_> {
         }
     }
 
-    /// Names what is evaluated here, except what its one reader can take as it is.
-    fn write_emit(
+    /// Names what is evaluated here, except what its one reader can take as it is: an expression
+    /// that is evaluated here too, or the statement that comes next and `reads` it.
+    fn write_emitted(
         &mut self,
-        range: Range<Expression>,
-        next: Option<&Statement>,
+        handles: &[Handle<Expression>],
+        reads: Vec<Handle<Expression>>,
     ) -> Result<(), NativeError> {
-        let handles: Vec<Handle<Expression>> = range.collect();
-        let Some(first) = handles.first().map(|h| h.index()) else { return Ok(()) };
         let mut readers = vec![0_usize; handles.len()];
-        let mut count = |handle: Handle<Expression>| {
-            if let Some(slot) = handle.index().checked_sub(first).and_then(|i| readers.get_mut(i)) {
-                *slot += 1;
+        let read = handles.iter().flat_map(|&handle| operands(&self.fun.expressions[handle]));
+        for handle in read.chain(reads) {
+            if let Ok(slot) = handles.binary_search_by_key(&handle.index(), |h| h.index()) {
+                readers[slot] += 1;
             }
-        };
-        for &handle in &handles {
-            operands(&self.fun.expressions[handle]).into_iter().for_each(&mut count);
         }
-        next.map(read_at_once).unwrap_or_default().into_iter().for_each(&mut count);
         for (slot, &handle) in handles.iter().enumerate() {
             self.check_supported(handle)?;
             let n_readers = self.info[handle].ref_count;
             let only_here = n_readers == 1 && readers[slot] == 1;
             let named = self.fun.named_expressions.contains_key(&handle);
+            let constant = !self.is_emitted(handle);
             let keep = named || !only_here || self.hoisted[handle.index()].is_some();
             if self.is_pointer(handle) {
                 self.fix_index(handle)?;
-            } else if n_readers > 0 && keep {
+            } else if n_readers > 0 && keep && !constant {
                 self.bind(handle)?;
             }
         }
@@ -219,7 +219,7 @@ impl FunctionWriter<'_> {
                 read.extend(operands(&self.fun.expressions[handle]));
             }
         }
-        for statement in body.iter() {
+        for statement in body {
             let made: Vec<Handle<Expression>> = match statement {
                 Statement::Emit(range) => range.clone().collect(),
                 Statement::Call { result, .. } => result.iter().copied().collect(),
@@ -336,7 +336,7 @@ fn leaves_switch(block: &Block) -> bool {
 
 /// Collects the expressions that `block` reads or evaluates, nested blocks included.
 fn read_in(block: &Block, fun: &Function, read: &mut Vec<Handle<Expression>>) {
-    for statement in block.iter() {
+    for statement in block {
         match statement {
             Statement::Emit(range) => {
                 for handle in range.clone() {
@@ -351,7 +351,9 @@ fn read_in(block: &Block, fun: &Function, read: &mut Vec<Handle<Expression>>) {
             }
             Statement::Switch { selector, cases } => {
                 read.push(*selector);
-                cases.iter().for_each(|case| read_in(&case.body, fun, read));
+                for case in cases {
+                    read_in(&case.body, fun, read);
+                }
             }
             Statement::Loop { body, continuing, break_if } => {
                 read.extend(break_if);

@@ -22,6 +22,13 @@ impl Text {
         self.out.push('\n');
     }
 
+    /// Adds several lines.
+    pub(crate) fn lines(&mut self, lines: &[String]) {
+        for line in lines {
+            self.line(line);
+        }
+    }
+
     /// Adds a line that opens a block.
     pub(crate) fn open(&mut self, line: &str) {
         self.line(line);

@@ -2,7 +2,7 @@
 
 #![allow(
     clippy::pedantic,
-    clippy::inline_always,
+    clippy::all,
     dead_code,
     unreachable_pub,
     reason = "the text of a generated module"

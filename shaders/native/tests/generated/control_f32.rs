@@ -34,8 +34,7 @@ impl<'a> Kernel<'a> {
     /// WGSL line 5.
     #[inline]
     pub fn note(&mut self, digit: u32) -> bool {
-        let e3 = self.trace;
-        self.trace = e3.wrapping_mul(10u32).wrapping_add(digit);
+        self.trace = self.trace.wrapping_mul(10u32).wrapping_add(digit);
         return digit > 4u32;
     }
 
@@ -52,25 +51,20 @@ impl<'a> Kernel<'a> {
                 'switch2: {
                     match i {
                         1u32 => {
-                            let e8 = i;
-                            if e8 == 1u32 {
+                            if i == 1u32 {
                                 break 'switch2;
                             }
-                            let e11 = sum;
-                            sum = e11.wrapping_add(1000u32);
+                            sum = sum.wrapping_add(1000u32);
                         }
                         2u32 | 3u32 => {
-                            let e14 = sum;
-                            sum = e14.wrapping_add(10u32);
+                            sum = sum.wrapping_add(10u32);
                         }
                         _ => {
-                            let e17 = sum;
-                            sum = e17.wrapping_add(1u32);
+                            sum = sum.wrapping_add(1u32);
                         }
                     }
                 }
-                let e20 = sum;
-                sum = e20.wrapping_add(100u32);
+                sum = sum.wrapping_add(100u32);
             }
             i = i.wrapping_add(1u32);
         }
@@ -119,8 +113,7 @@ impl<'a> Kernel<'a> {
                     break 'repeat1;
                 }
                 {
-                    let e7 = i;
-                    match wgsl::rem_u32(e7, 3u32) {
+                    match wgsl::rem_u32(i, 3u32) {
                         0u32 => {
                             break 'next2;
                         }
@@ -146,11 +139,8 @@ impl<'a> Kernel<'a> {
                 if i >= n {
                     break 'repeat1;
                 }
-                let e7 = i;
-                next = e7.wrapping_add(1u32);
-                let e10 = i;
-                let e12 = wgsl::rem_u32(e10, 2u32);
-                if e12 == 0u32 {
+                next = i.wrapping_add(1u32);
+                if wgsl::rem_u32(i, 2u32) == 0u32 {
                     break 'next2;
                 }
                 odd = odd.wrapping_add(i);
@@ -168,15 +158,12 @@ impl<'a> Kernel<'a> {
         'repeat1: loop {
             'next2: {
                 sum = sum.wrapping_add(i);
-                let e8 = sum;
-                if e8 == 3i32 {
+                if sum == 3i32 {
                     break 'next2;
                 }
-                let e11 = sum;
-                sum = e11.wrapping_add(100i32);
+                sum = sum.wrapping_add(100i32);
             }
-            let e14 = i;
-            i = e14.wrapping_add(1i32);
+            i = i.wrapping_add(1i32);
             let e18 = i >= n;
             if e18 {
                 break 'repeat1;
@@ -207,9 +194,7 @@ impl<'a> Kernel<'a> {
                             if j > i {
                                 break 'repeat2;
                             }
-                            let e16 = i.wrapping_add(j);
-                            let e18 = wgsl::rem_u32(e16, 2u32);
-                            if e18 == 1u32 {
+                            if wgsl::rem_u32(i.wrapping_add(j), 2u32) == 1u32 {
                                 break 'next3;
                             }
                             k = 0u32;
@@ -219,8 +204,7 @@ impl<'a> Kernel<'a> {
                                 }
                                 {
                                     k = k.wrapping_add(1u32);
-                                    let e27 = k;
-                                    if e27 == 3u32 {
+                                    if k == 3u32 {
                                         break 'repeat4;
                                     }
                                 }
@@ -230,8 +214,7 @@ impl<'a> Kernel<'a> {
                     }
                     j = j.wrapping_add(1u32);
                 }
-                let e36 = count;
-                count = e36.wrapping_add(100u32);
+                count = count.wrapping_add(100u32);
             }
             i = i.wrapping_add(1u32);
         }
@@ -246,10 +229,8 @@ impl<'a> Kernel<'a> {
         let mut local: bool = false;
         x = start;
         'repeat1: loop {
-            let e4 = x;
-            if e4 != 1u32 {
-                let e9 = steps;
-                local = e9 < 200u32;
+            if x != 1u32 {
+                local = steps < 200u32;
             } else {
                 local = false;
             }
@@ -257,13 +238,7 @@ impl<'a> Kernel<'a> {
                 break 'repeat1;
             }
             {
-                let e16 = 3u32.wrapping_mul(x);
-                let e18 = e16.wrapping_add(1u32);
-                let e19 = x;
-                let e21 = wgsl::div_u32(e19, 2u32);
-                let e22 = x;
-                let e24 = wgsl::rem_u32(e22, 2u32);
-                x = if e24 == 0u32 { e21 } else { e18 };
+                x = if wgsl::rem_u32(x, 2u32) == 0u32 { wgsl::div_u32(x, 2u32) } else { 3u32.wrapping_mul(x).wrapping_add(1u32) };
                 steps = steps.wrapping_add(1u32);
             }
         }
@@ -275,8 +250,7 @@ impl<'a> Kernel<'a> {
     pub fn early_return(&mut self, values: [u32; 4], wanted: u32) -> i32 {
         let mut i: i32 = 0i32;
         'repeat1: loop {
-            let e4 = i;
-            if !(e4 < 4i32) {
+            if !(i < 4i32) {
                 break 'repeat1;
             }
             {
@@ -303,18 +277,12 @@ impl<'a> Kernel<'a> {
             {
                 fresh = 0u32;
                 list = [0u32; 3];
-                let e11 = fresh;
-                fresh = e11.wrapping_add(1u32);
-                let e14 = i;
-                let e16 = wgsl::rem_u32(e14, 3u32);
+                fresh = fresh.wrapping_add(1u32);
+                let e16 = wgsl::rem_u32(i, 3u32);
                 if (e16 as usize) < 3 {
                     list[e16 as usize] = list[(e16 as usize).min(2)].wrapping_add(fresh);
                 }
-                let e21 = fresh;
-                let e23 = e21.wrapping_mul(10u32);
-                let e26 = e23.wrapping_add(list[0]);
-                let e29 = e26.wrapping_add(list[1]);
-                last = e29.wrapping_add(list[2]);
+                last = fresh.wrapping_mul(10u32).wrapping_add(list[0]).wrapping_add(list[1]).wrapping_add(list[2]);
             }
             i = i.wrapping_add(1u32);
         }
@@ -334,8 +302,7 @@ impl<'a> Kernel<'a> {
             local = false;
         }
         if local {
-            let e11 = self.trace;
-            return e11.wrapping_add(1000u32);
+            return self.trace.wrapping_add(1000u32);
         }
         return self.trace;
     }
@@ -353,8 +320,7 @@ impl<'a> Kernel<'a> {
             local = true;
         }
         if local {
-            let e12 = self.trace;
-            return e12.wrapping_add(1000u32);
+            return self.trace.wrapping_add(1000u32);
         }
         return self.trace;
     }
@@ -367,8 +333,7 @@ impl<'a> Kernel<'a> {
         x = 5u32;
         let after = x;
         x = before;
-        let e6 = before.wrapping_mul(100u32);
-        return e6.wrapping_add(after.wrapping_mul(10u32)).wrapping_add(x);
+        return before.wrapping_mul(100u32).wrapping_add(after.wrapping_mul(10u32)).wrapping_add(x);
     }
 
     /// WGSL line 155.
@@ -378,8 +343,7 @@ impl<'a> Kernel<'a> {
         let before = self.trace;
         let high = self.note(9u32);
         let after = self.trace;
-        let e10 = before.wrapping_mul(1000u32).wrapping_add(after);
-        return e10.wrapping_add(if high { 500u32 } else { 0u32 });
+        return before.wrapping_mul(1000u32).wrapping_add(after).wrapping_add(if high { 500u32 } else { 0u32 });
     }
 
     /// WGSL line 163.
@@ -416,13 +380,11 @@ impl<'a> Kernel<'a> {
         let mut y_: u32 = 7u32;
         y = x;
         {
-            let e4 = y_;
-            y_ = e4.wrapping_add(1u32);
+            y_ = y_.wrapping_add(1u32);
             {
             }
         }
-        let e8 = y;
-        let z = e8.wrapping_add(1u32);
+        let z = y.wrapping_add(1u32);
         {
             y = y.wrapping_add(9u32);
         }
@@ -486,7 +448,7 @@ pub fn fract(x: Real) -> Real {
 /// `a` at `t` 0, `b` at 1.
 #[inline(always)]
 pub fn mix(a: Real, b: Real, t: Real) -> Real {
-    a + t * (b - a)
+    a * (1.0 - t) + b * t
 }
 
 /// 0 below `edge`, else 1.
@@ -499,7 +461,7 @@ pub fn step(edge: Real, x: Real) -> Real {
 #[inline(always)]
 pub fn smoothstep(low: Real, high: Real, x: Real) -> Real {
     let t = clamp((x - low) / (high - low), 0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
+    t * (t * (3.0 - 2.0 * t))
 }
 
 /// Remainder of truncated division, rounded as WGSL defines it and not as `fmod` does.
@@ -650,7 +612,8 @@ pub fn f16_to(bits: u32) -> f32 {
     let sign = f32::from_bits(0x3f80_0000 | ((bits & 0x8000) << 16));
     let magnitude = bits & 0x7fff;
     if magnitude >= 0x7c00 {
-        f32::from_bits(((bits & 0x8000) << 16) | 0x7f80_0000 | ((magnitude & 0x3ff) << 13))
+        let quiet = if magnitude > 0x7c00 { 0x0040_0000 } else { 0 };
+        f32::from_bits(((bits & 0x8000) << 16) | 0x7f80_0000 | quiet | ((magnitude & 0x3ff) << 13))
     } else if magnitude >= 0x400 {
         sign * f32::from_bits((magnitude << 13) + 0x3800_0000)
     } else {
@@ -658,22 +621,23 @@ pub fn f16_to(bits: u32) -> f32 {
     }
 }
 
-/// The nearest value that binary16 holds.
+/// The nearest value that binary16 holds, those below its normal numbers taken for 0.
 #[inline]
 pub fn quantize_f16(x: Real) -> Real {
-    Real::from(f16_to(f16_from(x as f32)))
+    let bits = f16_from(x as f32);
+    if bits & 0x7c00 == 0 { 0.0 } else { Real::from(f16_to(bits)) }
 }
 
-/// `x` in -1..=1 as a signed integer with `scale` at 1.
+/// `x` in -1..=1 as a signed integer with `scale` at 1, ties to even.
 #[inline]
 pub fn pack_snorm(x: Real, scale: Real) -> u32 {
-    (0.5 + scale * clamp(x, -1.0, 1.0)).floor() as i32 as u32
+    (clamp(x, -1.0, 1.0) * scale).round_ties_even() as i32 as u32
 }
 
-/// `x` in 0..=1 as an unsigned integer with `scale` at 1.
+/// `x` in 0..=1 as an unsigned integer with `scale` at 1, ties to even.
 #[inline]
 pub fn pack_unorm(x: Real, scale: Real) -> u32 {
-    (0.5 + scale * clamp(x, 0.0, 1.0)).floor() as u32
+    (clamp(x, 0.0, 1.0) * scale).round_ties_even() as u32
 }
 
 /// Byte `lane` of `x`.

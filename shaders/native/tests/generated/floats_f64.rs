@@ -44,7 +44,7 @@ impl Default for __frexp_result_f32 {
     }
 }
 
-pub const INV_PI: Real = 0.31830987f64;
+pub const INV_PI: Real = 0.318309886183791f64;
 pub const TINY: Real = 1e-7f64;
 pub const MIX: Vec3 = Vec3::new(0.1f64, 0.7f64, 0.001f64);
 pub const gamma: Real = 2.2f64;
@@ -76,7 +76,7 @@ impl<'a> Kernel<'a> {
     /// WGSL line 11.
     #[inline]
     pub fn pi_times(&mut self, x: Real) -> Real {
-        return x * 3.1415927f64;
+        return x * 3.14159265358979f64;
     }
 
     /// WGSL line 12.
@@ -88,7 +88,7 @@ impl<'a> Kernel<'a> {
     /// WGSL line 13.
     #[inline]
     pub fn third(&mut self, x: Real) -> Real {
-        return x * 0.33333334f64;
+        return x * 0.3333333333333333f64;
     }
 
     /// WGSL line 14.
@@ -112,7 +112,7 @@ impl<'a> Kernel<'a> {
     /// WGSL line 17.
     #[inline]
     pub fn folded(&mut self) -> Real {
-        return 6.183185f64;
+        return 6.18318530717958f64;
     }
 
     /// WGSL line 18.
@@ -250,10 +250,7 @@ impl<'a> Kernel<'a> {
     /// WGSL line 41.
     #[inline]
     pub fn arcs(&mut self, x: Real) -> Vec4 {
-        let e1 = x.asin();
-        let e2 = x.acos();
-        let e3 = x.atan();
-        return Vec4::new(e1, e2, e3, x.atan2(2.0f64));
+        return Vec4::new(x.asin(), x.acos(), x.atan(), x.atan2(2.0f64));
     }
 
     /// WGSL line 42.
@@ -308,10 +305,7 @@ impl<'a> Kernel<'a> {
     /// WGSL line 50.
     #[inline]
     pub fn polynomial(&mut self, x: Real) -> Real {
-        let e2 = 0.2f64 * x;
-        let e5 = (e2 + 0.3f64) * x;
-        let e8 = (e5 - 0.4f64) * x;
-        return e8 + 0.5f64;
+        return (((((0.2f64 * x) + 0.3f64) * x) - 0.4f64) * x) + 0.5f64;
     }
 }
 
@@ -371,7 +365,7 @@ pub fn fract(x: Real) -> Real {
 /// `a` at `t` 0, `b` at 1.
 #[inline(always)]
 pub fn mix(a: Real, b: Real, t: Real) -> Real {
-    a + t * (b - a)
+    a * (1.0 - t) + b * t
 }
 
 /// 0 below `edge`, else 1.
@@ -384,7 +378,7 @@ pub fn step(edge: Real, x: Real) -> Real {
 #[inline(always)]
 pub fn smoothstep(low: Real, high: Real, x: Real) -> Real {
     let t = clamp((x - low) / (high - low), 0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
+    t * (t * (3.0 - 2.0 * t))
 }
 
 /// Remainder of truncated division, rounded as WGSL defines it and not as `fmod` does.
@@ -535,7 +529,8 @@ pub fn f16_to(bits: u32) -> f32 {
     let sign = f32::from_bits(0x3f80_0000 | ((bits & 0x8000) << 16));
     let magnitude = bits & 0x7fff;
     if magnitude >= 0x7c00 {
-        f32::from_bits(((bits & 0x8000) << 16) | 0x7f80_0000 | ((magnitude & 0x3ff) << 13))
+        let quiet = if magnitude > 0x7c00 { 0x0040_0000 } else { 0 };
+        f32::from_bits(((bits & 0x8000) << 16) | 0x7f80_0000 | quiet | ((magnitude & 0x3ff) << 13))
     } else if magnitude >= 0x400 {
         sign * f32::from_bits((magnitude << 13) + 0x3800_0000)
     } else {
@@ -543,22 +538,23 @@ pub fn f16_to(bits: u32) -> f32 {
     }
 }
 
-/// The nearest value that binary16 holds.
+/// The nearest value that binary16 holds, those below its normal numbers taken for 0.
 #[inline]
 pub fn quantize_f16(x: Real) -> Real {
-    Real::from(f16_to(f16_from(x as f32)))
+    let bits = f16_from(x as f32);
+    if bits & 0x7c00 == 0 { 0.0 } else { Real::from(f16_to(bits)) }
 }
 
-/// `x` in -1..=1 as a signed integer with `scale` at 1.
+/// `x` in -1..=1 as a signed integer with `scale` at 1, ties to even.
 #[inline]
 pub fn pack_snorm(x: Real, scale: Real) -> u32 {
-    (0.5 + scale * clamp(x, -1.0, 1.0)).floor() as i32 as u32
+    (clamp(x, -1.0, 1.0) * scale).round_ties_even() as i32 as u32
 }
 
-/// `x` in 0..=1 as an unsigned integer with `scale` at 1.
+/// `x` in 0..=1 as an unsigned integer with `scale` at 1, ties to even.
 #[inline]
 pub fn pack_unorm(x: Real, scale: Real) -> u32 {
-    (0.5 + scale * clamp(x, 0.0, 1.0)).floor() as u32
+    (clamp(x, 0.0, 1.0) * scale).round_ties_even() as u32
 }
 
 /// Byte `lane` of `x`.

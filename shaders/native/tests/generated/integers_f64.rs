@@ -98,8 +98,7 @@ impl<'a> Kernel<'a> {
     /// WGSL line 14.
     #[inline]
     pub fn mul_v(&mut self, a: UVec3, s: u32) -> UVec3 {
-        let e2 = a.wrapping_mul(UVec3::splat(s));
-        return e2.wrapping_add(UVec3::splat(1u32));
+        return a.wrapping_mul(UVec3::splat(s)).wrapping_add(UVec3::splat(1u32));
     }
 
     /// WGSL line 15.
@@ -153,9 +152,7 @@ impl<'a> Kernel<'a> {
     /// WGSL line 23.
     #[inline]
     pub fn limits(&mut self, a: i32) -> i32 {
-        let e2 = a.min(50i32);
-        let e4 = e2.max(-50i32);
-        return e4.max((-7i32)).min(9i32);
+        return a.min(50i32).max(-50i32).max((-7i32)).min(9i32);
     }
 
     /// WGSL line 24.
@@ -350,15 +347,13 @@ impl<'a> Kernel<'a> {
     #[inline]
     pub fn pcg4d(&mut self, seed: UVec4) -> UVec4 {
         let mut v: UVec4 = UVec4::ZERO;
-        let e2 = seed.wrapping_mul(UVec4::splat(1664525u32));
-        v = e2.wrapping_add(UVec4::splat(1013904223u32));
+        v = seed.wrapping_mul(UVec4::splat(1664525u32)).wrapping_add(UVec4::splat(1013904223u32));
         v.x = v.x.wrapping_add(v.y.wrapping_mul(v.w));
         v.y = v.y.wrapping_add(v.z.wrapping_mul(v.x));
         v.z = v.z.wrapping_add(v.x.wrapping_mul(v.y));
         v.w = v.w.wrapping_add(v.y.wrapping_mul(v.z));
-        let e39 = v;
         let e40 = v;
-        v = e39 ^ UVec4::new(e40.x.wrapping_shr(16u32), e40.y.wrapping_shr(16u32), e40.z.wrapping_shr(16u32), e40.w.wrapping_shr(16u32));
+        v = v ^ UVec4::new(e40.x.wrapping_shr(16u32), e40.y.wrapping_shr(16u32), e40.z.wrapping_shr(16u32), e40.w.wrapping_shr(16u32));
         v.x = v.x.wrapping_add(v.y.wrapping_mul(v.w));
         v.y = v.y.wrapping_add(v.z.wrapping_mul(v.x));
         v.z = v.z.wrapping_add(v.x.wrapping_mul(v.y));
@@ -513,7 +508,7 @@ pub fn fract(x: Real) -> Real {
 /// `a` at `t` 0, `b` at 1.
 #[inline(always)]
 pub fn mix(a: Real, b: Real, t: Real) -> Real {
-    a + t * (b - a)
+    a * (1.0 - t) + b * t
 }
 
 /// 0 below `edge`, else 1.
@@ -526,7 +521,7 @@ pub fn step(edge: Real, x: Real) -> Real {
 #[inline(always)]
 pub fn smoothstep(low: Real, high: Real, x: Real) -> Real {
     let t = clamp((x - low) / (high - low), 0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
+    t * (t * (3.0 - 2.0 * t))
 }
 
 /// Remainder of truncated division, rounded as WGSL defines it and not as `fmod` does.
@@ -677,7 +672,8 @@ pub fn f16_to(bits: u32) -> f32 {
     let sign = f32::from_bits(0x3f80_0000 | ((bits & 0x8000) << 16));
     let magnitude = bits & 0x7fff;
     if magnitude >= 0x7c00 {
-        f32::from_bits(((bits & 0x8000) << 16) | 0x7f80_0000 | ((magnitude & 0x3ff) << 13))
+        let quiet = if magnitude > 0x7c00 { 0x0040_0000 } else { 0 };
+        f32::from_bits(((bits & 0x8000) << 16) | 0x7f80_0000 | quiet | ((magnitude & 0x3ff) << 13))
     } else if magnitude >= 0x400 {
         sign * f32::from_bits((magnitude << 13) + 0x3800_0000)
     } else {
@@ -685,22 +681,23 @@ pub fn f16_to(bits: u32) -> f32 {
     }
 }
 
-/// The nearest value that binary16 holds.
+/// The nearest value that binary16 holds, those below its normal numbers taken for 0.
 #[inline]
 pub fn quantize_f16(x: Real) -> Real {
-    Real::from(f16_to(f16_from(x as f32)))
+    let bits = f16_from(x as f32);
+    if bits & 0x7c00 == 0 { 0.0 } else { Real::from(f16_to(bits)) }
 }
 
-/// `x` in -1..=1 as a signed integer with `scale` at 1.
+/// `x` in -1..=1 as a signed integer with `scale` at 1, ties to even.
 #[inline]
 pub fn pack_snorm(x: Real, scale: Real) -> u32 {
-    (0.5 + scale * clamp(x, -1.0, 1.0)).floor() as i32 as u32
+    (clamp(x, -1.0, 1.0) * scale).round_ties_even() as i32 as u32
 }
 
-/// `x` in 0..=1 as an unsigned integer with `scale` at 1.
+/// `x` in 0..=1 as an unsigned integer with `scale` at 1, ties to even.
 #[inline]
 pub fn pack_unorm(x: Real, scale: Real) -> u32 {
-    (0.5 + scale * clamp(x, 0.0, 1.0)).floor() as u32
+    (clamp(x, 0.0, 1.0) * scale).round_ties_even() as u32
 }
 
 /// Byte `lane` of `x`.

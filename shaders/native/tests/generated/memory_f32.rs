@@ -120,32 +120,25 @@ impl<'a> Kernel<'a> {
         self.top = 3u32;
         self.rng = UVec4::new(1u32, 2u32, 3u32, 4u32);
         let e2 = gid.x;
-        let e5 = self.top;
-        let e8 = self.stack[0];
         if (e2 as usize) < self.film_words.len() {
-            self.film_words[e2 as usize] = UVec4::new(e5, e8, self.rng.w, gid.y);
+            self.film_words[e2 as usize] = UVec4::new(self.top, self.stack[0], self.rng.w, gid.y);
         }
-        let e15 = self.top;
-        self.top = e15.wrapping_add(10u32);
+        self.top = self.top.wrapping_add(10u32);
         self.stack[0] = 77u32;
         self.rng = UVec4::splat(9u32);
-        return;
     }
 
     /// WGSL line 35.
     #[inline]
     pub fn set_count(&mut self, leaf: &mut Leaf, count: u32) {
         leaf.count = count;
-        let e4 = leaf.weight;
-        leaf.weight = e4 + 0.5f32;
-        return;
+        leaf.weight = leaf.weight + 0.5f32;
     }
 
     /// WGSL line 40.
     #[inline]
     pub fn bump(&mut self, x: &mut u32) -> u32 {
-        let e1 = *x;
-        *x = e1.wrapping_add(1u32);
+        *x = (*x).wrapping_add(1u32);
         return *x;
     }
 
@@ -154,7 +147,6 @@ impl<'a> Kernel<'a> {
     pub fn bump_twice(&mut self, x: &mut u32) {
         self.bump(&mut *x);
         self.bump(&mut *x);
-        return;
     }
 
     /// WGSL line 50.
@@ -162,8 +154,7 @@ impl<'a> Kernel<'a> {
     pub fn pointer_to_variable(&mut self) -> u32 {
         let mut x: u32 = 5u32;
         self.bump_twice(&mut x);
-        let e2 = x;
-        x = e2.wrapping_mul(2u32);
+        x = x.wrapping_mul(2u32);
         return x;
     }
 
@@ -174,26 +165,15 @@ impl<'a> Kernel<'a> {
         self.set_count(&mut tree.right, 4u32);
         self.bump_twice(&mut tree.left.count);
         tree.table[1] = 6u32;
-        let e10 = tree.left.count;
-        let e12 = e10.wrapping_mul(100u32);
-        let e15 = tree.right.count;
-        let e18 = e12.wrapping_add(e15.wrapping_mul(10u32));
-        return e18.wrapping_add(tree.table[1]);
+        return tree.left.count.wrapping_mul(100u32).wrapping_add(tree.right.count.wrapping_mul(10u32)).wrapping_add(tree.table[1]);
     }
 
     /// WGSL line 68.
     #[inline]
     pub fn pointer_to_element(&mut self, i: u32) -> u32 {
         let mut list: [u32; 4] = [1u32, 2u32, 3u32, 4u32];
-        let e5 = [1u32, 2u32, 3u32, 4u32];
         self.bump_twice(&mut list[(i as usize).min(3)]);
-        let e9 = list[0];
-        let e11 = e9.wrapping_mul(1000u32);
-        let e13 = list[1];
-        let e16 = e11.wrapping_add(e13.wrapping_mul(100u32));
-        let e18 = list[2];
-        let e21 = e16.wrapping_add(e18.wrapping_mul(10u32));
-        return e21.wrapping_add(list[3]);
+        return list[0].wrapping_mul(1000u32).wrapping_add(list[1].wrapping_mul(100u32)).wrapping_add(list[2].wrapping_mul(10u32)).wrapping_add(list[3]);
     }
 
     /// WGSL line 75.
@@ -201,17 +181,12 @@ impl<'a> Kernel<'a> {
     pub fn pointer_keeps_index(&mut self) -> u32 {
         let mut list: [u32; 3] = [0u32, 0u32, 0u32];
         let mut i: u32 = 1u32;
-        let e3 = [0u32, 0u32, 0u32];
         let e7 = i;
         i = 2u32;
         if (e7 as usize) < 3 {
             list[e7 as usize] = 5u32;
         }
-        let e12 = list[0];
-        let e14 = e12.wrapping_mul(100u32);
-        let e16 = list[1];
-        let e19 = e14.wrapping_add(e16.wrapping_mul(10u32));
-        return e19.wrapping_add(list[2]);
+        return list[0].wrapping_mul(100u32).wrapping_add(list[1].wrapping_mul(10u32)).wrapping_add(list[2]);
     }
 
     /// WGSL line 84.
@@ -225,13 +200,7 @@ impl<'a> Kernel<'a> {
         b.table[2] = 9u32;
         let c = b;
         b.left.count = 3u32;
-        let e18 = a.left.count;
-        let e20 = e18.wrapping_mul(1000u32);
-        let e23 = b.left.count;
-        let e26 = e20.wrapping_add(e23.wrapping_mul(100u32));
-        let e28 = c.left.count;
-        let e31 = e26.wrapping_add(e28.wrapping_mul(10u32));
-        return e31.wrapping_add(a.table[2]);
+        return a.left.count.wrapping_mul(1000u32).wrapping_add(b.left.count.wrapping_mul(100u32)).wrapping_add(c.left.count.wrapping_mul(10u32)).wrapping_add(a.table[2]);
     }
 
     /// WGSL line 95.
@@ -250,10 +219,8 @@ impl<'a> Kernel<'a> {
         let mut tree: Tree = Tree::ZERO;
         let e1 = tree;
         let after = self.changed(e1, 7u32);
-        let e7 = tree.left.count as Real;
-        let e10 = after.left.count as Real;
         let e17 = after.axis;
-        return ((e7 + (e10 * 10.0f32)) + after.left.weight) + e17.y;
+        return (((tree.left.count as Real) + ((after.left.count as Real) * 10.0f32)) + after.left.weight) + e17.y;
     }
 
     /// WGSL line 108.
@@ -266,10 +233,7 @@ impl<'a> Kernel<'a> {
         let mut e: Mat3 = Mat3::ZERO;
         let mut f: bool = false;
         let mut g: BVec2 = BVec2::FALSE;
-        let e7 = a;
-        let e14 = e7.wrapping_add(b[39]).wrapping_add(wgsl::to_u32(c.z));
-        let e18 = e14.wrapping_add(d.table[2]);
-        return e18.wrapping_add(wgsl::to_u32(e.z_axis.y)).wrapping_add(f as u32).wrapping_add(g.y as u32);
+        return a.wrapping_add(b[39]).wrapping_add(wgsl::to_u32(c.z)).wrapping_add(d.table[2]).wrapping_add(wgsl::to_u32(e.z_axis.y)).wrapping_add(f as u32).wrapping_add(g.y as u32);
     }
 
     /// WGSL line 119.
@@ -293,15 +257,13 @@ impl<'a> Kernel<'a> {
     /// WGSL line 123.
     #[inline]
     pub fn local_constant_array(&mut self, i: u32) -> u32 {
-        let list = [10u32, 20u32, 30u32];
-        return (&list)[(i as usize).min(2)];
+        return (&[10u32, 20u32, 30u32])[(i as usize).min(2)];
     }
 
     /// WGSL line 128.
     #[inline]
     pub fn read_outside(&mut self, i: u32) -> u32 {
         let mut list: [u32; 3] = [10u32, 20u32, 30u32];
-        let e4 = [10u32, 20u32, 30u32];
         return list[(i as usize).min(2)];
     }
 
@@ -309,15 +271,10 @@ impl<'a> Kernel<'a> {
     #[inline]
     pub fn write_outside(&mut self, i: u32) -> u32 {
         let mut list: [u32; 3] = [1u32, 2u32, 3u32];
-        let e4 = [1u32, 2u32, 3u32];
         if (i as usize) < 3 {
             list[i as usize] = 9u32;
         }
-        let e9 = list[0];
-        let e11 = e9.wrapping_mul(100u32);
-        let e13 = list[1];
-        let e16 = e11.wrapping_add(e13.wrapping_mul(10u32));
-        return e16.wrapping_add(list[2]);
+        return list[0].wrapping_mul(100u32).wrapping_add(list[1].wrapping_mul(10u32)).wrapping_add(list[2]);
     }
 
     /// WGSL line 139.
@@ -327,27 +284,17 @@ impl<'a> Kernel<'a> {
         if (i as usize) < 2 && (j as usize) < 2 {
             grid[i as usize][j as usize] = 1u32;
         }
-        let e8 = grid[0][0];
-        let e10 = e8.wrapping_mul(1000u32);
-        let e13 = grid[0][1];
-        let e16 = e10.wrapping_add(e13.wrapping_mul(100u32));
-        let e19 = grid[1][0];
-        let e22 = e16.wrapping_add(e19.wrapping_mul(10u32));
-        return e22.wrapping_add(grid[1][1]);
+        return grid[0][0].wrapping_mul(1000u32).wrapping_add(grid[0][1].wrapping_mul(100u32)).wrapping_add(grid[1][0].wrapping_mul(10u32)).wrapping_add(grid[1][1]);
     }
 
     /// WGSL line 145.
     #[inline]
     pub fn lane_outside(&mut self, i: u32) -> Real {
         let mut v: Vec3 = Vec3::new(1.0f32, 2.0f32, 3.0f32);
-        let e4 = Vec3::new(1.0f32, 2.0f32, 3.0f32);
         if (i as usize) < 3 {
             v[i as usize] = 5.0f32;
         }
-        let e9 = v.x;
-        let e11 = e9 * 100.0f32;
-        let e13 = v.y;
-        return (e11 + (e13 * 10.0f32)) + v.z;
+        return ((v.x * 100.0f32) + (v.y * 10.0f32)) + v.z;
     }
 
     /// WGSL line 151.
@@ -377,30 +324,21 @@ impl<'a> Kernel<'a> {
     #[inline]
     pub fn column_outside(&mut self, i: u32) -> Real {
         let mut m: Mat2 = Mat2::from_cols(Vec2::new(1.0f32, 2.0f32), Vec2::new(3.0f32, 4.0f32));
-        let e7 = Mat2::from_cols(Vec2::new(1.0f32, 2.0f32), Vec2::new(3.0f32, 4.0f32));
         if (i as usize) < 2 {
             *m.col_mut(i as usize) = Vec2::new(5.0f32, 6.0f32);
         }
         if (i as usize) < 2 {
             m.col_mut(i as usize).y = 7.0f32;
         }
-        let e18 = m.x_axis.x;
-        let e20 = e18 * 1000.0f32;
-        let e23 = m.x_axis.y;
-        let e26 = e20 + (e23 * 100.0f32);
-        let e29 = m.y_axis.x;
-        let e32 = e26 + (e29 * 10.0f32);
-        return e32 + m.y_axis.y;
+        return (((m.x_axis.x * 1000.0f32) + (m.x_axis.y * 100.0f32)) + (m.y_axis.x * 10.0f32)) + m.y_axis.y;
     }
 
     /// WGSL line 165.
     #[inline]
     pub fn store_lane(&mut self) -> Vec4 {
         let mut v: Vec4 = Vec4::splat(0.0f32);
-        let e1 = Vec4::splat(0.0f32);
         v.z = 1.5f32;
-        let e6 = v.x;
-        v.x = e6 + 2.0f32;
+        v.x = v.x + 2.0f32;
         v.w = v.z;
         return v;
     }
@@ -416,8 +354,7 @@ impl<'a> Kernel<'a> {
     #[inline]
     pub fn frame_first(&mut self) -> u32 {
         let frame_words = self.frame_words;
-        let e3 = frame_words[0].y;
-        return e3.wrapping_add(frame_words[1].w);
+        return frame_words[0].y.wrapping_add(frame_words[1].w);
     }
 
     /// WGSL line 175.
@@ -488,8 +425,7 @@ impl<'a> Kernel<'a> {
     #[inline]
     pub fn gain(&mut self) -> Real {
         let setting = self.setting;
-        let e2 = setting.gain;
-        return e2 + setting.offset.z;
+        return setting.gain + setting.offset.z;
     }
 
     /// WGSL line 186.
@@ -498,7 +434,6 @@ impl<'a> Kernel<'a> {
         if (i as usize) < self.film_words.len() {
             self.film_words[i as usize] = value;
         }
-        return;
     }
 
     /// WGSL line 187.
@@ -507,7 +442,6 @@ impl<'a> Kernel<'a> {
         if (i as usize) < self.film_words.len() {
             self.film_words[i as usize].z = value;
         }
-        return;
     }
 
     /// WGSL line 188.
@@ -529,8 +463,7 @@ impl<'a> Kernel<'a> {
             self.sums[i as usize] = (*wgsl::at(&*self.sums, i as u32, &0.0f32)) + x;
         }
         self.total.weight = self.total.weight + x;
-        let e12 = self.total.count;
-        self.total.count = e12.wrapping_add(1u32);
+        self.total.count = self.total.count.wrapping_add(1u32);
         return self.total.weight;
     }
 
@@ -541,9 +474,7 @@ impl<'a> Kernel<'a> {
         if (e3 as usize) < 8 {
             self.stack[e3 as usize] = value;
         }
-        let e7 = self.top;
-        self.top = e7.wrapping_add(1u32);
-        return;
+        self.top = self.top.wrapping_add(1u32);
     }
 
     /// WGSL line 203.
@@ -552,22 +483,14 @@ impl<'a> Kernel<'a> {
         self.top = 0u32;
         self.push(a);
         self.push(b);
-        let e6 = self.stack[0];
-        let e8 = e6.wrapping_mul(100u32);
-        let e11 = self.stack[1];
-        let e14 = e8.wrapping_add(e11.wrapping_mul(10u32));
-        return e14.wrapping_add(self.top);
+        return self.stack[0].wrapping_mul(100u32).wrapping_add(self.stack[1].wrapping_mul(10u32)).wrapping_add(self.top);
     }
 
     /// WGSL line 210.
     #[inline]
     pub fn next_random(&mut self) -> u32 {
-        let e2 = self.rng;
-        let e4 = e2.wrapping_mul(UVec4::splat(1664525u32));
-        self.rng = e4.wrapping_add(UVec4::splat(1013904223u32));
-        let e10 = self.rng.x;
-        let e13 = self.rng.y;
-        self.rng.x = e10.wrapping_add(e13.wrapping_mul(self.rng.w));
+        self.rng = self.rng.wrapping_mul(UVec4::splat(1664525u32)).wrapping_add(UVec4::splat(1013904223u32));
+        self.rng.x = self.rng.x.wrapping_add(self.rng.y.wrapping_mul(self.rng.w));
         return self.rng.x;
     }
 }
@@ -628,7 +551,7 @@ pub fn fract(x: Real) -> Real {
 /// `a` at `t` 0, `b` at 1.
 #[inline(always)]
 pub fn mix(a: Real, b: Real, t: Real) -> Real {
-    a + t * (b - a)
+    a * (1.0 - t) + b * t
 }
 
 /// 0 below `edge`, else 1.
@@ -641,7 +564,7 @@ pub fn step(edge: Real, x: Real) -> Real {
 #[inline(always)]
 pub fn smoothstep(low: Real, high: Real, x: Real) -> Real {
     let t = clamp((x - low) / (high - low), 0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
+    t * (t * (3.0 - 2.0 * t))
 }
 
 /// Remainder of truncated division, rounded as WGSL defines it and not as `fmod` does.
@@ -792,7 +715,8 @@ pub fn f16_to(bits: u32) -> f32 {
     let sign = f32::from_bits(0x3f80_0000 | ((bits & 0x8000) << 16));
     let magnitude = bits & 0x7fff;
     if magnitude >= 0x7c00 {
-        f32::from_bits(((bits & 0x8000) << 16) | 0x7f80_0000 | ((magnitude & 0x3ff) << 13))
+        let quiet = if magnitude > 0x7c00 { 0x0040_0000 } else { 0 };
+        f32::from_bits(((bits & 0x8000) << 16) | 0x7f80_0000 | quiet | ((magnitude & 0x3ff) << 13))
     } else if magnitude >= 0x400 {
         sign * f32::from_bits((magnitude << 13) + 0x3800_0000)
     } else {
@@ -800,22 +724,23 @@ pub fn f16_to(bits: u32) -> f32 {
     }
 }
 
-/// The nearest value that binary16 holds.
+/// The nearest value that binary16 holds, those below its normal numbers taken for 0.
 #[inline]
 pub fn quantize_f16(x: Real) -> Real {
-    Real::from(f16_to(f16_from(x as f32)))
+    let bits = f16_from(x as f32);
+    if bits & 0x7c00 == 0 { 0.0 } else { Real::from(f16_to(bits)) }
 }
 
-/// `x` in -1..=1 as a signed integer with `scale` at 1.
+/// `x` in -1..=1 as a signed integer with `scale` at 1, ties to even.
 #[inline]
 pub fn pack_snorm(x: Real, scale: Real) -> u32 {
-    (0.5 + scale * clamp(x, -1.0, 1.0)).floor() as i32 as u32
+    (clamp(x, -1.0, 1.0) * scale).round_ties_even() as i32 as u32
 }
 
-/// `x` in 0..=1 as an unsigned integer with `scale` at 1.
+/// `x` in 0..=1 as an unsigned integer with `scale` at 1, ties to even.
 #[inline]
 pub fn pack_unorm(x: Real, scale: Real) -> u32 {
-    (0.5 + scale * clamp(x, 0.0, 1.0)).floor() as u32
+    (clamp(x, 0.0, 1.0) * scale).round_ties_even() as u32
 }
 
 /// Byte `lane` of `x`.

@@ -167,7 +167,7 @@ pub fn fract(x: Real) -> Real {
 /// `a` at `t` 0, `b` at 1.
 #[inline(always)]
 pub fn mix(a: Real, b: Real, t: Real) -> Real {
-    a + t * (b - a)
+    a * (1.0 - t) + b * t
 }
 
 /// 0 below `edge`, else 1.
@@ -180,7 +180,7 @@ pub fn step(edge: Real, x: Real) -> Real {
 #[inline(always)]
 pub fn smoothstep(low: Real, high: Real, x: Real) -> Real {
     let t = clamp((x - low) / (high - low), 0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
+    t * (t * (3.0 - 2.0 * t))
 }
 
 /// Remainder of truncated division, rounded as WGSL defines it and not as `fmod` does.
@@ -331,7 +331,8 @@ pub fn f16_to(bits: u32) -> f32 {
     let sign = f32::from_bits(0x3f80_0000 | ((bits & 0x8000) << 16));
     let magnitude = bits & 0x7fff;
     if magnitude >= 0x7c00 {
-        f32::from_bits(((bits & 0x8000) << 16) | 0x7f80_0000 | ((magnitude & 0x3ff) << 13))
+        let quiet = if magnitude > 0x7c00 { 0x0040_0000 } else { 0 };
+        f32::from_bits(((bits & 0x8000) << 16) | 0x7f80_0000 | quiet | ((magnitude & 0x3ff) << 13))
     } else if magnitude >= 0x400 {
         sign * f32::from_bits((magnitude << 13) + 0x3800_0000)
     } else {
@@ -339,22 +340,23 @@ pub fn f16_to(bits: u32) -> f32 {
     }
 }
 
-/// The nearest value that binary16 holds.
+/// The nearest value that binary16 holds, those below its normal numbers taken for 0.
 #[inline]
 pub fn quantize_f16(x: Real) -> Real {
-    Real::from(f16_to(f16_from(x as f32)))
+    let bits = f16_from(x as f32);
+    if bits & 0x7c00 == 0 { 0.0 } else { Real::from(f16_to(bits)) }
 }
 
-/// `x` in -1..=1 as a signed integer with `scale` at 1.
+/// `x` in -1..=1 as a signed integer with `scale` at 1, ties to even.
 #[inline]
 pub fn pack_snorm(x: Real, scale: Real) -> u32 {
-    (0.5 + scale * clamp(x, -1.0, 1.0)).floor() as i32 as u32
+    (clamp(x, -1.0, 1.0) * scale).round_ties_even() as i32 as u32
 }
 
-/// `x` in 0..=1 as an unsigned integer with `scale` at 1.
+/// `x` in 0..=1 as an unsigned integer with `scale` at 1, ties to even.
 #[inline]
 pub fn pack_unorm(x: Real, scale: Real) -> u32 {
-    (0.5 + scale * clamp(x, 0.0, 1.0)).floor() as u32
+    (clamp(x, 0.0, 1.0) * scale).round_ties_even() as u32
 }
 
 /// Byte `lane` of `x`.

@@ -143,10 +143,7 @@ impl<'a> Kernel<'a> {
     /// WGSL line 26.
     #[inline]
     pub fn any_all(&mut self, v: BVec3) -> u32 {
-        let e4 = if v.any() { 1u32 } else { 0u32 };
-        let e9 = e4.wrapping_add(if v.all() { 2u32 } else { 0u32 });
-        let e14 = e9.wrapping_add(if v.x { 4u32 } else { 0u32 });
-        return e14.wrapping_add(if (!v).all() { 8u32 } else { 0u32 });
+        return (if v.any() { 1u32 } else { 0u32 }).wrapping_add(if v.all() { 2u32 } else { 0u32 }).wrapping_add(if v.x { 4u32 } else { 0u32 }).wrapping_add(if (!v).all() { 8u32 } else { 0u32 });
     }
 
     /// WGSL line 29.
@@ -219,7 +216,7 @@ impl<'a> Kernel<'a> {
     /// WGSL line 44.
     #[inline]
     pub fn normalize3(&mut self, a: Vec3) -> Vec3 {
-        return a * (1.0 / (a.x * a.x + a.y * a.y + a.z * a.z).sqrt());
+        return a / (a.x * a.x + a.y * a.y + a.z * a.z).sqrt();
     }
 
     /// WGSL line 45.
@@ -245,23 +242,21 @@ impl<'a> Kernel<'a> {
     /// WGSL line 49.
     #[inline]
     pub fn mat_vec(&mut self, v: Vec3) -> Vec3 {
-        let e4 = Vec3::new(1.0f64, 2.0f64, 3.0f64);
-        let e8 = Vec3::new(4.0f64, 5.0f64, 6.0f64);
-        let m = Mat3::from_cols(e4, e8, Vec3::new(7.0f64, 8.0f64, 9.5f64));
-        return m.x_axis * v.x + m.y_axis * v.y + m.z_axis * v.z;
+        let t1 = Mat3::from_cols(Vec3::new(1.0f64, 2.0f64, 3.0f64), Vec3::new(4.0f64, 5.0f64, 6.0f64), Vec3::new(7.0f64, 8.0f64, 9.5f64));
+        return t1.z_axis * v.z + t1.y_axis * v.y + t1.x_axis * v.x;
     }
 
     /// WGSL line 53.
     #[inline]
     pub fn vec_mat(&mut self, v: Vec2) -> Vec2 {
-        let m = Mat2::from_cols(Vec2::new(1.0f64, 2.0f64), Vec2::new(3.0f64, 4.0f64));
-        return Vec2::new(v.x * m.x_axis.x + v.y * m.x_axis.y, v.x * m.y_axis.x + v.y * m.y_axis.y);
+        let t1 = Mat2::from_cols(Vec2::new(1.0f64, 2.0f64), Vec2::new(3.0f64, 4.0f64));
+        return Vec2::new(v.x * t1.x_axis.x + v.y * t1.x_axis.y, v.x * t1.y_axis.x + v.y * t1.y_axis.y);
     }
 
     /// WGSL line 57.
     #[inline]
     pub fn mat_mat(&mut self, a: Mat2, b: Mat2) -> Mat2 {
-        return Mat2::from_cols(a.x_axis * b.x_axis.x + a.y_axis * b.x_axis.y, a.x_axis * b.y_axis.x + a.y_axis * b.y_axis.y);
+        return Mat2::from_cols(a.y_axis * b.x_axis.y + a.x_axis * b.x_axis.x, a.y_axis * b.y_axis.y + a.x_axis * b.y_axis.x);
     }
 
     /// WGSL line 58.
@@ -283,18 +278,16 @@ impl<'a> Kernel<'a> {
     #[inline]
     pub fn mat_entry(&mut self, a: Mat3) -> Real {
         let e1 = a.z_axis;
-        let e2 = e1.x;
-        let e4 = e2 * 10.0f64;
         let e5 = a.x_axis;
-        return e4 + e5.z;
+        return (e1.x * 10.0f64) + e5.z;
     }
 
     /// WGSL line 61.
     #[inline]
     pub fn affine(&mut self, p: Vec3) -> Vec3 {
-        let m = [Vec3::new(1.0f64, 0.0f64, 0.0f64), Vec3::new(0.0f64, 2.0f64, 0.0f64), Vec3::new(0.0f64, 0.0f64, 3.0f64), Vec3::new(10.0f64, 20.0f64, 30.0f64)];
+        let t1 = [Vec3::new(1.0f64, 0.0f64, 0.0f64), Vec3::new(0.0f64, 2.0f64, 0.0f64), Vec3::new(0.0f64, 0.0f64, 3.0f64), Vec3::new(10.0f64, 20.0f64, 30.0f64)];
         let e19 = Vec4::new(p.x, p.y, p.z, 1.0f64);
-        return m[0] * e19.x + m[1] * e19.y + m[2] * e19.z + m[3] * e19.w;
+        return t1[3] * e19.w + t1[2] * e19.z + t1[1] * e19.y + t1[0] * e19.x;
     }
 
     /// WGSL line 65.
@@ -305,13 +298,13 @@ impl<'a> Kernel<'a> {
         m = [Vec4::new(t1[0].x, t1[1].x, t1[2].x, t1[3].x), Vec4::new(t1[0].y, t1[1].y, t1[2].y, t1[3].y), Vec4::new(t1[0].z, t1[1].z, t1[2].z, t1[3].z)];
         m[1].w = 25.0f64;
         let e23 = m;
-        return e23[0] * p.x + e23[1] * p.y + e23[2] * p.z;
+        return e23[2] * p.z + e23[1] * p.y + e23[0] * p.x;
     }
 
     /// WGSL line 70.
     #[inline]
     pub fn determinant3(&mut self, m: Mat3) -> Real {
-        return m.x_axis.x * (m.y_axis.y * (m.z_axis.z) - m.z_axis.y * (m.y_axis.z)) - m.y_axis.x * (m.x_axis.y * (m.z_axis.z) - m.z_axis.y * (m.x_axis.z)) + m.z_axis.x * (m.x_axis.y * (m.y_axis.z) - m.y_axis.y * (m.x_axis.z));
+        return m.x_axis.x * (m.y_axis.y * m.z_axis.z - m.y_axis.z * m.z_axis.y) + m.x_axis.y * (m.y_axis.z * m.z_axis.x - m.y_axis.x * m.z_axis.z) + m.x_axis.z * (m.y_axis.x * m.z_axis.y - m.y_axis.y * m.z_axis.x);
     }
 
     /// WGSL line 71.
@@ -377,7 +370,7 @@ pub fn fract(x: Real) -> Real {
 /// `a` at `t` 0, `b` at 1.
 #[inline(always)]
 pub fn mix(a: Real, b: Real, t: Real) -> Real {
-    a + t * (b - a)
+    a * (1.0 - t) + b * t
 }
 
 /// 0 below `edge`, else 1.
@@ -390,7 +383,7 @@ pub fn step(edge: Real, x: Real) -> Real {
 #[inline(always)]
 pub fn smoothstep(low: Real, high: Real, x: Real) -> Real {
     let t = clamp((x - low) / (high - low), 0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
+    t * (t * (3.0 - 2.0 * t))
 }
 
 /// Remainder of truncated division, rounded as WGSL defines it and not as `fmod` does.
@@ -541,7 +534,8 @@ pub fn f16_to(bits: u32) -> f32 {
     let sign = f32::from_bits(0x3f80_0000 | ((bits & 0x8000) << 16));
     let magnitude = bits & 0x7fff;
     if magnitude >= 0x7c00 {
-        f32::from_bits(((bits & 0x8000) << 16) | 0x7f80_0000 | ((magnitude & 0x3ff) << 13))
+        let quiet = if magnitude > 0x7c00 { 0x0040_0000 } else { 0 };
+        f32::from_bits(((bits & 0x8000) << 16) | 0x7f80_0000 | quiet | ((magnitude & 0x3ff) << 13))
     } else if magnitude >= 0x400 {
         sign * f32::from_bits((magnitude << 13) + 0x3800_0000)
     } else {
@@ -549,22 +543,23 @@ pub fn f16_to(bits: u32) -> f32 {
     }
 }
 
-/// The nearest value that binary16 holds.
+/// The nearest value that binary16 holds, those below its normal numbers taken for 0.
 #[inline]
 pub fn quantize_f16(x: Real) -> Real {
-    Real::from(f16_to(f16_from(x as f32)))
+    let bits = f16_from(x as f32);
+    if bits & 0x7c00 == 0 { 0.0 } else { Real::from(f16_to(bits)) }
 }
 
-/// `x` in -1..=1 as a signed integer with `scale` at 1.
+/// `x` in -1..=1 as a signed integer with `scale` at 1, ties to even.
 #[inline]
 pub fn pack_snorm(x: Real, scale: Real) -> u32 {
-    (0.5 + scale * clamp(x, -1.0, 1.0)).floor() as i32 as u32
+    (clamp(x, -1.0, 1.0) * scale).round_ties_even() as i32 as u32
 }
 
-/// `x` in 0..=1 as an unsigned integer with `scale` at 1.
+/// `x` in 0..=1 as an unsigned integer with `scale` at 1, ties to even.
 #[inline]
 pub fn pack_unorm(x: Real, scale: Real) -> u32 {
-    (0.5 + scale * clamp(x, 0.0, 1.0)).floor() as u32
+    (clamp(x, 0.0, 1.0) * scale).round_ties_even() as u32
 }
 
 /// Byte `lane` of `x`.
