@@ -25,7 +25,7 @@ abi_struct! {
         pub n_lights: u32,
         /// First heap word (16 bytes each) of the `Camera`.
         pub camera_at: u32,
-        /// First heap word of the `Sky`; unused without a sky.
+        /// First heap word of the `Sky`; `NONE` without a sky.
         pub sky_at: u32,
         /// First heap word of the `Material` table.
         pub material_at: u32,
