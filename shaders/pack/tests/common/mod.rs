@@ -5,6 +5,8 @@
 #![allow(dead_code, reason = "each test file uses its part")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
+pub(crate) mod sound;
+
 use pack::abi::{
     Camera, ChildRef, Light, LightKind, Material, MaterialKind, NONE, Node, RenderSettings, Sky,
     SkyKind, Sphere, Texture, TextureFormat, ToneMap, TriShade, Triangle, Wrap, f64_bits,

@@ -1,0 +1,75 @@
+//! What a kernel relies on, written a second time: the judge of packs that the checks let through.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
+
+use pack::Pack;
+use pack::abi::{
+    ChildRef, Light, LightKind, Material, NONE, Node, Sphere, Texture, TriShade, Triangle,
+};
+
+/// The relations that a kernel relies on, written a second time.
+pub(crate) fn assert_sound(pack: &Pack) {
+    let n_materials = pack.records::<Material>().len();
+    let n_lights = pack.records::<Light>().len();
+    let n_textures = pack.records::<Texture>().len();
+    let (n_triangles, n_spheres) =
+        (pack.records::<Triangle>().len(), pack.records::<Sphere>().len());
+    let or_none = |index: u32, count: usize| index == NONE || (index as usize) < count;
+    assert_eq!(pack.records::<TriShade>().len(), n_triangles);
+    for shade in pack.records::<TriShade>() {
+        assert!((shade.material as usize) < n_materials && or_none(shade.light, n_lights));
+    }
+    for sphere in pack.records::<Sphere>() {
+        assert!((sphere.material as usize) < n_materials && or_none(sphere.light, n_lights));
+        assert!(sphere.radius > 0.0 && sphere.center.iter().all(|x| x.is_finite()));
+    }
+    for light in pack.records::<Light>() {
+        let kind = LightKind::from_tag(light.kind).unwrap();
+        let count = if kind == LightKind::Sphere { n_spheres } else { n_triangles };
+        assert!((light.primitive as usize) < count && (light.material as usize) < n_materials);
+    }
+    for material in pack.records::<Material>() {
+        for id in [
+            material.color_texture,
+            material.emission_texture,
+            material.metallic_roughness_texture,
+            material.alpha_texture,
+        ] {
+            assert!(or_none(id, n_textures));
+        }
+    }
+    for texture in pack.records::<Texture>() {
+        let end = u64::from(texture.offset) + texture.words().unwrap();
+        assert!(end <= pack.texels().len() as u64);
+    }
+    assert_tree(pack, n_triangles, n_spheres);
+}
+
+/// Walks the tree with a stack of exactly the promised length and counts every primitive.
+fn assert_tree(pack: &Pack, n_triangles: usize, n_spheres: usize) {
+    let nodes = pack.records::<Node>();
+    let mut seen = (vec![0; nodes.len()], vec![0; n_triangles], vec![0; n_spheres]);
+    let mut stack = Vec::new();
+    let mut current = Some(pack.render().root);
+    while let Some(word) = current {
+        current = match ChildRef::decode(word) {
+            ChildRef::Inner(index) => {
+                seen.0[index as usize] += 1;
+                let node = &nodes[index as usize];
+                stack.push(node.right);
+                assert!(stack.len() <= pack.render().stack_need as usize);
+                Some(node.left)
+            }
+            ChildRef::Triangles { first, count } => {
+                (first..first + count).for_each(|index| seen.1[index as usize] += 1);
+                stack.pop()
+            }
+            ChildRef::Spheres { first, count } => {
+                (first..first + count).for_each(|index| seen.2[index as usize] += 1);
+                stack.pop()
+            }
+            ChildRef::Empty => None,
+        };
+    }
+    assert!([seen.0, seen.1, seen.2].concat().iter().all(|count| *count == 1));
+}
