@@ -2,7 +2,7 @@
 //! its parts are written.
 
 use crate::functions::FunctionWriter;
-use crate::names::{Names, TYPE_NAMES};
+use crate::names::{Names, PATTERNS, TYPE_NAMES};
 use crate::text::Text;
 use crate::{NativeError, Precision};
 use naga::valid::ModuleInfo;
@@ -49,7 +49,7 @@ impl<'a> Context<'a> {
             structs.push(name);
             fields.push(members);
         }
-        let mut values = Names::default();
+        let mut values = Names::with(PATTERNS.iter().copied());
         let constants = module
             .constants
             .iter()

@@ -17,18 +17,26 @@ pub struct NativeError {
     pub line: u32,
     /// Column in bytes, from 1; 0 where naga kept no location.
     pub column: u32,
+    /// The byte of the WGSL text at that place; 0 where naga kept no location.
+    pub offset: usize,
 }
 
 impl NativeError {
     /// An error about the text at `span`.
     pub(crate) fn at(span: Span, source: &str, message: impl Into<String>) -> Self {
         let message = message.into();
-        let inside = span.to_range().is_some_and(|r| source.get(..r.start).is_some());
-        if !inside {
-            return Self { message, line: 0, column: 0 };
+        match span.to_range() {
+            Some(range) if source.get(..range.start).is_some() => {
+                let location = span.location(source);
+                Self {
+                    message,
+                    line: location.line_number,
+                    column: location.line_position,
+                    offset: range.start,
+                }
+            }
+            _ => Self { message, line: 0, column: 0, offset: 0 },
         }
-        let location = span.location(source);
-        Self { message, line: location.line_number, column: location.line_position }
     }
 
     /// The same error; where it has no place of its own, at `span`.

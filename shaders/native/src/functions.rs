@@ -7,7 +7,7 @@
 
 use crate::NativeError;
 use crate::context::Context;
-use crate::names::Names;
+use crate::names::{Names, PATTERNS};
 use crate::resources::Holding;
 use crate::text::Text;
 use naga::valid::FunctionInfo;
@@ -54,7 +54,7 @@ impl<'a> FunctionWriter<'a> {
         info: &'a FunctionInfo,
         span: Span,
     ) -> Self {
-        let mut names = Names::with(cx.value_names());
+        let mut names = Names::with(cx.value_names().chain(PATTERNS.iter().copied()));
         let arguments = fun
             .arguments
             .iter()

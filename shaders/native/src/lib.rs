@@ -14,6 +14,10 @@
 //! - one public method of `Kernel` for every WGSL function, entry points included;
 //! - one struct for every WGSL struct, one constant for every module-scope `const`.
 //!
+//! The module that includes it should allow `dead_code`, `unused`, `non_snake_case`,
+//! `non_camel_case_types`, `non_upper_case_globals`, `missing_docs`, `unreachable_pub`,
+//! `clippy::all` and `clippy::pedantic`: its names and its shape are WGSL's.
+//!
 //! An entry point resets the private variables first, so one `Kernel` serves many invocations.
 //!
 //! # Where WGSL leaves a choice
@@ -22,6 +26,13 @@
 //! - Sums of products (`dot`, matrices) have one written order; nothing is fused.
 //! - An `override` takes its default; without one it is refused.
 //! - A resource shorter than its fixed-size array reads as zeros.
+//! - In the f64 twin floats inside structs of a resource are f64, so the caller widens them; plain
+//!   arrays of floats stay f32, and words of `u32` stay words.
+//!
+//! # Bits
+//! Each operation and built-in of IEEE arithmetic was compared on 16 384 random operands with
+//! Mesa 22.3's llvmpipe and has its bits. Not so `sin`, `exp`, `log`, `pow` and their kin, `acos`
+//! and theirs, `determinant` of four columns, and NaN, which every driver rounds as it likes.
 //!
 //! This crate knows nothing of the scene, of the pack, or of what the kernel computes.
 

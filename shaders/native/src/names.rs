@@ -52,6 +52,9 @@ pub(crate) const TYPE_NAMES: &[&str] = &[
     "PartialEq",
 ];
 
+/// Names that Rust would take for a pattern in `let`.
+pub(crate) const PATTERNS: &[&str] = &["None", "Some", "Ok", "Err"];
+
 /// The names already given in one Rust namespace.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Names {

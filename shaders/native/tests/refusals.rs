@@ -128,7 +128,8 @@ fn whatever_naga_refuses_keeps_its_place() {
 
 #[test]
 fn errors_read_as_line_column_message() {
-    let error =
-        NativeError { message: "a barrier has no CPU translation".into(), line: 3, column: 5 };
-    assert_eq!(error.to_string(), "3:5: a barrier has no CPU translation");
+    let source = "fn f() {\n    storageBarrier();\n}";
+    let error: NativeError = generate(source, Precision::F32).unwrap_err();
+    assert_eq!(error.to_string(), "2:5: a barrier has no CPU translation");
+    assert_eq!(source[error.offset..].find("storageBarrier"), Some(0));
 }

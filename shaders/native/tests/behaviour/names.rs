@@ -9,6 +9,7 @@ fn taken_names_get_an_underscore() {
     let made: Kernel_ = k.box_(9);
     assert_eq!((made.match_, made.type_, limit), (4, 3, 4));
     assert_eq!([made.box_, made.dyn_.x], [3.0, 0.0]);
+    assert_eq!(k.none(), 6);
     assert_eq!(k.try_new(1, 2), 6);
     assert_eq!(k.shadows_constant(1), 6);
     let third: Vec3_ = k.vec3_of(5);

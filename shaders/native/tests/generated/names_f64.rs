@@ -103,6 +103,15 @@ impl<'a> Kernel<'a> {
 
     /// WGSL line 34.
     #[inline]
+    pub fn none(&mut self) -> u32 {
+        let mut None_: u32 = 1u32;
+        None_ = None_.wrapping_add(1u32);
+        let Ok_ = None_.wrapping_add(1u32);
+        return None_.wrapping_mul(Ok_);
+    }
+
+    /// WGSL line 41.
+    #[inline]
     pub fn render_(&mut self, at: UVec3) -> u32 {
         let e1_ = at.x;
         let e2 = at.y;

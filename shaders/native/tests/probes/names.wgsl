@@ -31,4 +31,11 @@ fn vec3_of(gen: u32) -> Vec3 {
     return Vec3(gen + self_);
 }
 
+fn none() -> u32 {
+    var None = 1u;
+    None += 1u;
+    let Ok = None + 1u;
+    return None * Ok;
+}
+
 fn render_(at: vec3<u32>) -> u32 { return try_new(at.x, at.y); }
