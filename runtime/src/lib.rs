@@ -1,1 +1,44 @@
-//! (to be written)
+//! Pack → pixels: on the GPU through wgpu, or on the CPU through the same kernel as Rust.
+//!
+//! A checked pack and a [`Job`] become a film of `f64` sums, the film becomes EXR and PNG. Samples
+//! are a pure function of pixel, index, dimension and seed, and are summed in one fixed order, so
+//! tiles, threads and interruptions cannot change the picture. The pack is the whole contract:
+//! nothing here knows the scene language, the compiler, or how the kernel was linked.
+//!
+//! ```no_run
+//! use runtime::{Control, DeviceChoice, Job, Scene, render};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let scene = Scene::new(pack::Pack::open("scene.pack", pack::MapMode::Map)?);
+//! let job = Job::of_scene(&scene);
+//! let outcome = render(&scene, &job, &DeviceChoice::Cpu, &Control::default())?;
+//! runtime::output::write("scene.exr".as_ref(), &outcome.picture, false)?;
+//! # Ok(())
+//! # }
+//! ```
+
+pub mod cli;
+mod control;
+mod cpu;
+mod film;
+#[cfg(feature = "gpu")]
+pub mod gpu;
+mod job;
+pub mod kernel;
+pub mod output;
+mod region;
+mod render;
+mod run;
+mod scene;
+mod schedule;
+#[cfg(feature = "gpu")]
+mod trust;
+
+pub use control::{Control, Progress};
+pub use film::{BadSample, Counters, Film};
+pub use job::{Job, JobError, MAX_PIXELS, MAX_SIDE, Precision};
+pub use region::{Rect, SampleRange};
+pub use render::{DeviceChoice, Outcome, RenderError, render};
+pub use run::TileFailure;
+pub use scene::Scene;
+pub use schedule::Stop;

@@ -1,2 +1,5 @@
 //! Wires the command line.
-fn main() {}
+
+fn main() -> std::process::ExitCode {
+    runtime::cli::run(std::env::args_os())
+}

@@ -1,0 +1,42 @@
+//! Links the full kernel, translates it to Rust in two precisions, and lists every declaration that
+//! the linker can emit, so that a kernel in a pack can be recognised as ours.
+
+#[path = "build/known.rs"]
+mod known;
+#[path = "src/trust/pieces.rs"]
+mod pieces;
+
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let out = PathBuf::from(env::var_os("OUT_DIR").ok_or("cargo sets OUT_DIR")?);
+    let kernel = shaders::link(&shaders::FeatureSet::full())?;
+    write(&out, "kernel_f32.rs", &translate(&kernel, native::Precision::F32)?)?;
+    write(&out, "kernel_f64.rs", &translate(&kernel, native::Precision::F64)?)?;
+    if env::var_os("CARGO_FEATURE_GPU").is_some() {
+        write(&out, "known.rs", &known::table()?)?;
+    }
+    // The modules themselves are compiled into `shaders`: cargo runs this again when they change.
+    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=build");
+    println!("cargo::rerun-if-changed=src/trust");
+    Ok(())
+}
+
+/// An error names the place in our modules, not in the linked text.
+fn translate(
+    kernel: &shaders::Linked,
+    precision: native::Precision,
+) -> Result<String, Box<dyn Error>> {
+    native::generate(&kernel.text, precision).map_err(|error| {
+        let before = kernel.text.split_inclusive('\n').take(error.line.saturating_sub(1) as usize);
+        let byte = before.map(str::len).sum::<usize>() + error.column.saturating_sub(1) as usize;
+        format!("{:?}: {}", kernel.locate(byte), error.message).into()
+    })
+}
+
+fn write(folder: &Path, name: &str, text: &str) -> Result<(), Box<dyn Error>> {
+    Ok(fs::write(folder.join(name), text)?)
+}

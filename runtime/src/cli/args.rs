@@ -1,0 +1,213 @@
+//! Arguments as clap reads them, and the parsers of their values.
+
+use crate::region::{Rect, SampleRange};
+use clap::{Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+use std::time::Duration;
+
+const EXAMPLES: &str = "\
+Examples:
+  rtr scene.pack                          render as the scene says: scene.exr and scene.png
+  rtr scene.pack --spp 16 --size 320x180  a quick look
+  rtr scene.pack --time 60s -o a.png      what a minute gives
+  rtr scene.pack --samples 0..32 -o a.exr one half here ...
+  rtr scene.pack --samples 32..64 -o b.exr   ... the other half there,
+  rtr merge a.exr b.exr -o c.exr -o c.png    and both together
+  rtr --list-devices                      what --device can choose from
+
+Exit codes: 0 done; 1 too many samples were not finite; 2 usage; 3 input, output or device;
+70 a bug in rtr; 130 interrupted (what was complete is written).";
+
+/// Renders a pack that `rtc` made, on the GPU or on the CPU.
+#[derive(Debug, Parser)]
+#[command(name = "rtr", version, after_help = EXAMPLES)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+pub(super) struct Args {
+    #[command(subcommand)]
+    pub(super) command: Option<Command>,
+    #[command(flatten)]
+    pub(super) render: RenderArgs,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Adds parts of one picture that were rendered with --samples.
+    Merge(MergeArgs),
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct MergeArgs {
+    /// EXR files of the same pack, size, crop and seed, with different samples.
+    #[arg(required = true, value_name = "PART.exr")]
+    pub(super) parts: Vec<PathBuf>,
+    /// Where to write; .exr and .png may both be given.
+    #[arg(short, long, required = true, value_name = "FILE")]
+    pub(super) output: Vec<PathBuf>,
+    /// Print errors only.
+    #[arg(long)]
+    pub(super) quiet: bool,
+}
+
+#[derive(Debug, clap::Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch on the command line")]
+pub(super) struct RenderArgs {
+    /// The pack to render.
+    #[arg(value_name = "SCENE.pack", required_unless_present = "list_devices")]
+    pub(super) pack: Option<PathBuf>,
+    /// Where to render: auto (best real GPU, else CPU), cpu, gpu, or a part of an adapter's name.
+    #[arg(long, default_value = "auto", value_name = "DEVICE")]
+    pub(super) device: String,
+    /// Samples per pixel, instead of the scene's.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) spp: Option<u32>,
+    /// Image size in pixels; another aspect keeps the horizontal field of view.
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub(super) size: Option<[u32; 2]>,
+    /// Render a part of the image only.
+    #[arg(long, value_name = "X,Y,W,H", value_parser = parse_rect)]
+    pub(super) crop: Option<Rect>,
+    /// Render these sample indices only, to merge them later.
+    #[arg(long, value_name = "A..B", value_parser = parse_samples, conflicts_with = "spp")]
+    pub(super) samples: Option<SampleRange>,
+    /// Seed of the image, instead of the scene's.
+    #[arg(long, value_name = "N")]
+    pub(super) seed: Option<u32>,
+    /// Stop after this time, such as 60s, 1m30s or 500ms; the picture is evenly sampled.
+    #[arg(long, value_name = "TIME", value_parser = parse_duration)]
+    pub(super) time: Option<Duration>,
+    /// Where to write; .exr and .png may both be given.
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) output: Vec<PathBuf>,
+    /// Threads of the CPU kernel [default: one for each logical CPU].
+    #[arg(long, value_name = "N", value_parser = parse_threads)]
+    pub(super) threads: Option<usize>,
+    /// Read the pack instead of mapping it: for network file systems.
+    #[arg(long)]
+    pub(super) no_mmap: bool,
+    /// Stop at the first sample that is not finite.
+    #[arg(long)]
+    pub(super) strict: bool,
+    /// Print errors only.
+    #[arg(long)]
+    pub(super) quiet: bool,
+    /// List what --device can choose from.
+    #[arg(long)]
+    pub(super) list_devices: bool,
+    /// Wanted duration of one GPU submission, at most 1s.
+    #[arg(long, default_value = "100ms", value_name = "TIME", value_parser = parse_duration)]
+    pub(super) submission: Duration,
+    /// Estimator, for tests.
+    #[arg(long, hide = true, default_value = "mis")]
+    pub(super) estimator: Estimator,
+    /// Precision of the CPU kernel, for tests.
+    #[arg(long, hide = true, default_value = "f32")]
+    pub(super) precision: PrecisionArg,
+}
+
+/// Numbers are those of `Frame::estimator`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum Estimator {
+    Mis = 0,
+    Light = 1,
+    Bsdf = 2,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum PrecisionArg {
+    F32,
+    F64,
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let size = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    size.filter(|size: &[u32; 2]| !size.contains(&0)).ok_or("write it as 640x360".to_owned())
+}
+
+fn parse_rect(text: &str) -> Result<Rect, String> {
+    let numbers: Result<Vec<u32>, _> = text.split(',').map(str::parse).collect();
+    match numbers.as_deref() {
+        Ok(&[x, y, w, h]) if w > 0 && h > 0 => Ok(Rect { x, y, w, h }),
+        _ => Err("write it as x,y,width,height in pixels".to_owned()),
+    }
+}
+
+fn parse_samples(text: &str) -> Result<SampleRange, String> {
+    text.split_once("..")
+        .and_then(|(start, end)| SampleRange::new(start.parse().ok()?, end.parse().ok()?))
+        .ok_or(
+            "write it as 0..32: from the first index up to, not including, the second".to_owned(),
+        )
+}
+
+fn parse_threads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(n @ 1..=4096) => Ok(n),
+        _ => Err("a number from 1 to 4096".to_owned()),
+    }
+}
+
+/// `90`, `90s`, `1.5m`, `1m30s`, `500ms`, `2h`.
+fn parse_duration(text: &str) -> Result<Duration, String> {
+    let wrong = || "write it as 60s, 1m30s, 500ms or 2h".to_owned();
+    let (mut rest, mut seconds) = (text, 0.0);
+    while !rest.is_empty() {
+        let digits = rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len());
+        let (number, tail) = rest.split_at(digits);
+        let letters = tail.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(tail.len());
+        let (unit, tail) = tail.split_at(letters);
+        let scale = match unit {
+            "" | "s" => 1.0,
+            "ms" => 1e-3,
+            "m" | "min" => 60.0,
+            "h" => 3600.0,
+            _ => return Err(wrong()),
+        };
+        seconds += number.parse::<f64>().map_err(|_| wrong())? * scale;
+        rest = tail;
+    }
+    Duration::try_from_secs_f64(seconds).ok().filter(|d| !d.is_zero()).ok_or_else(wrong)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        use clap::CommandFactory as _;
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn durations_are_read_and_nonsense_is_refused() {
+        for (text, seconds) in [
+            ("60s", 60.0),
+            ("90", 90.0),
+            ("1m30s", 90.0),
+            ("500ms", 0.5),
+            ("1.5m", 90.0),
+            ("2h", 7200.0),
+        ] {
+            assert_eq!(parse_duration(text), Ok(Duration::from_secs_f64(seconds)), "{text}");
+        }
+        for text in ["", "s", "60x", "-1s", "0s", "1..2s", "1e9s", "999999999999999999999h"] {
+            assert!(parse_duration(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn sizes_crops_and_samples_are_read_and_nonsense_is_refused() {
+        assert_eq!(parse_size("640x360"), Ok([640, 360]));
+        assert_eq!(parse_rect("1,2,3,4"), Ok(Rect { x: 1, y: 2, w: 3, h: 4 }));
+        assert_eq!(parse_samples("16..32"), Ok(SampleRange { start: 16, end: 32 }));
+        for text in ["", "640", "0x5", "5x-1", "axb", "1x2x3", "99999999999x1"] {
+            assert!(parse_size(text).is_err(), "{text}");
+        }
+        for text in ["", "1,2,3", "1,2,0,4", "1,2,3,4,5", "-1,2,3,4"] {
+            assert!(parse_rect(text).is_err(), "{text}");
+        }
+        for text in ["", "32", "5..5", "9..3", "a..b", "0..99999999999"] {
+            assert!(parse_samples(text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! What the user sees: results on stdout, everything else on stderr, progress while it renders.
+
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "the one module that prints")]
+
+use super::Exit;
+use crate::control::{Control, Progress};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::error::Error;
+use std::io::IsTerminal as _;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::{Arc, Once};
+use std::time::{Duration, Instant};
+
+/// How often the terminal is refreshed and an interrupt is looked for.
+const TICK: Duration = Duration::from_millis(100);
+/// Between two plain lines.
+const LINE: Duration = Duration::from_secs(5);
+
+/// Prints for one command.
+#[derive(Clone)]
+pub(super) struct Console {
+    quiet: bool,
+    bar: ProgressBar,
+}
+
+impl Console {
+    pub(super) fn new(quiet: bool) -> Self {
+        Self { quiet, bar: ProgressBar::hidden() }
+    }
+
+    /// With a bar, when stderr is a terminal.
+    pub(super) fn with_progress(quiet: bool) -> Self {
+        if quiet || !std::io::stderr().is_terminal() {
+            return Self::new(quiet);
+        }
+        let bar = ProgressBar::new(1000);
+        let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}")
+            .unwrap_or_else(|_| ProgressStyle::default_bar());
+        bar.set_style(style);
+        Self { quiet, bar }
+    }
+
+    /// A line of the result.
+    pub(super) fn result(&self, text: &str) {
+        if !self.quiet {
+            self.bar.suspend(|| println!("{text}"));
+        }
+    }
+
+    /// A line about the run.
+    pub(super) fn note(&self, text: &str) {
+        if !self.quiet {
+            self.bar.suspend(|| eprintln!("{text}"));
+        }
+    }
+
+    /// A line that quiet does not silence.
+    pub(super) fn warn(&self, text: &str) {
+        self.bar.suspend(|| eprintln!("{text}"));
+    }
+
+    /// One line for an error and its causes.
+    pub(super) fn fail(&self, error: &dyn Error, exit: Exit) -> Exit {
+        let mut text = error.to_string();
+        let mut cause = error.source();
+        while let Some(inner) = cause {
+            let inner_text = inner.to_string();
+            // Some errors repeat their cause in their own text.
+            if !text.contains(&inner_text) {
+                text = format!("{text}: {inner_text}");
+            }
+            cause = inner.source();
+        }
+        self.warn(&format!("error: {text}"));
+        exit
+    }
+
+    /// Shows progress and passes interrupts on until `over` is set.
+    pub(super) fn watch(&self, control: &Control, watched: &Watched, over: &AtomicBool) {
+        let started = Instant::now();
+        let before = interrupts().load(Ordering::Relaxed);
+        let mut last_line = started;
+        while !over.load(Ordering::Relaxed) {
+            if interrupts().load(Ordering::Relaxed) != before && !control.is_cancelled() {
+                control.cancel();
+                self.note("interrupted: writing what is complete (again to quit at once)");
+            }
+            let elapsed = started.elapsed();
+            let progress = control.progress();
+            let text = progress_text(progress, watched, elapsed);
+            if self.bar.is_hidden() {
+                if last_line.elapsed() >= LINE {
+                    last_line = Instant::now();
+                    self.note(&text);
+                }
+            } else {
+                let share = progress.done as f64 / progress.total.max(1) as f64;
+                #[expect(clippy::cast_possible_truncation, reason = "at most 1000")]
+                self.bar.set_position((share * 1000.0) as u64);
+                self.bar.set_message(text);
+            }
+            std::thread::park_timeout(TICK);
+        }
+        self.bar.finish_and_clear();
+    }
+}
+
+/// What turns counters into text.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Watched {
+    /// Samples of every pixel of the whole job.
+    pub(super) spp: u32,
+    /// When the run is going to stop anyway.
+    pub(super) limit: Option<Duration>,
+}
+
+/// `12.4 of 64 spp, 3.21 Mrays/s, 1m05s left`.
+fn progress_text(progress: Progress, watched: &Watched, elapsed: Duration) -> String {
+    let share = progress.done as f64 / progress.total.max(1) as f64;
+    let spp = share * f64::from(watched.spp);
+    let rate = mrays(progress.rays, elapsed);
+    let mut text = format!("{spp:.1} of {} spp, {rate:.2} Mrays/s", watched.spp);
+    let mut left = (share > 0.0).then(|| elapsed.as_secs_f64() * (1.0 - share) / share);
+    if let Some(limit) = watched.limit {
+        let until = limit.saturating_sub(elapsed).as_secs_f64();
+        left = Some(left.map_or(until, |left| left.min(until)));
+    }
+    if let Some(left) = left.and_then(|left| Duration::try_from_secs_f64(left).ok()) {
+        text.push_str(&format!(", {} left", duration_text(left)));
+    }
+    text
+}
+
+/// Millions of rays a second.
+pub(super) fn mrays(rays: u64, elapsed: Duration) -> f64 {
+    rays as f64 / 1e6 / elapsed.as_secs_f64().max(1e-9)
+}
+
+/// `0.52s`, `12.3s`, `1m05s`, `2h05m`.
+pub(super) fn duration_text(duration: Duration) -> String {
+    let seconds = duration.as_secs_f64();
+    let whole = duration.as_secs();
+    match whole {
+        0..10 => format!("{seconds:.2}s"),
+        10..60 => format!("{seconds:.1}s"),
+        60..3600 => format!("{}m{:02}s", whole / 60, whole % 60),
+        _ => format!("{}h{:02}m", whole / 3600, whole / 60 % 60),
+    }
+}
+
+/// Number of Ctrl-C so far. The first lets a run write what is complete, the second ends the
+/// process.
+fn interrupts() -> &'static Arc<AtomicU32> {
+    static COUNT: std::sync::OnceLock<Arc<AtomicU32>> = std::sync::OnceLock::new();
+    static HANDLER: Once = Once::new();
+    let count = COUNT.get_or_init(Arc::default);
+    HANDLER.call_once(|| {
+        let count = Arc::clone(count);
+        // A process that already has a handler keeps it: then an interrupt is not ours to handle.
+        let _ = ctrlc::set_handler(move || {
+            if count.fetch_add(1, Ordering::Relaxed) > 0 {
+                std::process::exit(Exit::Interrupted as i32);
+            }
+        });
+    });
+    count
+}
+
+/// Makes the next Ctrl-C a first one again.
+pub(super) fn reset_interrupts() {
+    interrupts().store(0, Ordering::Relaxed);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn progress_names_samples_rate_and_time_left() {
+        let progress = Progress { total: 6400, done: 1600, rays: 30_000_000 };
+        let watched = Watched { spp: 64, limit: None };
+        let text = progress_text(progress, &watched, Duration::from_secs(10));
+        assert_eq!(text, "16.0 of 64 spp, 3.00 Mrays/s, 30.0s left");
+        let watched = Watched { spp: 64, limit: Some(Duration::from_secs(15)) };
+        let text = progress_text(progress, &watched, Duration::from_secs(10));
+        assert_eq!(text, "16.0 of 64 spp, 3.00 Mrays/s, 5.00s left");
+    }
+
+    #[test]
+    fn durations_stay_short() {
+        let text = |seconds| duration_text(Duration::from_secs_f64(seconds));
+        assert_eq!(text(0.523), "0.52s");
+        assert_eq!(text(65.0), "1m05s");
+        assert_eq!(text(7500.0), "2h05m");
+    }
+}

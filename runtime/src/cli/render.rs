@@ -1,0 +1,257 @@
+//! `rtr scene.pack`: opens, renders, writes, and says what happened.
+
+use super::Exit;
+use super::args::{PrecisionArg, RenderArgs};
+use super::console::{Console, Watched, duration_text, mrays, reset_interrupts};
+use crate::control::Control;
+use crate::job::{Job, Precision};
+use crate::output::{self, Format};
+use crate::region::SampleRange;
+use crate::render::{DeviceChoice, Outcome, render};
+use crate::scene::Scene;
+use crate::schedule::Stop;
+use pack::{MapMode, Pack};
+use std::ffi::OsStr;
+use std::path::{Component, Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+pub(super) fn command(args: &RenderArgs) -> Exit {
+    let console = Console::with_progress(args.quiet);
+    let Some(path) = &args.pack else {
+        console.warn("error: no pack was named");
+        return Exit::Usage;
+    };
+    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("rts")) {
+        let pack = path.with_extension("pack");
+        console.warn(&format!(
+            "error: {0} is a scene source, compile it first: rtc {0} -o {1}",
+            path.display(),
+            pack.display()
+        ));
+        return Exit::World;
+    }
+    let mode = if args.no_mmap { MapMode::Read } else { MapMode::Map };
+    let scene = match Pack::open(path, mode) {
+        Ok(pack) => Scene::new(pack),
+        Err(error) => {
+            console.note(&format!("in {}:", path.display()));
+            return console.fail(&error, Exit::World);
+        }
+    };
+    let job = job(args, &scene);
+    if let Err(error) = job.check() {
+        return console.fail(&error, Exit::Usage);
+    }
+    let outputs = outputs(args, path, &scene);
+    if let Err(text) = check_outputs(&outputs) {
+        console.warn(&format!("error: {text}"));
+        return Exit::World;
+    }
+    console.note(&headline(path, &scene, &job));
+    run(args, &console, &scene, &job, &outputs)
+}
+
+fn job(args: &RenderArgs, scene: &Scene) -> Job {
+    let mut job = Job::of_scene(scene);
+    if let Some(size) = args.size {
+        job.resize(size);
+    }
+    job.crop = args.crop.unwrap_or(job.crop);
+    if let Some(spp) = args.spp {
+        job.samples = SampleRange { start: 0, end: spp };
+    }
+    job.samples = args.samples.unwrap_or(job.samples);
+    job.seed = args.seed.unwrap_or(job.seed);
+    job.time_limit = args.time;
+    job.threads = args.threads;
+    job.strict = args.strict;
+    job.submission = args.submission;
+    job.estimator = args.estimator as u32;
+    job.precision = match args.precision {
+        PrecisionArg::F32 => Precision::F32,
+        PrecisionArg::F64 => Precision::F64,
+    };
+    job
+}
+
+fn run(
+    args: &RenderArgs,
+    console: &Console,
+    scene: &Scene,
+    job: &Job,
+    outputs: &[PathBuf],
+) -> Exit {
+    reset_interrupts();
+    let notes = console.clone();
+    let control = Control::new(move |text| notes.note(text));
+    let watched = Watched { spp: job.samples.count(), limit: job.time_limit };
+    let over = AtomicBool::new(false);
+    let outcome = std::thread::scope(|scope| {
+        let watcher = scope.spawn(|| console.watch(&control, &watched, &over));
+        let outcome = render(scene, job, &DeviceChoice::parse(&args.device), &control);
+        over.store(true, Ordering::Relaxed);
+        watcher.thread().unpark();
+        outcome
+    });
+    let outcome = match outcome {
+        Ok(outcome) => outcome,
+        Err(error) => return console.fail(&error, Exit::World),
+    };
+    report(console, &outcome, job);
+    if outcome.film().samples().1 == 0 {
+        console.warn("error: no sample was complete, nothing is written");
+        return exit(&outcome).unwrap_or(Exit::World);
+    }
+    let residual =
+        args.samples.is_some() || job.time_limit.is_some() || !outcome.picture.meta.complete;
+    let mut failed = None;
+    for path in outputs {
+        match output::write(path, &outcome.picture, residual) {
+            Ok(()) => console.result(&format!("wrote {}", path.display())),
+            // The other file may still succeed.
+            Err(error) => failed = Some(console.fail(&error, Exit::World)),
+        }
+    }
+    failed.or_else(|| exit(&outcome)).unwrap_or(Exit::Done)
+}
+
+/// `None` when all is well.
+fn exit(outcome: &Outcome) -> Option<Exit> {
+    if !outcome.failures.is_empty() {
+        Some(Exit::Bug)
+    } else if outcome.device_error.is_some() {
+        Some(Exit::World)
+    } else if outcome.too_many_bad() || outcome.stop == Stop::Failed {
+        Some(Exit::NotFinite)
+    } else if outcome.stop == Stop::Cancelled {
+        Some(Exit::Interrupted)
+    } else {
+        None
+    }
+}
+
+fn headline(path: &Path, scene: &Scene, job: &Job) -> String {
+    let [w, h] = job.image_size;
+    let crop = if job.crop.pixels() == u64::from(w) * u64::from(h) {
+        String::new()
+    } else {
+        format!(" (crop {})", job.crop)
+    };
+    let triangles = scene.pack().records::<pack::abi::Triangle>().len();
+    let spheres = scene.pack().records::<pack::abi::Sphere>().len();
+    format!(
+        "{}: {w}x{h}{crop}, samples {}, {triangles} triangles, {spheres} spheres, {} lights",
+        path.display(),
+        job.samples,
+        scene.settings().n_lights,
+    )
+}
+
+fn report(console: &Console, outcome: &Outcome, job: &Job) {
+    let film = outcome.film();
+    let counters = &film.counters;
+    let (least, most) = film.samples();
+    let why = match outcome.stop {
+        Stop::Complete => "",
+        Stop::TimeLimit => ", time limit",
+        Stop::Cancelled => ", interrupted",
+        Stop::Failed => ", failed",
+    };
+    console.note(&format!(
+        "{most} of {} spp in {}{why}: {:.2} Mrays/s, {} rays, longest path {}",
+        job.samples.count(),
+        duration_text(outcome.elapsed),
+        mrays(counters.rays, outcome.elapsed),
+        counters.rays,
+        counters.depth,
+    ));
+    if least != most {
+        console.warn(&format!("warning: pixels have between {least} and {most} samples"));
+    }
+    if let Some(error) = &outcome.device_error {
+        console.warn(&format!("error: {error}; what was complete before that is kept"));
+    }
+    for failure in &outcome.failures {
+        console.warn(&format!(
+            "error: bug in rtr: block {} from sample {} failed: {}",
+            failure.tile, failure.sample, failure.message
+        ));
+    }
+    if let Some(bad) = counters.first_bad {
+        let grade = if outcome.too_many_bad() { "error" } else { "warning" };
+        let (x, y, sample) = (bad.x, bad.y, bad.sample);
+        console.warn(&format!(
+            "{grade}: {} of {} samples were not finite and count as black; the first again: \
+             --crop {x},{y},1,1 --samples {sample}..{} --seed {}",
+            counters.bad,
+            film.total_samples(),
+            sample.saturating_add(1),
+            job.seed,
+        ));
+    }
+}
+
+/// What `-o` says; else what the scene says; else the pack's name, in the working folder.
+fn outputs(args: &RenderArgs, pack: &Path, scene: &Scene) -> Vec<PathBuf> {
+    if !args.output.is_empty() {
+        return args.output.clone();
+    }
+    let wanted = scene.pack().manifest().ok().and_then(|manifest| manifest.output);
+    let stem = wanted.as_deref().and_then(safe_stem);
+    let name = pack.file_stem().unwrap_or(OsStr::new("picture"));
+    let stem = stem.unwrap_or_else(|| PathBuf::from(name));
+    ["exr", "png"].map(|extension| with_extension(&stem, extension)).into()
+}
+
+/// Adds an extension; a dot in the stem stays.
+fn with_extension(stem: &Path, extension: &str) -> PathBuf {
+    let mut name = stem.as_os_str().to_owned();
+    name.push(".");
+    name.push(extension);
+    PathBuf::from(name)
+}
+
+/// The path without `.exr` or `.png`. A pack is a stranger's file: it may name places below the
+/// working folder only.
+fn safe_stem(output: &str) -> Option<PathBuf> {
+    let path = Path::new(output);
+    let below = path.components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir));
+    path.file_name().filter(|_| below)?;
+    let known = Format::of(path).is_ok();
+    Some(if known { path.with_extension("") } else { path.to_owned() })
+}
+
+/// Finds out before rendering, not after, that a file cannot be written.
+fn check_outputs(outputs: &[PathBuf]) -> Result<(), String> {
+    for path in outputs {
+        Format::of(path).map_err(|error| error.to_string())?;
+        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        if !folder.is_dir() {
+            return Err(format!(
+                "cannot write {}: there is no folder {}",
+                path.display(),
+                folder.display()
+            ));
+        }
+        if path.is_dir() {
+            return Err(format!("cannot write {}: it is a folder", path.display()));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pack_may_name_outputs_below_the_working_folder_only() {
+        assert_eq!(safe_stem("pic.png"), Some(PathBuf::from("pic")));
+        assert_eq!(safe_stem("out/pic.v2"), Some(PathBuf::from("out/pic.v2")));
+        assert_eq!(safe_stem("/etc/pic.png"), None);
+        assert_eq!(safe_stem("../pic.png"), None);
+        assert_eq!(safe_stem("out/../../pic.exr"), None);
+        assert_eq!(safe_stem(""), None);
+        assert_eq!(with_extension(Path::new("a/pic.v2"), "exr"), PathBuf::from("a/pic.v2.exr"));
+    }
+}

@@ -1,0 +1,74 @@
+//! What a run and its owner tell each other while it goes on: progress, notes, the wish to stop.
+
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+/// Shared between a run and whoever watches it. Counters only grow.
+pub struct Control {
+    cancel: AtomicBool,
+    total: AtomicU64,
+    done: AtomicU64,
+    rays: AtomicU64,
+    note: Box<dyn Fn(&str) + Send + Sync>,
+}
+
+/// How far a run is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// Pixel samples of the whole job.
+    pub total: u64,
+    /// Pixel samples that were rendered.
+    pub done: u64,
+    /// Rays that were traced.
+    pub rays: u64,
+}
+
+impl Default for Control {
+    fn default() -> Self {
+        Self::new(|_| ())
+    }
+}
+
+impl Control {
+    /// `note` gets one line for everything worth telling: which device, what went wrong with it.
+    /// It may be called from any thread.
+    pub fn new(note: impl Fn(&str) + Send + Sync + 'static) -> Self {
+        Self {
+            cancel: AtomicBool::new(false),
+            total: AtomicU64::new(0),
+            done: AtomicU64::new(0),
+            rays: AtomicU64::new(0),
+            note: Box::new(note),
+        }
+    }
+
+    /// Asks the run to end soon, with every complete batch.
+    pub fn cancel(&self) {
+        self.cancel.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether `cancel` was called.
+    #[must_use]
+    pub fn is_cancelled(&self) -> bool {
+        self.cancel.load(Ordering::Relaxed)
+    }
+
+    /// How far the run is.
+    #[must_use]
+    pub fn progress(&self) -> Progress {
+        let load = |counter: &AtomicU64| counter.load(Ordering::Relaxed);
+        Progress { total: load(&self.total), done: load(&self.done), rays: load(&self.rays) }
+    }
+
+    pub(crate) fn note(&self, text: &str) {
+        (self.note)(text);
+    }
+
+    pub(crate) fn begin(&self, total: u64) {
+        self.total.store(total, Ordering::Relaxed);
+    }
+
+    pub(crate) fn advance(&self, samples: u64, rays: u64) {
+        self.done.fetch_add(samples, Ordering::Relaxed);
+        self.rays.fetch_add(rays, Ordering::Relaxed);
+    }
+}

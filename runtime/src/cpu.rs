@@ -1,0 +1,132 @@
+//! Work items → pixels with the generated kernel: blocks of 32 × 32 pixels on every core.
+//!
+//! A panic in a block is a bug, but never a lost picture: it is caught, reported with the block's
+//! coordinates, and the run ends with everything else.
+
+use crate::job::{Job, Precision};
+use crate::kernel;
+use crate::run::Run;
+use crate::scene::Setup;
+use glam::{UVec3, UVec4};
+use pack::Kind;
+use pack::abi::{FilmPixel, Frame};
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use thiserror::Error;
+
+/// Pixels of a block: 32 × 32.
+const BLOCK: u64 = 32 * 32;
+
+/// The CPU kernel cannot start.
+#[derive(Debug, Error)]
+#[error("cannot start the threads of the CPU kernel")]
+pub(crate) struct CpuError(#[from] rayon::ThreadPoolBuildError);
+
+/// What the kernel reads: one slice for each binding, empty where the scene has nothing.
+#[derive(Clone, Copy)]
+pub(crate) struct Inputs<'a> {
+    frame: &'a [UVec4],
+    heap: &'a [UVec4],
+    nodes: &'a [UVec4],
+    triangles: &'a [UVec4],
+    shades: &'a [UVec4],
+    spheres: &'a [UVec4],
+    texels: &'a [UVec4],
+}
+
+impl<'a> Inputs<'a> {
+    fn new(setup: &'a Setup<'_>, frame: &'a Frame) -> Self {
+        Self {
+            frame: bytemuck::cast_slice(std::slice::from_ref(frame)),
+            heap: setup.heap(),
+            nodes: setup.section(Kind::NODE),
+            triangles: setup.section(Kind::TRIANGLE),
+            shades: setup.section(Kind::TRISHADE),
+            spheres: setup.section(Kind::SPHERE),
+            texels: setup.section(Kind::TEXEL),
+        }
+    }
+}
+
+/// Renders the tile of the frame: one `FilmPixel`, two words, for each pixel.
+macro_rules! tile_function {
+    ($name:ident, $kernel:ident) => {
+        fn $name(inputs: Inputs<'_>, size: [u32; 2], film: &mut [UVec4]) {
+            let mut kernel = kernel::$kernel::Kernel::new(kernel::$kernel::Bindings {
+                frame_words: inputs.frame,
+                film_words: film,
+                heap_words: inputs.heap,
+                node_words: inputs.nodes,
+                tri_words: inputs.triangles,
+                shade_words: inputs.shades,
+                sphere_words: inputs.spheres,
+                texel_words: inputs.texels,
+            });
+            for y in 0..size[1] {
+                for x in 0..size[0] {
+                    kernel.render(UVec3::new(x, y, 0));
+                }
+            }
+        }
+    };
+}
+tile_function!(render_f32, f32);
+tile_function!(render_f64, f64);
+
+type RenderTile = fn(Inputs<'_>, [u32; 2], &mut [UVec4]);
+
+/// Renders until the run has nothing left.
+pub(crate) fn render(setup: &Setup<'_>, job: &Job, run: &Run<'_>) -> Result<(), CpuError> {
+    let tile = match job.precision {
+        Precision::F32 => render_f32,
+        Precision::F64 => render_f64,
+    };
+    render_with(tile, setup, job, run)
+}
+
+fn render_with(
+    tile: RenderTile,
+    setup: &Setup<'_>,
+    job: &Job,
+    run: &Run<'_>,
+) -> Result<(), CpuError> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(job.threads.unwrap_or(0))
+        .thread_name(|i| format!("rtr-{i}"))
+        .build()?;
+    pool.broadcast(|_| worker(tile, setup, run));
+    Ok(())
+}
+
+/// Claims block after block. Blocks are claimed in order, so batches are completed in order.
+fn worker(tile: RenderTile, setup: &Setup<'_>, run: &Run<'_>) {
+    let mut pixels: Vec<FilmPixel> = Vec::new();
+    while let Some(item) = run.claim_blocking(BLOCK) {
+        let n = usize::try_from(item.tile.pixels()).expect("a block is small");
+        pixels.clear();
+        pixels.resize(n, FilmPixel::default());
+        let frame = setup.frame(&item);
+        let inputs = Inputs::new(setup, &frame);
+        let film = bytemuck::cast_slice_mut(&mut pixels);
+        let size = [item.tile.w, item.tile.h];
+        // Only `pixels` is written, and a failed block is not read.
+        match catch_unwind(AssertUnwindSafe(|| tile(inputs, size, film))) {
+            Ok(()) => run.deposit(&item, &pixels),
+            Err(panic) => run.fail(&item, panic_text(panic.as_ref())),
+        }
+    }
+}
+
+/// The message of a caught panic.
+pub(crate) fn panic_text(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned())
+        .unwrap_or_else(|| "panic without a message".to_owned())
+}
+
+/// One line for the user.
+pub(crate) fn name(job: &Job) -> String {
+    let threads = job.threads.filter(|n| *n > 0).unwrap_or_else(rayon::current_num_threads);
+    let plural = if threads == 1 { "" } else { "s" };
+    format!("CPU kernel ({}, {threads} thread{plural})", job.precision.name())
+}

@@ -1,0 +1,328 @@
+//! Batch sums of tiles → the film: `f64` sums of radiance and the number of samples of every pixel.
+//!
+//! Invariant: batches are added in ascending order, each exactly once, and only when the whole
+//! region has arrived. So the film never depends on the order in which tiles finish, and it is
+//! evenly sampled at every moment. It does not know devices or files.
+
+use crate::region::{Rect, SampleRange, insert_range};
+use pack::abi::FilmPixel;
+use std::collections::BTreeMap;
+
+/// A sample whose radiance was not finite; enough to render it again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BadSample {
+    /// Column in the image.
+    pub x: u32,
+    /// Row in the image.
+    pub y: u32,
+    /// Sample index.
+    pub sample: u32,
+}
+
+/// What was counted beside the radiance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Rays traced: camera, bounce and shadow.
+    pub rays: u64,
+    /// Samples that were not finite and count as black.
+    pub bad: u64,
+    /// The bad sample with the lowest batch, then row, then column.
+    pub first_bad: Option<BadSample>,
+    /// Longest path in segments.
+    pub depth: u32,
+}
+
+impl Counters {
+    /// Adds what another, later part of the picture counted.
+    pub fn add(&mut self, other: &Self) {
+        self.rays += other.rays;
+        self.bad += other.bad;
+        self.first_bad = self.first_bad.or(other.first_bad);
+        self.depth = self.depth.max(other.depth);
+    }
+}
+
+/// The accumulated picture of `region`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    /// Whole image in pixels; `region` lies inside it.
+    pub image_size: [u32; 2],
+    /// The pixels that exist here, row by row.
+    pub region: Rect,
+    /// Sample indices in the sums: sorted, disjoint, joined where they touch.
+    pub ranges: Vec<SampleRange>,
+    /// Sum of radiance over the samples, linear Rec. 709; `region.pixels()` entries.
+    pub sums: Vec<[f64; 3]>,
+    /// Samples behind each sum. All equal unless a run failed or stopped in its first batch.
+    pub counts: Vec<u32>,
+    /// Rays, bad samples, longest path.
+    pub counters: Counters,
+}
+
+impl Film {
+    /// A film without samples.
+    #[must_use]
+    pub fn new(image_size: [u32; 2], region: Rect) -> Self {
+        let n = usize::try_from(region.pixels()).expect("a film fits the address space");
+        Self {
+            image_size,
+            region,
+            ranges: Vec::new(),
+            sums: vec![[0.0; 3]; n],
+            counts: vec![0; n],
+            counters: Counters::default(),
+        }
+    }
+
+    /// Mean radiance of pixel `i` of the region; black without samples.
+    #[must_use]
+    pub fn mean(&self, i: usize) -> [f64; 3] {
+        let n = f64::from(self.counts[i].max(1));
+        self.sums[i].map(|sum| sum / n)
+    }
+
+    /// Mean radiance of every pixel, row by row.
+    #[must_use]
+    pub fn means(&self) -> Vec<[f64; 3]> {
+        (0..self.sums.len()).map(|i| self.mean(i)).collect()
+    }
+
+    /// Fewest and most samples that any pixel has.
+    #[must_use]
+    pub fn samples(&self) -> (u32, u32) {
+        let least = self.counts.iter().copied().min().unwrap_or(0);
+        (least, self.counts.iter().copied().max().unwrap_or(0))
+    }
+
+    /// Whether every pixel has the same number of samples.
+    #[must_use]
+    pub fn is_even(&self) -> bool {
+        let (least, most) = self.samples();
+        least == most
+    }
+
+    /// Samples of all pixels together.
+    #[must_use]
+    pub fn total_samples(&self) -> u64 {
+        self.counts.iter().map(|&n| u64::from(n)).sum()
+    }
+
+    fn index(&self, x: u32, y: u32) -> usize {
+        let row = u64::from(y - self.region.y) * u64::from(self.region.w);
+        usize::try_from(row + u64::from(x - self.region.x)).expect("a pixel of the region")
+    }
+}
+
+/// One batch on its way into the film: `f32` sums of the whole region.
+struct Plane {
+    samples: SampleRange,
+    sums: Vec<[f32; 3]>,
+    /// Tiles that arrived.
+    done: Vec<Rect>,
+    /// Pixels that have neither arrived nor failed.
+    left: u64,
+    counters: Counters,
+}
+
+/// Collects tiles in any order and adds whole batches to the film in ascending order.
+pub(crate) struct Accumulator {
+    film: Film,
+    open: BTreeMap<u32, Plane>,
+    /// Sums of a plane that was added, to be used again.
+    spare: Option<Vec<[f32; 3]>>,
+}
+
+impl Accumulator {
+    pub(crate) fn new(film: Film) -> Self {
+        Self { film, open: BTreeMap::new(), spare: None }
+    }
+
+    #[cfg(test)]
+    fn film(&self) -> &Film {
+        &self.film
+    }
+
+    /// Announces a batch. Batches must be announced in ascending order, before their first tile.
+    pub(crate) fn open(&mut self, samples: SampleRange) {
+        let n = self.film.sums.len();
+        let sums = self.spare.take().unwrap_or_else(|| vec![[0.0; 3]; n]);
+        let left = self.film.region.pixels();
+        let plane = Plane { samples, sums, done: Vec::new(), left, counters: Counters::default() };
+        self.open.insert(samples.start, plane);
+    }
+
+    /// Takes a tile of an open batch, row by row.
+    pub(crate) fn deposit(&mut self, samples: SampleRange, tile: Rect, pixels: &[FilmPixel]) {
+        let region_w = self.film.region.w as usize;
+        let mut at = self.film.index(tile.x, tile.y);
+        let plane = self.open.get_mut(&samples.start).expect("tiles belong to open batches");
+        for (row, y) in pixels.chunks_exact(tile.w as usize).zip(tile.y..) {
+            for (pixel, x) in row.iter().zip(tile.x..) {
+                let bad = BadSample { x, y, sample: pixel.first_bad };
+                plane.counters.rays += u64::from(pixel.rays);
+                plane.counters.depth = plane.counters.depth.max(pixel.depth);
+                if pixel.bad > 0 {
+                    plane.counters.bad += u64::from(pixel.bad);
+                    let first = plane.counters.first_bad;
+                    if first.is_none_or(|first| (y, x) < (first.y, first.x)) {
+                        plane.counters.first_bad = Some(bad);
+                    }
+                }
+            }
+            for (sum, pixel) in plane.sums[at..at + row.len()].iter_mut().zip(row) {
+                *sum = pixel.sum;
+            }
+            at += region_w;
+        }
+        plane.done.push(tile);
+        plane.left -= tile.pixels();
+        self.add_complete();
+    }
+
+    /// Gives a tile of an open batch up: its pixels keep the samples they have.
+    pub(crate) fn give_up(&mut self, samples: SampleRange, tile: Rect) {
+        let plane = self.open.get_mut(&samples.start).expect("tiles belong to open batches");
+        plane.left -= tile.pixels();
+        self.add_complete();
+    }
+
+    fn add_complete(&mut self) {
+        while self.open.first_key_value().is_some_and(|(_, plane)| plane.left == 0) {
+            if let Some((_, plane)) = self.open.pop_first() {
+                self.add(plane);
+            }
+        }
+    }
+
+    fn add(&mut self, plane: Plane) {
+        let region_w = self.film.region.w as usize;
+        for tile in &plane.done {
+            let mut at = self.film.index(tile.x, tile.y);
+            for _ in 0..tile.h {
+                let row = at..at + tile.w as usize;
+                for (sum, batch) in
+                    self.film.sums[row.clone()].iter_mut().zip(&plane.sums[row.clone()])
+                {
+                    for (sum, batch) in sum.iter_mut().zip(batch) {
+                        *sum += f64::from(*batch);
+                    }
+                }
+                for count in &mut self.film.counts[row] {
+                    *count += plane.samples.count();
+                }
+                at += region_w;
+            }
+        }
+        self.film.counters.add(&plane.counters);
+        insert_range(&mut self.film.ranges, plane.samples);
+        self.spare = Some(plane.sums);
+    }
+
+    /// The film with every complete batch. A run that ended inside its first batch leaves the tiles
+    /// of that batch that arrived: better than nothing, and marked by uneven counts.
+    pub(crate) fn finish(mut self) -> Film {
+        if self.film.ranges.is_empty()
+            && let Some((_, plane)) = self.open.pop_first()
+            && !plane.done.is_empty()
+        {
+            self.add(plane);
+        }
+        self.film
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const REGION: Rect = Rect { x: 2, y: 1, w: 16, h: 8 };
+
+    fn range(start: u32, end: u32) -> SampleRange {
+        SampleRange::new(start, end).unwrap()
+    }
+
+    fn tile(rect: Rect, samples: SampleRange) -> Vec<FilmPixel> {
+        let pixel = |x: u32, y: u32| FilmPixel {
+            sum: [1.0 / (1.0 + x as f32), 1e-3 * y as f32, (samples.start + 1) as f32 / 3.0],
+            rays: 3,
+            ..FilmPixel::default()
+        };
+        (rect.y..rect.y + rect.h)
+            .flat_map(|y| (rect.x..rect.x + rect.w).map(move |x| pixel(x, y)))
+            .collect()
+    }
+
+    fn halves() -> [Rect; 2] {
+        let (a, b) = REGION.halves().unwrap();
+        [a, b]
+    }
+
+    #[test]
+    fn the_order_of_tiles_does_not_change_the_film() {
+        let batches: Vec<_> = range(0, 64).batches().collect();
+        let run = |order: &[usize]| {
+            let mut sum = Accumulator::new(Film::new([20, 10], REGION));
+            batches.iter().for_each(|&batch| sum.open(batch));
+            for &i in order {
+                let (batch, rect) = (batches[i / 2], halves()[i % 2]);
+                sum.deposit(batch, rect, &tile(rect, batch));
+            }
+            sum.finish()
+        };
+        let film = run(&[0, 1, 2, 3, 4, 5, 6, 7]);
+        assert_eq!(film, run(&[7, 6, 5, 4, 3, 2, 1, 0]));
+        assert_eq!(film, run(&[3, 1, 5, 7, 0, 2, 6, 4]));
+        assert_eq!((film.samples(), film.counters.rays), ((64, 64), 4 * 128 * 3));
+        assert_eq!(film.ranges, [range(0, 64)]);
+    }
+
+    #[test]
+    fn an_unfinished_batch_is_left_out() {
+        let mut sum = Accumulator::new(Film::new([20, 10], REGION));
+        for batch in range(0, 32).batches() {
+            sum.open(batch);
+        }
+        sum.deposit(range(0, 16), REGION, &tile(REGION, range(0, 16)));
+        sum.deposit(range(16, 32), halves()[0], &tile(halves()[0], range(16, 32)));
+        let film = sum.finish();
+        assert_eq!((film.samples(), film.is_even()), ((16, 16), true));
+    }
+
+    #[test]
+    fn tiles_of_a_first_batch_that_never_ended_are_kept_and_marked() {
+        let mut sum = Accumulator::new(Film::new([20, 10], REGION));
+        sum.open(range(0, 16));
+        sum.deposit(range(0, 16), halves()[1], &tile(halves()[1], range(0, 16)));
+        let film = sum.finish();
+        assert_eq!((film.samples(), film.is_even()), ((0, 16), false));
+        assert_eq!(film.mean(0), [0.0; 3]);
+    }
+
+    #[test]
+    fn a_given_up_tile_does_not_hold_the_others_back() {
+        let mut sum = Accumulator::new(Film::new([20, 10], REGION));
+        sum.open(range(0, 16));
+        sum.give_up(range(0, 16), halves()[0]);
+        sum.deposit(range(0, 16), halves()[1], &tile(halves()[1], range(0, 16)));
+        assert_eq!(sum.film().samples(), (0, 16));
+    }
+
+    #[test]
+    fn the_first_bad_sample_is_the_topmost_of_the_earliest_batch() {
+        let run = |order: [usize; 2]| {
+            let mut sum = Accumulator::new(Film::new([20, 10], REGION));
+            sum.open(range(0, 16));
+            for i in order {
+                let mut pixels = tile(halves()[i], range(0, 16));
+                pixels[9].bad = 2;
+                pixels[9].first_bad = 5;
+                sum.deposit(range(0, 16), halves()[i], &pixels);
+            }
+            sum.finish().counters
+        };
+        let counters = run([0, 1]);
+        assert_eq!(counters, run([1, 0]));
+        assert_eq!(counters.bad, 4);
+        assert_eq!(counters.first_bad, Some(BadSample { x: 3, y: 2, sample: 5 }));
+    }
+}

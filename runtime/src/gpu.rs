@@ -1,0 +1,102 @@
+//! The wgpu backend: adapters, device, upload, and a schedule that measures itself.
+//!
+//! It turns work items into pixels and nothing else: what to render and what to keep is decided by
+//! `run`. Every failure of the device is a value here; the caller decides what to try next.
+
+mod adapter;
+mod device;
+mod pace;
+mod queue;
+mod upload;
+
+pub use self::adapter::{Adapter, adapters, describe};
+
+use self::device::{Device, Module};
+use self::pace::Pace;
+use crate::job::Job;
+use crate::run::Run;
+use crate::scene::Setup;
+use crate::trust::{Trust, judge};
+use std::time::Duration;
+use thiserror::Error;
+
+/// What can go wrong on a GPU.
+#[derive(Debug, Error)]
+pub enum GpuError {
+    /// The adapter gives no device.
+    #[error("the adapter gives no device: {0}")]
+    Device(String),
+    /// The scene needs more than the adapter offers.
+    #[error("the scene needs {needed} {what}, the adapter has {available}")]
+    Limit {
+        /// What there is too little of.
+        what: &'static str,
+        /// How much is needed.
+        needed: u64,
+        /// How much there is.
+        available: u64,
+    },
+    /// Memory ran out.
+    #[error("out of GPU memory: {0}")]
+    Memory(String),
+    /// The kernel does not compile on this device.
+    #[error("the kernel does not compile on this device: {0}")]
+    Kernel(String),
+    /// The device is gone: a reset, a timeout, a driver update.
+    #[error("the device was lost: {0}")]
+    Lost(String),
+    /// The device answered, but not with a picture.
+    #[error("the device gives wrong results: {0}")]
+    Wrong(String),
+    /// Another refusal of the API; a bug of ours or of the driver.
+    #[error("{0}")]
+    Api(String),
+}
+
+/// Losses after which the device is not tried again, unless it rendered something in between.
+const MAX_LOSSES: u32 = 3;
+
+/// Renders until the run has nothing left, rebuilding the device when it is lost: first as it was
+/// wanted, then with checked modules and ever smaller tiles.
+pub(crate) fn render(
+    adapter: &Adapter,
+    setup: &Setup<'_>,
+    job: &Job,
+    run: &Run<'_>,
+) -> Result<(), GpuError> {
+    let mut module = match judge(setup) {
+        Trust::Known => {
+            run.note("kernel: every line is known, runtime checks are off");
+            Module::Trusted
+        }
+        Trust::Unknown { line } => {
+            run.note(&format!("kernel: line {line} is not from this rtr, runtime checks are on"));
+            Module::Checked
+        }
+    };
+    let mut pace = Pace::new(job.submission);
+    let mut losses = 0;
+    loop {
+        let before = run.done();
+        let error = match Device::open(adapter, setup, module) {
+            Ok(mut device) => match device.render(setup, run, &mut pace) {
+                Ok(()) => return Ok(()),
+                Err(error) => error,
+            },
+            Err(error) => error,
+        };
+        losses = if run.done() > before { 1 } else { losses + 1 };
+        let again = match &error {
+            GpuError::Lost(_) | GpuError::Wrong(_) => losses < MAX_LOSSES,
+            GpuError::Kernel(_) | GpuError::Api(_) => module == Module::Trusted,
+            GpuError::Device(_) | GpuError::Limit { .. } | GpuError::Memory(_) => false,
+        };
+        if !again {
+            return Err(error);
+        }
+        run.note(&format!("{error}; trying again with runtime checks and smaller tiles"));
+        module = Module::Checked;
+        pace.halve();
+        std::thread::sleep(Duration::from_millis(200));
+    }
+}

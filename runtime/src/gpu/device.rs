@@ -1,0 +1,269 @@
+//! Adapter + scene → a device with everything uploaded and the kernel compiled.
+
+use super::queue::{Slot, Slots};
+use super::upload::{upload, wait};
+use super::{Adapter, GpuError};
+use crate::cpu::panic_text;
+use crate::scene::{Setup, WINDOW_BYTES};
+use std::sync::{Arc, Mutex, PoisonError};
+use wgpu::{
+    BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry, BindingType, Buffer,
+    BufferBindingType, ComputePipeline, ComputePipelineDescriptor, DeviceDescriptor, ErrorFilter,
+    ErrorScopeGuard, Limits, PipelineCompilationOptions, PipelineLayoutDescriptor,
+    ShaderModuleDescriptor, ShaderRuntimeChecks, ShaderSource, ShaderStages,
+};
+
+/// Window `w` of binding `b` is binding `b + 8 w`.
+const WINDOW_STRIDE: u32 = 8;
+/// The compiler of a large kernel recurses deeply.
+const COMPILER_STACK: usize = 32 << 20;
+
+/// How the kernel is compiled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Module {
+    /// Without bounds checks and loop limits.
+    Trusted,
+    /// With them.
+    Checked,
+}
+
+/// The first thing that went wrong outside of any scope.
+#[derive(Clone, Default)]
+pub(super) struct Fault(Arc<Mutex<Option<String>>>);
+
+impl Fault {
+    fn set(&self, text: String) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(text);
+    }
+
+    pub(super) fn get(&self) -> Option<String> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+}
+
+/// A window of a section: where it is bound.
+pub(super) struct Window {
+    pub(super) binding: u32,
+    pub(super) buffer: Buffer,
+    pub(super) offset: u64,
+    pub(super) size: u64,
+}
+
+/// A device that is ready to render one scene.
+pub(super) struct Device {
+    pub(super) device: wgpu::Device,
+    pub(super) queue: wgpu::Queue,
+    pub(super) pipeline: ComputePipeline,
+    pub(super) layout: BindGroupLayout,
+    pub(super) windows: Vec<Window>,
+    /// Set when the device is lost.
+    pub(super) lost: Fault,
+    /// Set by an error that no scope caught.
+    pub(super) uncaptured: Fault,
+}
+
+impl Device {
+    pub(super) fn open(
+        adapter: &Adapter,
+        setup: &Setup<'_>,
+        module: Module,
+    ) -> Result<Self, GpuError> {
+        let limits = adapter.adapter.limits();
+        let buffers = setup.buffers();
+        check_limits(&limits, &buffers)?;
+        let request = adapter.adapter.request_device(&DeviceDescriptor {
+            label: Some("rtr"),
+            required_limits: limits,
+            ..DeviceDescriptor::default()
+        });
+        let (device, queue) =
+            pollster::block_on(request).map_err(|error| GpuError::Device(error.to_string()))?;
+        let (lost, uncaptured) = (Fault::default(), Fault::default());
+        let fault = lost.clone();
+        device.set_device_lost_callback(move |reason, text| {
+            fault.set(format!("{reason:?}: {text}"));
+        });
+        let fault = uncaptured.clone();
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            fault.set(error.to_string());
+        }));
+        let windows = upload_all(&device, &queue, &buffers)?;
+        let (layout, pipeline) = compile(&device, setup.kernel(), &windows, module)?;
+        let mut ready = Self { device, queue, pipeline, layout, windows, lost, uncaptured };
+        ready.try_one_workgroup(setup)?;
+        Ok(ready)
+    }
+
+    /// What became of the device, if anything.
+    pub(super) fn fault(&self) -> Result<(), GpuError> {
+        if let Some(text) = self.lost.get() {
+            return Err(GpuError::Lost(text));
+        }
+        self.uncaptured.get().map_or(Ok(()), |text| Err(GpuError::Api(text)))
+    }
+
+    /// Renders 8 × 8 pixels once: drivers compile at the first dispatch, and one that renders
+    /// nothing at all is found before it is trusted with a picture.
+    fn try_one_workgroup(&mut self, setup: &Setup<'_>) -> Result<(), GpuError> {
+        let mut slots = Slots::default();
+        let mut slot: Slot = slots.take(self, 64);
+        let index = slot.submit_trial(self, setup);
+        wait(&self.device, index)?;
+        self.fault()?;
+        slot.read(self, |_| ())
+    }
+}
+
+fn check_limits(limits: &Limits, buffers: &[(u32, &[u8])]) -> Result<(), GpuError> {
+    let mut bindings = 1;
+    for (_, bytes) in buffers {
+        let needed = bytes.len() as u64;
+        if needed > limits.max_buffer_size {
+            let available = limits.max_buffer_size;
+            return Err(GpuError::Limit { what: "bytes in one buffer", needed, available });
+        }
+        bindings += needed.div_ceil(WINDOW_BYTES);
+    }
+    let available = u64::from(limits.max_storage_buffers_per_shader_stage);
+    if bindings > available {
+        return Err(GpuError::Limit { what: "storage buffers", needed: bindings, available });
+    }
+    let available = limits.max_storage_buffer_binding_size;
+    if available < WINDOW_BYTES {
+        return Err(GpuError::Limit {
+            what: "bytes in one binding",
+            needed: WINDOW_BYTES,
+            available,
+        });
+    }
+    Ok(())
+}
+
+fn upload_all(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    buffers: &[(u32, &[u8])],
+) -> Result<Vec<Window>, GpuError> {
+    let mut windows = Vec::new();
+    for &(binding, bytes) in buffers {
+        let (memory, other) = scopes(device);
+        let buffer = upload(device, queue, &format!("binding {binding}"), bytes);
+        let (other, memory) = (pop(other), pop(memory));
+        if let Some(error) = memory {
+            return Err(GpuError::Memory(error));
+        }
+        if let Some(error) = other {
+            return Err(GpuError::Api(error));
+        }
+        let buffer = buffer?;
+        let (size, mut offset, mut window) = (bytes.len() as u64, 0, 0);
+        while offset < size {
+            let part = (size - offset).min(WINDOW_BYTES);
+            let binding = binding + window * WINDOW_STRIDE;
+            windows.push(Window { binding, buffer: buffer.clone(), offset, size: part });
+            offset += part;
+            window += 1;
+        }
+    }
+    Ok(windows)
+}
+
+/// Scopes for memory (outer) and for everything that validation finds (inner).
+fn scopes(device: &wgpu::Device) -> (ErrorScopeGuard, ErrorScopeGuard) {
+    let memory = device.push_error_scope(ErrorFilter::OutOfMemory);
+    (memory, device.push_error_scope(ErrorFilter::Validation))
+}
+
+fn pop(scope: ErrorScopeGuard) -> Option<String> {
+    pollster::block_on(scope.pop()).map(|error| error.to_string())
+}
+
+/// Compiles the kernel, on a thread of its own: error scopes and deep stacks belong to threads, and
+/// a panic of the shader compiler ends there.
+fn compile(
+    device: &wgpu::Device,
+    kernel: &str,
+    windows: &[Window],
+    module: Module,
+) -> Result<(BindGroupLayout, ComputePipeline), GpuError> {
+    std::thread::scope(|scope| {
+        std::thread::Builder::new()
+            .name("rtr-compile".to_owned())
+            .stack_size(COMPILER_STACK)
+            .spawn_scoped(scope, || compile_here(device, kernel, windows, module))
+            .map_err(|error| GpuError::Device(error.to_string()))?
+            .join()
+            .unwrap_or_else(|panic| Err(GpuError::Kernel(panic_text(panic.as_ref()))))
+    })
+}
+
+fn compile_here(
+    device: &wgpu::Device,
+    kernel: &str,
+    windows: &[Window],
+    module: Module,
+) -> Result<(BindGroupLayout, ComputePipeline), GpuError> {
+    let internal = device.push_error_scope(ErrorFilter::Internal);
+    let (memory, validation) = scopes(device);
+    let source = ShaderSource::Wgsl(kernel.into());
+    let module =
+        create_module(device, ShaderModuleDescriptor { label: Some("kernel"), source }, module);
+    let layout = device.create_bind_group_layout(&BindGroupLayoutDescriptor {
+        label: Some("scene"),
+        entries: &layout_entries(windows),
+    });
+    let pipeline_layout = device.create_pipeline_layout(&PipelineLayoutDescriptor {
+        label: Some("scene"),
+        bind_group_layouts: &[Some(&layout)],
+        immediate_size: 0,
+    });
+    let pipeline = device.create_compute_pipeline(&ComputePipelineDescriptor {
+        label: Some("render"),
+        layout: Some(&pipeline_layout),
+        module: &module,
+        entry_point: Some("render"),
+        compilation_options: PipelineCompilationOptions::default(),
+        cache: None,
+    });
+    let errors = [pop(validation), pop(memory), pop(internal)];
+    match errors.into_iter().flatten().next() {
+        Some(error) => Err(GpuError::Kernel(error)),
+        None => Ok((layout, pipeline)),
+    }
+}
+
+fn create_module(
+    device: &wgpu::Device,
+    descriptor: ShaderModuleDescriptor<'_>,
+    module: Module,
+) -> wgpu::ShaderModule {
+    match module {
+        Module::Checked => device.create_shader_module(descriptor),
+        // SAFETY: without the checks a shader must not index outside of its buffers and arrays, loop
+        // for ever or divide integers by zero. `Trusted` is chosen only for a text whose every line
+        // `trust::judge` found in the kernel that this program was built with (so it is our code,
+        // with constants that are numbers), and only for a `Pack<Checked>`, whose rules are what
+        // that code relies on: every index of every table lies inside the table it points into,
+        // children come after their parents (traversal ends), leaf ranges lie inside, and the
+        // traversal stack is as long as the checked tree needs. The sizes in `Frame` come from the
+        // same pack, and the film buffer has two words for each pixel of the dispatched tile.
+        #[expect(unsafe_code, reason = "checks cost up to half of the speed; see the proof above")]
+        Module::Trusted => unsafe {
+            device.create_shader_module_trusted(descriptor, ShaderRuntimeChecks::unchecked())
+        },
+    }
+}
+
+fn layout_entries(windows: &[Window]) -> Vec<BindGroupLayoutEntry> {
+    let entry = |binding, ty| BindGroupLayoutEntry {
+        binding,
+        visibility: ShaderStages::COMPUTE,
+        ty: BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None },
+        count: None,
+    };
+    let read_only = BufferBindingType::Storage { read_only: true };
+    let film = BufferBindingType::Storage { read_only: false };
+    let mut entries = vec![entry(0, BufferBindingType::Uniform), entry(1, film)];
+    entries.extend(windows.iter().map(|window| entry(window.binding, read_only)));
+    entries
+}

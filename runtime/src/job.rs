@@ -1,0 +1,118 @@
+//! What to render, in one value: size, crop, samples, seed, limits.
+
+use crate::region::{Rect, SampleRange};
+use crate::scene::Scene;
+use std::time::Duration;
+use thiserror::Error;
+
+/// Largest side of an image in pixels.
+pub const MAX_SIDE: u32 = 1 << 16;
+/// Most pixels of a film: 2^28 take 11 GB while rendering.
+pub const MAX_PIXELS: u64 = 1 << 28;
+
+/// The type that stands for WGSL's `f32`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Precision {
+    /// As on a GPU.
+    #[default]
+    F32,
+    /// The twin that shows where rounding matters; on the CPU only.
+    F64,
+}
+
+impl Precision {
+    /// `f32` or `f64`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::F32 => "f32",
+            Self::F64 => "f64",
+        }
+    }
+}
+
+/// One run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Job {
+    /// Whole image in pixels. Another aspect than the scene's keeps the horizontal field of view.
+    pub image_size: [u32; 2],
+    /// The part of the image to render; inside the image.
+    pub crop: Rect,
+    /// Sample indices.
+    pub samples: SampleRange,
+    /// Seed of the image.
+    pub seed: u32,
+    /// Estimator switch of the kernel: 0 MIS (balance), 1 light samples only, 2 BSDF samples only.
+    pub estimator: u32,
+    /// Precision of the CPU kernel; GPUs know `F32` only.
+    pub precision: Precision,
+    /// When to stop, counted from the first sample.
+    pub time_limit: Option<Duration>,
+    /// Threads of the CPU kernel; `None`: one for each logical CPU.
+    pub threads: Option<usize>,
+    /// Stop at the first sample that is not finite.
+    pub strict: bool,
+    /// Wanted duration of one GPU submission.
+    pub submission: Duration,
+}
+
+/// A job that cannot be run.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum JobError {
+    /// Size out of range.
+    #[error("an image of {}x{} pixels: each side must be 1 to {MAX_SIDE}, all pixels at most {MAX_PIXELS}", size[0], size[1])]
+    Size {
+        /// What was asked for.
+        size: [u32; 2],
+    },
+    /// Crop not inside the image.
+    #[error("crop {crop} is empty or leaves the image of {}x{} pixels", size[0], size[1])]
+    Crop {
+        /// What was asked for.
+        crop: Rect,
+        /// The image.
+        size: [u32; 2],
+    },
+    /// The f64 kernel exists on the CPU only.
+    #[error("the f64 kernel runs on the CPU only")]
+    Precision,
+}
+
+impl Job {
+    /// The run that the scene asks for.
+    #[must_use]
+    pub fn of_scene(scene: &Scene) -> Self {
+        let settings = scene.settings();
+        Self {
+            image_size: settings.image_size,
+            crop: Rect::whole(settings.image_size),
+            samples: SampleRange { start: 0, end: settings.samples.max(1) },
+            seed: settings.seed,
+            estimator: 0,
+            precision: Precision::F32,
+            time_limit: None,
+            threads: None,
+            strict: false,
+            submission: Duration::from_millis(100),
+        }
+    }
+
+    /// Another image size; the crop becomes the whole image.
+    pub fn resize(&mut self, size: [u32; 2]) {
+        self.image_size = size;
+        self.crop = Rect::whole(size);
+    }
+
+    /// Whether the run is possible.
+    pub fn check(&self) -> Result<(), JobError> {
+        let size = self.image_size;
+        let pixels = Rect::whole(size).pixels();
+        if size.iter().any(|side| !(1..=MAX_SIDE).contains(side)) || pixels > MAX_PIXELS {
+            return Err(JobError::Size { size });
+        }
+        if !self.crop.fits(size) {
+            return Err(JobError::Crop { crop: self.crop, size });
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,35 @@
+//! The kernel as Rust: what the build script generated from the full WGSL, in two precisions.
+//!
+//! Not written by hand and not edited: `build.rs` links every WGSL module and translates the text.
+
+/// The kernel in single precision: the same bits as a GPU that rounds as IEEE 754 says.
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    dead_code,
+    missing_docs,
+    unreachable_pub,
+    unused,
+    non_snake_case,
+    non_upper_case_globals,
+    reason = "generated"
+)]
+pub mod f32 {
+    include!(concat!(env!("OUT_DIR"), "/kernel_f32.rs"));
+}
+
+/// Its twin in double precision, which shows where rounding matters.
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    dead_code,
+    missing_docs,
+    unreachable_pub,
+    unused,
+    non_snake_case,
+    non_upper_case_globals,
+    reason = "generated"
+)]
+pub mod f64 {
+    include!(concat!(env!("OUT_DIR"), "/kernel_f64.rs"));
+}

@@ -1,0 +1,140 @@
+//! Films → files: EXR for numbers, PNG for eyes, and parts of a picture merged into one.
+//!
+//! Every file appears complete or not at all: it is written beside its final name and renamed. This
+//! module does not render.
+
+mod exr;
+mod merge;
+mod png;
+
+pub use self::exr::{read_exr, write_exr};
+pub use self::merge::{MergeError, merge};
+pub use self::png::{encode_png, tone_map, write_png};
+
+use crate::film::Film;
+use crate::region::SampleRange;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// A film and where it comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// The pixels.
+    pub film: Film,
+    /// The rest.
+    pub meta: Meta,
+}
+
+/// What is known about a picture beside its pixels; all of it is stored in the EXR.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Meta {
+    /// Hexadecimal name of what was rendered, from the pack; parts of one picture share it.
+    pub render_id: String,
+    /// Seed of the image.
+    pub seed: u32,
+    /// Estimator switch of the kernel; 0 except in tests.
+    pub estimator: u32,
+    /// Precision of the kernel: `f32` or `f64`.
+    pub precision: String,
+    /// Devices that rendered it, in order.
+    pub device: String,
+    /// Seconds of rendering; of merged parts, their sum.
+    pub seconds: f64,
+    /// Exposure of the PNG in stops; not applied to the EXR.
+    pub exposure: f32,
+    /// `ToneMap` number of the PNG; not applied to the EXR.
+    pub tone_map: u32,
+    /// False when the run ended before all requested samples, or a tile failed.
+    pub complete: bool,
+}
+
+/// A picture that cannot be read or written.
+#[derive(Debug, Error)]
+pub enum OutputError {
+    /// The file cannot be created, written or renamed.
+    #[error(transparent)]
+    Write(pack::PackError),
+    /// The encoder refused.
+    #[error("cannot encode {}: {message}", path.display())]
+    Encode {
+        /// The file.
+        path: PathBuf,
+        /// The encoder's words.
+        message: String,
+    },
+    /// The file cannot be read as an EXR image.
+    #[error("cannot read {}: {message}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The decoder's words.
+        message: String,
+    },
+    /// An EXR image that `rtr` did not write, or that lacks what is needed here.
+    #[error("{} is not a picture of rtr: {message}", path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+        /// What is missing.
+        message: String,
+    },
+    /// A file name that says neither `.exr` nor `.png`.
+    #[error("{}: the name must end in .exr or .png", path.display())]
+    Format {
+        /// The name.
+        path: PathBuf,
+    },
+}
+
+/// Kind of a picture file, from its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Linear float, with everything that is known.
+    Exr,
+    /// Eight bits, tone-mapped.
+    Png,
+}
+
+impl Format {
+    /// The format that the extension of `path` asks for.
+    pub fn of(path: &Path) -> Result<Self, OutputError> {
+        let extension = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
+        match extension.as_deref() {
+            Some("exr") => Ok(Self::Exr),
+            Some("png") => Ok(Self::Png),
+            _ => Err(OutputError::Format { path: path.to_owned() }),
+        }
+    }
+}
+
+/// Writes `picture` in the format of the name. `residual`: whether an EXR also holds the rounding
+/// error of its means, which makes merging exact to about 2^-48.
+pub fn write(path: &Path, picture: &Picture, residual: bool) -> Result<(), OutputError> {
+    match Format::of(path)? {
+        Format::Exr => write_exr(path, picture, residual),
+        Format::Png => write_png(path, picture),
+    }
+}
+
+/// Writes `bytes` beside `path`, then renames.
+fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    pack::write_atomic(path, |out| out.write_all(bytes)).map_err(OutputError::Write)
+}
+
+/// `0..32,64..96`.
+fn ranges_text(ranges: &[SampleRange]) -> String {
+    ranges.iter().map(SampleRange::to_string).collect::<Vec<_>>().join(",")
+}
+
+/// The inverse of `ranges_text`; `None` when malformed, overlapping or empty ranges occur.
+fn parse_ranges(text: &str) -> Option<Vec<SampleRange>> {
+    let mut ranges = Vec::new();
+    for part in text.split(',').filter(|part| !part.is_empty()) {
+        let (start, end) = part.split_once("..")?;
+        let range = SampleRange::new(start.parse().ok()?, end.parse().ok()?)?;
+        if !crate::region::insert_range(&mut ranges, range) {
+            return None;
+        }
+    }
+    Some(ranges)
+}

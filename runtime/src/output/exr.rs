@@ -1,0 +1,233 @@
+//! Film ⇄ EXR: linear `f32` means, exact enough to go on adding, with all that is known about them.
+//!
+//! Channels `R`, `G`, `B` hold the mean radiance. `residual.R` and so on, where present, hold what
+//! rounding the `f64` mean to `f32` left over, so that mean + residual is good to about 2^-48.
+//! `samples` is there where pixels have different numbers of samples.
+
+use super::{Meta, OutputError, Picture, parse_ranges, ranges_text, write_atomic};
+use crate::film::{BadSample, Counters, Film};
+use crate::region::{Rect, SampleRange};
+use ::exr::prelude::attribute::Chromaticities;
+use ::exr::prelude::{
+    AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image, IntegerBounds, Layer,
+    LayerAttributes, ReadChannels as _, ReadLayers as _, Text, Vec2, WritableImage as _,
+};
+use std::io::Cursor;
+use std::path::Path;
+
+const COLOURS: [&str; 3] = ["R", "G", "B"];
+const RESIDUALS: [&str; 3] = ["residual.R", "residual.G", "residual.B"];
+const SAMPLES: &str = "samples";
+
+/// Chromaticities of Rec. 709 with white D65: red, green, blue, white.
+const REC_709: [[f32; 2]; 4] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06], [0.3127, 0.3290]];
+
+/// Writes the film as it is: linear, no exposure, no tone curve.
+pub fn write_exr(path: &Path, picture: &Picture, residual: bool) -> Result<(), OutputError> {
+    let film = &picture.film;
+    let means = film.means();
+    let (names, planes) = (COLOURS, planes(&means, |x| round(x)));
+    let mut channels: Vec<_> = names.iter().zip(planes).map(|(n, p)| channel(n, p)).collect();
+    if residual {
+        let rest = self::planes(&means, |x| {
+            let rest = round(x - f64::from(round(x)));
+            if rest.is_finite() { rest } else { 0.0 }
+        });
+        channels.extend(RESIDUALS.iter().zip(rest).map(|(n, p)| channel(n, p)));
+    }
+    if !film.is_even() {
+        channels.push(AnyChannel::new(SAMPLES, FlatSamples::U32(film.counts.clone())));
+    }
+    let mut attributes = LayerAttributes {
+        layer_position: Vec2(signed(film.region.x), signed(film.region.y)),
+        software_name: Some(Text::from(concat!("rtr ", env!("CARGO_PKG_VERSION")))),
+        ..LayerAttributes::default()
+    };
+    attributes.other.extend(attributes_of(picture));
+    let size = (film.region.w as usize, film.region.h as usize);
+    let layer = Layer::new(
+        size,
+        attributes,
+        Encoding::SMALL_LOSSLESS,
+        AnyChannels::sort(channels.into_iter().collect()),
+    );
+    let mut image = Image::from_layer(layer);
+    let [w, h] = film.image_size;
+    image.attributes.display_window = IntegerBounds::new(Vec2(0, 0), Vec2(w as usize, h as usize));
+    let [red, green, blue, white] = REC_709.map(|[x, y]| Vec2(x, y));
+    image.attributes.chromaticities = Some(Chromaticities { red, green, blue, white });
+    let mut file = Cursor::new(Vec::new());
+    image.write().to_buffered(&mut file).map_err(|error| OutputError::Encode {
+        path: path.to_owned(),
+        message: error.to_string(),
+    })?;
+    write_atomic(path, file.get_ref())
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "rounding is the purpose")]
+fn round(x: f64) -> f32 {
+    x as f32
+}
+
+fn signed(x: u32) -> i32 {
+    i32::try_from(x).unwrap_or(i32::MAX)
+}
+
+fn planes(means: &[[f64; 3]], f: impl Fn(f64) -> f32) -> [Vec<f32>; 3] {
+    [0, 1, 2].map(|c| means.iter().map(|rgb| f(rgb[c])).collect())
+}
+
+fn channel(name: &str, values: Vec<f32>) -> AnyChannel<FlatSamples> {
+    AnyChannel::new(name, FlatSamples::F32(values))
+}
+
+fn attributes_of(picture: &Picture) -> Vec<(Text, AttributeValue)> {
+    let Picture { film, meta } = picture;
+    let text = |s: &str| AttributeValue::Text(Text::new_or_none(s).unwrap_or_default());
+    let number = |n: u64| text(&n.to_string());
+    let Counters { rays, bad, first_bad, depth } = film.counters;
+    let mut list = vec![
+        ("render_id", text(&meta.render_id)),
+        ("spp", AttributeValue::I32(signed(film.samples().1))),
+        ("sample_ranges", text(&ranges_text(&film.ranges))),
+        ("seed", number(u64::from(meta.seed))),
+        ("estimator", number(u64::from(meta.estimator))),
+        ("precision", text(&meta.precision)),
+        ("device", text(&meta.device)),
+        ("seconds", AttributeValue::F64(meta.seconds)),
+        ("exposure_stops", AttributeValue::F32(meta.exposure)),
+        ("tone_map", number(u64::from(meta.tone_map))),
+        ("complete", number(u64::from(meta.complete))),
+        ("rays", number(rays)),
+        ("longest_path", number(u64::from(depth))),
+        ("bad_samples", number(bad)),
+    ];
+    if let Some(BadSample { x, y, sample }) = first_bad {
+        list.push(("first_bad_sample", text(&format!("{x},{y},{sample}"))));
+    }
+    list.into_iter().map(|(name, value)| (Text::from(name), value)).collect()
+}
+
+/// Reads what `write_exr` wrote.
+pub fn read_exr(path: &Path) -> Result<Picture, OutputError> {
+    let image = ::exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .first_valid_layer()
+        .all_attributes()
+        .from_file(path)
+        .map_err(|error| OutputError::Read { path: path.to_owned(), message: error.to_string() })?;
+    let foreign = |message: String| OutputError::Foreign { path: path.to_owned(), message };
+    let fields = Fields { layer: &image.layer_data.attributes };
+    let (film, meta) = parse(&image, &fields).map_err(foreign)?;
+    Ok(Picture { film, meta })
+}
+
+type ReadImage = Image<Layer<AnyChannels<FlatSamples>>>;
+
+fn parse(image: &ReadImage, fields: &Fields<'_>) -> Result<(Film, Meta), String> {
+    let meta = Meta {
+        render_id: fields.text("render_id")?,
+        seed: fields.number("seed")?,
+        estimator: fields.number("estimator")?,
+        precision: fields.text("precision")?,
+        device: fields.text("device")?,
+        seconds: fields.float("seconds")?,
+        exposure: round(fields.float("exposure_stops")?),
+        tone_map: fields.number("tone_map")?,
+        complete: fields.number::<u32>("complete")? == 1,
+    };
+    let ranges =
+        parse_ranges(&fields.text("sample_ranges")?).ok_or("`sample_ranges` is malformed")?;
+    let counters = Counters {
+        rays: fields.number("rays")?,
+        bad: fields.number("bad_samples")?,
+        first_bad: fields.text("first_bad_sample").ok().and_then(|text| parse_bad(&text)),
+        depth: fields.number("longest_path")?,
+    };
+    Ok((parse_film(image, ranges, counters)?, meta))
+}
+
+fn parse_film(
+    image: &ReadImage,
+    ranges: Vec<SampleRange>,
+    counters: Counters,
+) -> Result<Film, String> {
+    let layer = &image.layer_data;
+    let unsigned = |n: i32| u32::try_from(n).map_err(|_| "a window is out of range".to_owned());
+    let length = |n: usize| u32::try_from(n).map_err(|_| "a window is out of range".to_owned());
+    let window = image.attributes.display_window.size;
+    let image_size = [length(window.x())?, length(window.y())?];
+    let position = layer.attributes.layer_position;
+    let region = Rect {
+        x: unsigned(position.x())?,
+        y: unsigned(position.y())?,
+        w: length(layer.size.x())?,
+        h: length(layer.size.y())?,
+    };
+    if !region.fits(image_size) {
+        return Err("the data window lies outside the display window".to_owned());
+    }
+    let mut film = Film { ranges, counters, ..Film::new(image_size, region) };
+    let find = |name: &str| layer.channel_data.list.iter().find(|c| c.name.eq(name));
+    match find(SAMPLES).map(|channel| &channel.sample_data) {
+        Some(FlatSamples::U32(counts)) => film.counts.clone_from(counts),
+        Some(_) => return Err(format!("channel `{SAMPLES}` is not of whole numbers")),
+        None => film.counts.fill(film.ranges.iter().map(|range| range.count()).sum()),
+    }
+    for (c, (colour, residual)) in COLOURS.iter().zip(RESIDUALS).enumerate() {
+        let Some(FlatSamples::F32(mean)) = find(colour).map(|channel| &channel.sample_data) else {
+            return Err(format!("channel `{colour}` of 32-bit floats is missing"));
+        };
+        for (i, mean) in mean.iter().enumerate() {
+            film.sums[i][c] = f64::from(*mean);
+        }
+        if let Some(FlatSamples::F32(rest)) = find(residual).map(|channel| &channel.sample_data) {
+            for (i, rest) in rest.iter().enumerate() {
+                film.sums[i][c] += f64::from(*rest);
+            }
+        }
+    }
+    for (sum, count) in film.sums.iter_mut().zip(&film.counts) {
+        *sum = sum.map(|mean| mean * f64::from(*count));
+    }
+    Ok(film)
+}
+
+fn parse_bad(text: &str) -> Option<BadSample> {
+    let mut numbers = text.split(',').map(|part| part.parse().ok());
+    let mut next = || numbers.next().flatten();
+    Some(BadSample { x: next()?, y: next()?, sample: next()? })
+}
+
+/// Attributes by name.
+struct Fields<'a> {
+    layer: &'a LayerAttributes,
+}
+
+impl Fields<'_> {
+    fn get(&self, name: &str) -> Result<&AttributeValue, String> {
+        let name = Text::from(name);
+        self.layer.other.get(&name).ok_or_else(|| format!("attribute `{name}` is missing"))
+    }
+
+    fn text(&self, name: &str) -> Result<String, String> {
+        match self.get(name)? {
+            AttributeValue::Text(text) => Ok(text.to_string()),
+            _ => Err(format!("attribute `{name}` is not a text")),
+        }
+    }
+
+    fn number<T: std::str::FromStr>(&self, name: &str) -> Result<T, String> {
+        self.text(name)?.parse().map_err(|_| format!("attribute `{name}` is not a number"))
+    }
+
+    fn float(&self, name: &str) -> Result<f64, String> {
+        match self.get(name)? {
+            AttributeValue::F64(x) => Ok(*x),
+            AttributeValue::F32(x) => Ok(f64::from(*x)),
+            _ => Err(format!("attribute `{name}` is not a number")),
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! Parts of one picture → the picture: sums added in `f64`, ranges joined.
+
+use super::{Meta, Picture, ranges_text};
+use crate::region::insert_range;
+use thiserror::Error;
+
+/// Why two files are not parts of one picture.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum MergeError {
+    /// Nothing to merge.
+    #[error("no pictures to merge")]
+    Nothing,
+    /// The pictures differ in something that parts of one picture share.
+    #[error(
+        "part {part}: {what} is {found}, but part 1 has {expected}; only parts of one picture can be merged"
+    )]
+    Differs {
+        /// Number of the part, from 1.
+        part: usize,
+        /// What differs.
+        what: &'static str,
+        /// Its value in this part.
+        found: String,
+        /// Its value in the first part.
+        expected: String,
+    },
+    /// The same samples twice.
+    #[error("part {part}: samples {found} overlap {expected} of the parts before it")]
+    Overlap {
+        /// Number of the part, from 1.
+        part: usize,
+        /// Ranges of this part.
+        found: String,
+        /// Ranges of all parts before it.
+        expected: String,
+    },
+    /// A part whose pixels have different numbers of samples.
+    #[error(
+        "part {part}: its pixels have between {least} and {most} samples; a part must be evenly sampled"
+    )]
+    Uneven {
+        /// Number of the part, from 1.
+        part: usize,
+        /// Fewest samples.
+        least: u32,
+        /// Most samples.
+        most: u32,
+    },
+}
+
+/// Adds the parts. They must be of the same pack, size, crop and seed, with disjoint sample ranges,
+/// each evenly sampled. The sum is taken by ascending first sample, so the order of the arguments
+/// does not matter.
+pub fn merge(mut parts: Vec<Picture>) -> Result<Picture, MergeError> {
+    check(&parts)?;
+    parts.sort_by_key(|part| part.film.ranges.first().map(|range| range.start));
+    let mut parts = parts.into_iter();
+    let mut whole = parts.next().ok_or(MergeError::Nothing)?;
+    for part in parts {
+        for (sum, more) in whole.film.sums.iter_mut().zip(&part.film.sums) {
+            for (sum, more) in sum.iter_mut().zip(more) {
+                *sum += more;
+            }
+        }
+        for (count, more) in whole.film.counts.iter_mut().zip(&part.film.counts) {
+            *count += more;
+        }
+        for range in part.film.ranges {
+            insert_range(&mut whole.film.ranges, range);
+        }
+        whole.film.counters.add(&part.film.counters);
+        add_meta(&mut whole.meta, &part.meta);
+    }
+    Ok(whole)
+}
+
+fn add_meta(whole: &mut Meta, part: &Meta) {
+    if !whole.device.split(" + ").any(|device| device == part.device) {
+        whole.device = format!("{} + {}", whole.device, part.device);
+    }
+    whole.seconds += part.seconds;
+    whole.complete &= part.complete;
+}
+
+fn check(parts: &[Picture]) -> Result<(), MergeError> {
+    let first = parts.first().ok_or(MergeError::Nothing)?;
+    let mut ranges = Vec::new();
+    for (part, picture) in (1..).zip(parts) {
+        for ((what, expected), (_, found)) in identity(first).into_iter().zip(identity(picture)) {
+            if found != expected {
+                return Err(MergeError::Differs { part, what, found, expected });
+            }
+        }
+        let (least, most) = picture.film.samples();
+        if least != most || most == 0 {
+            return Err(MergeError::Uneven { part, least, most });
+        }
+        let before = ranges.clone();
+        if !picture.film.ranges.iter().all(|range| insert_range(&mut ranges, *range)) {
+            let found = ranges_text(&picture.film.ranges);
+            return Err(MergeError::Overlap { part, found, expected: ranges_text(&before) });
+        }
+    }
+    Ok(())
+}
+
+/// What parts of one picture share.
+fn identity(picture: &Picture) -> [(&'static str, String); 6] {
+    let [w, h] = picture.film.image_size;
+    [
+        ("render_id", picture.meta.render_id.clone()),
+        ("size", format!("{w}x{h}")),
+        ("crop", picture.film.region.to_string()),
+        ("seed", picture.meta.seed.to_string()),
+        ("estimator", picture.meta.estimator.to_string()),
+        ("precision", picture.meta.precision.clone()),
+    ]
+}

@@ -1,0 +1,174 @@
+//! Checked pack → what the kernel binds: the heap, the big sections, the numbers of a dispatch.
+//!
+//! Both backends read the same bytes from here. It does not render.
+
+use crate::job::Job;
+use crate::schedule::WorkItem;
+use glam::UVec4;
+use pack::abi::{Camera, Frame, RenderSettings};
+use pack::{Checked, Kind, Pack};
+
+/// Sections that the kernel binds as they are, with their binding numbers.
+const BOUND: [(u32, Kind); 5] = [
+    (3, Kind::NODE),
+    (4, Kind::TRIANGLE),
+    (5, Kind::TRISHADE),
+    (6, Kind::SPHERE),
+    (7, Kind::TEXEL),
+];
+
+/// Small tables that share one buffer, in this order.
+const HEAP: [Kind; 6] =
+    [Kind::CAMERA, Kind::SKY, Kind::MATERIAL, Kind::LIGHT, Kind::TEXTURE, Kind::SRGBLUT];
+
+/// Bytes of one window of a section: the largest binding that every device has. Window `w` of binding
+/// `b` is binding `b + 8 w`.
+#[cfg(feature = "gpu")]
+pub(crate) const WINDOW_BYTES: u64 = 128 << 20;
+
+/// A scene that can be rendered.
+pub struct Scene {
+    pack: Pack<Checked>,
+}
+
+/// A scene and a job, ready for any backend.
+pub(crate) struct Setup<'a> {
+    scene: &'a Scene,
+    heap: Vec<UVec4>,
+    /// Everything of `Frame` that is the same for all tiles.
+    frame: Frame,
+}
+
+impl Scene {
+    /// The scene in a checked pack.
+    #[must_use]
+    pub fn new(pack: Pack<Checked>) -> Self {
+        Self { pack }
+    }
+
+    /// The pack.
+    #[must_use]
+    pub fn pack(&self) -> &Pack<Checked> {
+        &self.pack
+    }
+
+    /// Settings of the scene.
+    #[must_use]
+    pub fn settings(&self) -> &RenderSettings {
+        self.pack.render()
+    }
+
+    /// The name of what is rendered, in hexadecimal.
+    #[must_use]
+    pub fn render_id(&self) -> String {
+        self.pack.render_id().iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+
+    /// The camera for an image of `size`: another aspect keeps the horizontal field of view.
+    fn camera(&self, size: [u32; 2]) -> Camera {
+        let camera = *self.pack.camera();
+        let [w, h] = size.map(u64::from);
+        let [scene_w, scene_h] = self.settings().image_size.map(u64::from);
+        if w * scene_h == h * scene_w {
+            return camera;
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "rounded once, as the compiler does")]
+        let tan_half_height =
+            (f64::from(camera.tan_half_width) * f64::from(size[1]) / f64::from(size[0])) as f32;
+        Camera { tan_half_height, ..camera }
+    }
+
+    pub(crate) fn setup(&self, job: &Job) -> Setup<'_> {
+        let settings = self.settings();
+        let camera = self.camera(job.image_size);
+        let mut heap: Vec<UVec4> = Vec::new();
+        let at = HEAP.map(|kind| {
+            let at = u32::try_from(heap.len()).expect("the checks bound every table");
+            if kind == Kind::CAMERA {
+                heap.extend_from_slice(words(bytemuck::bytes_of(&camera)));
+            } else if let Some(bytes) = self.pack.section_bytes(kind) {
+                heap.extend_from_slice(words(bytes));
+            }
+            at
+        });
+        let [camera_at, sky_at, material_at, light_at, texture_at, srgb_at] = at;
+        let frame = Frame {
+            image_size: job.image_size,
+            seed: job.seed,
+            max_depth: settings.max_depth,
+            roulette_depth: settings.roulette_depth,
+            n_lights: settings.n_lights,
+            camera_at,
+            sky_at,
+            material_at,
+            light_at,
+            texture_at,
+            srgb_at,
+            root: settings.root,
+            estimator: job.estimator,
+            ..Frame::default()
+        };
+        Setup { scene: self, heap, frame }
+    }
+}
+
+impl Setup<'_> {
+    /// The uniform of one tile.
+    pub(crate) fn frame(&self, item: &WorkItem) -> Frame {
+        Frame {
+            tile_origin: [item.tile.x, item.tile.y],
+            tile_size: [item.tile.w, item.tile.h],
+            sample_first: item.samples.start,
+            sample_count: item.samples.count(),
+            ..self.frame
+        }
+    }
+
+    /// Whole image in pixels.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn image_size(&self) -> [u32; 2] {
+        self.frame.image_size
+    }
+
+    /// Binding 2.
+    pub(crate) fn heap(&self) -> &[UVec4] {
+        &self.heap
+    }
+
+    /// 16-byte words of a section; empty when the scene has none.
+    pub(crate) fn section(&self, kind: Kind) -> &[UVec4] {
+        self.scene.pack.section_bytes(kind).map_or(&[], words)
+    }
+
+    /// Every storage buffer that is only read: binding number and bytes, none empty.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn buffers(&self) -> Vec<(u32, &[u8])> {
+        let heap = (2, bytemuck::cast_slice(&self.heap));
+        let bound =
+            BOUND.map(|(binding, kind)| (binding, bytemuck::cast_slice(self.section(kind))));
+        std::iter::once(heap).chain(bound).filter(|(_, bytes)| !bytes.is_empty()).collect()
+    }
+
+    /// Bits of `pack::features`.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn features(&self) -> u32 {
+        self.scene.pack.features()
+    }
+
+    /// Entries that the traversal stack needs, as the checks of the pack computed them.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn stack_need(&self) -> u32 {
+        self.scene.settings().stack_need
+    }
+
+    /// The WGSL text of the pack.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn kernel(&self) -> &str {
+        self.scene.pack.kernel()
+    }
+}
+
+/// Bytes of whole records as words.
+fn words(bytes: &[u8]) -> &[UVec4] {
+    bytemuck::try_cast_slice(bytes).expect("sections are whole 16-byte words at page boundaries")
+}

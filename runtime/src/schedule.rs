@@ -1,0 +1,350 @@
+//! What to render next: passes over the image, one canonical batch each, handed out tile by tile.
+//!
+//! With a time limit it measures a few probe tiles first and then starts only passes that are
+//! expected to end in time; the last one may hold fewer samples than a batch, so the result is
+//! always the picture of a sample range `a..b` and can be repeated exactly. It does not render and
+//! reads no clock: the caller says what time it is.
+
+use crate::region::{Rect, SampleRange, Tiler};
+use std::time::Duration;
+
+/// Probe tiles before a run with a time limit.
+const PROBES: u32 = 16;
+/// Side of a probe tile in pixels.
+const PROBE_SIDE: u32 = 16;
+
+/// A tile of a pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct WorkItem {
+    /// Pixels, in image coordinates.
+    pub(crate) tile: Rect,
+    /// Samples of every pixel; inside one canonical batch.
+    pub(crate) samples: SampleRange,
+    /// Rendered for its duration only; the result is thrown away.
+    pub(crate) probe: bool,
+}
+
+impl WorkItem {
+    /// Pixels times samples.
+    pub(crate) fn cost(&self) -> u64 {
+        self.tile.pixels() * u64::from(self.samples.count())
+    }
+}
+
+/// Answer to "what next?".
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Claim {
+    /// Render this.
+    Work(WorkItem),
+    /// The same, and it is the first tile of a new batch.
+    FirstOf(WorkItem),
+    /// Ask again when something that is under way has ended.
+    Wait,
+    /// Nothing is left.
+    Done,
+}
+
+/// Why no further pass was started.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// Every sample was rendered.
+    Complete,
+    /// The time limit.
+    TimeLimit,
+    /// The user interrupted.
+    Cancelled,
+    /// Something failed; the picture holds what was complete.
+    Failed,
+}
+
+/// The state of a run.
+pub(crate) struct Scheduler {
+    region: Rect,
+    /// Samples that no pass has covered yet.
+    rest: Option<SampleRange>,
+    pass: Option<(SampleRange, Tiler)>,
+    /// Items that came back from a lost device.
+    returned: Vec<WorkItem>,
+    limit: Option<Duration>,
+    probes: Vec<WorkItem>,
+    started: Option<Duration>,
+    /// Cost claimed and neither finished nor returned.
+    under_way: u64,
+    /// Cost finished since `started`.
+    finished: u64,
+    probe_rate: f64,
+    stop: Option<Stop>,
+}
+
+impl Scheduler {
+    pub(crate) fn new(region: Rect, samples: SampleRange, limit: Option<Duration>) -> Self {
+        let probes = if limit.is_some() { probes(region, samples) } else { Vec::new() };
+        Self {
+            region,
+            rest: Some(samples),
+            pass: None,
+            returned: Vec::new(),
+            limit,
+            probes,
+            started: None,
+            under_way: 0,
+            finished: 0,
+            probe_rate: 0.0,
+            stop: None,
+        }
+    }
+
+    /// The next tile, of about `pixels` pixels. `now` is the time since the run began.
+    pub(crate) fn claim(&mut self, now: Duration, pixels: u64) -> Claim {
+        if matches!(self.stop, Some(Stop::Cancelled)) {
+            return Claim::Done;
+        }
+        let claim = self.next(now, pixels);
+        if let Claim::Work(item) | Claim::FirstOf(item) = &claim {
+            self.under_way += item.cost();
+        }
+        claim
+    }
+
+    fn next(&mut self, now: Duration, pixels: u64) -> Claim {
+        if let Some(item) = self.probes.pop() {
+            self.started.get_or_insert(now);
+            return Claim::Work(item);
+        }
+        if let Some(item) = self.returned.pop() {
+            return Claim::Work(self.shrunk(item, pixels));
+        }
+        if self.pass.is_none() {
+            if self.probe_rate == 0.0 && self.limit.is_some() {
+                if self.under_way > 0 {
+                    return Claim::Wait;
+                }
+                self.end_probes(now);
+            }
+            return self.start_pass(now, pixels);
+        }
+        if let Some((samples, tiler)) = &mut self.pass
+            && let Some(tile) = tiler.next(pixels)
+        {
+            return Claim::Work(WorkItem { tile, samples: *samples, probe: false });
+        }
+        self.start_pass(now, pixels)
+    }
+
+    /// An item that came back may be larger than tiles are by now: its other half waits.
+    fn shrunk(&mut self, mut item: WorkItem, pixels: u64) -> WorkItem {
+        while item.tile.pixels() > pixels
+            && let Some((tile, rest)) = item.tile.halves()
+        {
+            self.returned.push(WorkItem { tile: rest, ..item });
+            item.tile = tile;
+        }
+        item
+    }
+
+    fn end_probes(&mut self, now: Duration) {
+        let seconds = now.saturating_sub(self.started.unwrap_or(now)).as_secs_f64();
+        self.probe_rate = (self.finished as f64 / seconds.max(1e-6)).max(1.0);
+        self.finished = 0;
+        self.started = None;
+    }
+
+    fn start_pass(&mut self, now: Duration, pixels: u64) -> Claim {
+        let Some(rest) = self.rest.filter(|_| self.stop.is_none()) else {
+            return self.ended();
+        };
+        let mut pass = rest.first_batch();
+        if let Some(limit) = self.limit {
+            let fits = self.samples_in(limit.saturating_sub(now), now);
+            if fits < u64::from(pass.count()) {
+                self.stop = Some(Stop::TimeLimit);
+                // The very first pass always has at least one sample.
+                let count = u32::try_from(fits).unwrap_or(0).max(u32::from(self.pass.is_none()));
+                match SampleRange::new(pass.start, pass.start + count) {
+                    Some(part) => pass = part,
+                    None => return self.ended(),
+                }
+            }
+        }
+        self.rest = rest.after(pass);
+        self.started.get_or_insert(now);
+        let mut tiler = Tiler::new(self.region);
+        let tile = tiler.next(pixels).expect("a region has pixels");
+        self.pass = Some((pass, tiler));
+        Claim::FirstOf(WorkItem { tile, samples: pass, probe: false })
+    }
+
+    /// While something is under way it may still come back.
+    fn ended(&self) -> Claim {
+        if self.under_way > 0 { Claim::Wait } else { Claim::Done }
+    }
+
+    /// Samples of every pixel that fit into `time`, after what is under way.
+    fn samples_in(&self, time: Duration, now: Duration) -> u64 {
+        let seconds = self.started.map_or(0.0, |from| now.saturating_sub(from).as_secs_f64());
+        let measured = self.finished as f64 / seconds.max(1e-9);
+        let enough = self.finished >= self.region.pixels();
+        let rate = if enough { measured } else { self.probe_rate };
+        let cost = time.as_secs_f64() * rate - self.under_way as f64;
+        // Saturates; negative is 0.
+        #[expect(clippy::cast_possible_truncation, reason = "saturates on purpose")]
+        let samples = (cost / self.region.pixels() as f64) as u64;
+        samples
+    }
+
+    /// A claimed item has ended, well or not.
+    pub(crate) fn finished(&mut self, item: &WorkItem) {
+        self.under_way -= item.cost();
+        self.finished += item.cost();
+    }
+
+    /// A claimed item was not rendered and waits for another try.
+    pub(crate) fn give_back(&mut self, item: WorkItem) {
+        self.under_way -= item.cost();
+        if item.probe {
+            self.probes.push(item);
+        } else {
+            self.returned.push(item);
+        }
+    }
+
+    /// Starts no further pass; the current one goes on to its end. `Cancelled` ends it at once.
+    pub(crate) fn stop(&mut self, why: Stop) {
+        if self.stop.is_none() || why == Stop::Cancelled {
+            self.stop = Some(why);
+        }
+    }
+
+    /// Why the run ended, once `claim` has said `Done`.
+    pub(crate) fn why(&self) -> Stop {
+        self.stop.unwrap_or(Stop::Complete)
+    }
+}
+
+/// Tiles spread over the region, one sample each.
+fn probes(region: Rect, samples: SampleRange) -> Vec<WorkItem> {
+    let samples = SampleRange { start: samples.start, end: samples.start + 1 };
+    let side = |len: u32| PROBE_SIDE.min(len);
+    let at = |len: u32, share: u32, of: u32| {
+        u32::try_from(u64::from(len - side(len)) * u64::from(share) / u64::from(of)).unwrap_or(0)
+    };
+    (0..PROBES)
+        .map(|i| {
+            let tile = Rect {
+                // 7 and 16 have no common factor: every row share meets its own column share.
+                x: region.x + at(region.w, i * 7 % PROBES, PROBES - 1),
+                y: region.y + at(region.h, i, PROBES - 1),
+                w: side(region.w),
+                h: side(region.h),
+            };
+            WorkItem { tile, samples, probe: true }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const REGION: Rect = Rect { x: 0, y: 0, w: 64, h: 32 };
+    const ZERO: Duration = Duration::ZERO;
+
+    fn range(start: u32, end: u32) -> SampleRange {
+        SampleRange::new(start, end).unwrap()
+    }
+
+    /// Runs to the end at `seconds` per pixel sample, one item at a time; returns what was claimed.
+    fn run(scheduler: &mut Scheduler, seconds: f64) -> (Vec<WorkItem>, Duration) {
+        let (mut items, mut now) = (Vec::new(), ZERO);
+        loop {
+            match scheduler.claim(now, 1024) {
+                Claim::Work(item) | Claim::FirstOf(item) => {
+                    now += Duration::from_secs_f64(item.cost() as f64 * seconds);
+                    scheduler.finished(&item);
+                    items.push(item);
+                }
+                Claim::Wait => panic!("nothing is under way"),
+                Claim::Done => return (items, now),
+            }
+        }
+    }
+
+    #[test]
+    fn without_a_limit_every_sample_is_handed_out_in_order() {
+        let mut scheduler = Scheduler::new(REGION, range(5, 40), None);
+        let (items, _) = run(&mut scheduler, 1.0);
+        let passes: Vec<_> = items.iter().map(|item| item.samples).collect();
+        assert!(passes.is_sorted() && items.iter().all(|item| !item.probe));
+        assert_eq!(items.iter().map(WorkItem::cost).sum::<u64>(), 2048 * 35);
+        assert_eq!(scheduler.why(), Stop::Complete);
+    }
+
+    #[test]
+    fn a_time_limit_ends_with_a_part_of_a_batch_in_time() {
+        let mut scheduler = Scheduler::new(REGION, range(0, 1000), Some(Duration::from_secs(1)));
+        // 2048 pixels at 10 us: a sample of all takes 20.48 ms, the probes 41 ms.
+        let (items, end) = run(&mut scheduler, 1e-5);
+        assert!((0.9..=1.0).contains(&end.as_secs_f64()), "{end:?}");
+        let last = items.last().unwrap().samples;
+        assert_eq!((last.start, scheduler.why()), (32, Stop::TimeLimit));
+        assert_eq!(last.count(), 14);
+    }
+
+    #[test]
+    fn the_shortest_limit_still_gives_one_sample() {
+        let mut scheduler = Scheduler::new(REGION, range(16, 64), Some(Duration::from_nanos(1)));
+        let (items, _) = run(&mut scheduler, 1e-5);
+        let real: Vec<_> = items.iter().filter(|item| !item.probe).collect();
+        assert!(real.iter().all(|item| item.samples == range(16, 17)));
+        assert_eq!(real.iter().map(|item| item.tile.pixels()).sum::<u64>(), 2048);
+    }
+
+    #[test]
+    fn a_limit_that_is_not_reached_changes_nothing() {
+        let mut scheduler = Scheduler::new(REGION, range(0, 32), Some(Duration::from_secs(900)));
+        let (items, _) = run(&mut scheduler, 1e-5);
+        let cost: u64 = items.iter().filter(|item| !item.probe).map(WorkItem::cost).sum();
+        assert_eq!((cost, scheduler.why()), (2048 * 32, Stop::Complete));
+    }
+
+    #[test]
+    fn what_comes_back_is_handed_out_again_in_smaller_tiles() {
+        let mut scheduler = Scheduler::new(REGION, range(0, 16), None);
+        let Claim::FirstOf(item) = scheduler.claim(ZERO, 1 << 20) else { panic!("no work") };
+        assert_eq!(item.tile, REGION);
+        assert_eq!(scheduler.claim(ZERO, 1 << 20), Claim::Wait);
+        scheduler.give_back(item);
+        let mut pixels = 0;
+        while let Claim::Work(item) = scheduler.claim(ZERO, 300) {
+            assert!(item.tile.pixels() <= 300);
+            pixels += item.tile.pixels();
+            scheduler.finished(&item);
+        }
+        assert_eq!(pixels, REGION.pixels());
+        assert_eq!(scheduler.claim(ZERO, 300), Claim::Done);
+    }
+
+    #[test]
+    fn a_failure_finishes_the_pass_and_a_cancel_ends_at_once() {
+        let mut scheduler = Scheduler::new(REGION, range(0, 64), None);
+        let Claim::FirstOf(item) = scheduler.claim(ZERO, 1024) else { panic!("no work") };
+        scheduler.stop(Stop::Failed);
+        scheduler.finished(&item);
+        let Claim::Work(item) = scheduler.claim(ZERO, 1024) else { panic!("the pass goes on") };
+        assert_eq!(item.samples, range(0, 16));
+        scheduler.stop(Stop::Cancelled);
+        assert_eq!(scheduler.claim(ZERO, 1024), Claim::Done);
+        assert_eq!(scheduler.why(), Stop::Cancelled);
+    }
+
+    #[test]
+    fn probes_lie_inside_any_region() {
+        for (w, h) in [(1, 1), (16, 16), (17, 3), (3840, 2160)] {
+            let region = Rect { x: 5, y: 7, w, h };
+            for probe in probes(region, range(9, 10)) {
+                let t = probe.tile;
+                assert!(t.x >= 5 && t.y >= 7 && t.x + t.w <= 5 + w && t.y + t.h <= 7 + h);
+            }
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! Is the kernel in a pack our own? Then it may run without the checks that cost so much.
+//!
+//! A kernel is *known* when
+//! - every declaration in it is, byte for byte, one that the linker of this build emits, and that it
+//!   emits for scenes with the features of this pack: a function that switches over the kinds of
+//!   lights is accepted only in the form that handles exactly the kinds this pack has;
+//! - every reader of a section expects as many windows as the section has;
+//! - `STACK_SIZE` is at least what the checks of the pack computed for its tree.
+//!
+//! Then the text is a selection of our declarations; if one that is used were missing, or were there
+//! twice, it would not compile. So the code that runs is the code that was reviewed and tested here,
+//! and the rules of a checked pack are the ones it relies on. Anything else is *unknown*, which is
+//! no error: it runs with checks.
+
+mod pieces;
+
+use crate::scene::{Setup, WINDOW_BYTES};
+use pieces::pieces;
+
+/// When the linker emits a declaration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Condition {
+    /// Whatever the scene.
+    Any,
+    /// For scenes whose feature bits under `mask` are `bits`.
+    Features {
+        /// The bits that matter.
+        mask: u32,
+        /// Their values.
+        bits: u32,
+    },
+    /// For scenes where the section of this binding has `n` windows.
+    Windows {
+        /// Binding number of the first window.
+        binding: u32,
+        /// How many.
+        n: u64,
+    },
+}
+
+/// A declaration of the linker. The table is sorted by text; a text may occur several times.
+struct Known {
+    text: &'static str,
+    condition: Condition,
+}
+
+include!(concat!(env!("OUT_DIR"), "/known.rs"));
+
+/// The verdict about a kernel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Trust {
+    /// Every line is ours, and made for such a pack.
+    Known,
+    /// The declaration at this line is not.
+    Unknown {
+        /// Line in the kernel, from 1.
+        line: usize,
+    },
+}
+
+/// Looks at every declaration of the kernel of `setup`.
+pub(crate) fn judge(setup: &Setup<'_>) -> Trust {
+    let pieces = match pieces(setup.kernel()) {
+        Ok(pieces) => pieces,
+        Err(line) => return Trust::Unknown { line },
+    };
+    let sections: Vec<(u32, u64)> = setup
+        .buffers()
+        .iter()
+        .map(|(binding, bytes)| (*binding, (bytes.len() as u64).div_ceil(WINDOW_BYTES)))
+        .collect();
+    let stack_need = setup.stack_need();
+    for (line, text) in pieces {
+        let fits = stack_size(text).is_some_and(|size| size >= stack_need.max(1));
+        if !fits && !is_known(text, setup.features(), &sections) {
+            return Trust::Unknown { line };
+        }
+    }
+    Trust::Known
+}
+
+fn is_known(text: &str, features: u32, sections: &[(u32, u64)]) -> bool {
+    // Its size was looked at before.
+    if stack_size(text).is_some() {
+        return false;
+    }
+    let first = KNOWN.partition_point(|known| known.text < text);
+    KNOWN[first..].iter().take_while(|known| known.text == text).any(|known| {
+        match known.condition {
+            Condition::Any => true,
+            Condition::Features { mask, bits } => features & mask == bits,
+            Condition::Windows { binding, n } => sections.contains(&(binding, n)),
+        }
+    })
+}
+
+/// The number in `const STACK_SIZE: u32 = 0x12u;`, if that is the whole text.
+fn stack_size(text: &str) -> Option<u32> {
+    let digits = text.strip_prefix("const STACK_SIZE: u32 = 0x")?.strip_suffix("u;")?;
+    // `from_str_radix` would also take a sign.
+    let plain = digits.bytes().all(|byte| byte.is_ascii_hexdigit());
+    if plain { u32::from_str_radix(digits, 16).ok() } else { None }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_declaration_is_whole_and_the_table_is_sorted() {
+        assert!(KNOWN.is_sorted_by_key(|known| known.text));
+        assert!(KNOWN.iter().all(|known| known.text.ends_with([';', '}'])));
+        assert!(KNOWN.iter().any(|known| known.text.contains("fn render(")));
+    }
+
+    #[test]
+    fn variants_are_known_for_their_scenes_only() {
+        let spheres = KNOWN.iter().find(|known| {
+            known.text.contains("fn dispatch_light_sample") && !known.text.contains("switch")
+        });
+        let Some(Known { text, condition: Condition::Features { mask, bits } }) = spheres else {
+            panic!("the light dispatch depends on features")
+        };
+        assert!(is_known(text, *bits, &[]));
+        assert!(!is_known(text, bits ^ (mask & pack::features::LIGHT_SPHERE), &[]));
+        let reader =
+            KNOWN.iter().find(|known| matches!(known.condition, Condition::Windows { n: 2, .. }));
+        let Some(Known { text, condition: Condition::Windows { binding, .. } }) = reader else {
+            panic!("sections may have two windows")
+        };
+        assert!(is_known(text, 0, &[(*binding, 2)]));
+        assert!(!is_known(text, 0, &[(*binding, 3)]));
+    }
+
+    #[test]
+    fn a_changed_byte_is_noticed() {
+        let text = KNOWN.iter().find(|known| known.text.contains("loop")).unwrap().text;
+        let features = (0..1_u32 << 17).find(|features| is_known(text, *features, &[]));
+        let features = features.expect("some scene has it");
+        assert!(!is_known(&text.replacen("break", "continue", 1), features, &[]));
+        assert!(!is_known(&text.replacen(' ', "  ", 1), features, &[]));
+    }
+
+    #[test]
+    fn stack_sizes_are_plain_hexadecimal() {
+        assert_eq!(stack_size("const STACK_SIZE: u32 = 0x60u;"), Some(96));
+        assert_eq!(stack_size("const STACK_SIZE: u32 = 0x+6u;"), None);
+        assert_eq!(stack_size("const STACK_SIZE: u32 = 0x6u; fn f() {}"), None);
+        assert_eq!(stack_size("const STACK_SIZE: u32 = 0xfffffffffu;"), None);
+    }
+
+    #[test]
+    fn odd_characters_end_the_search() {
+        assert_eq!(pieces("// a\u{2028}fn f() {}\n"), Err(1));
+        assert_eq!(pieces("const A: u32 = 1u;\n// b\rfn f() {}\n"), Err(2));
+        let text = "// ---- a.wgsl\n// About f.\nfn f() {\n\n    g();\n}\n\nconst A: u32 = 1u;\n\n";
+        let found = pieces(text).unwrap();
+        assert_eq!(found, [(2, "// About f.\nfn f() {\n\n    g();\n}"), (8, "const A: u32 = 1u;")]);
+    }
+}

@@ -1,0 +1,165 @@
+//! Small packs made by hand: a glass, a metal and a diffuse sphere over a floor, lit by a sphere and
+//! by the sky.
+
+#![allow(dead_code, reason = "each test file uses its own part")]
+
+use pack::abi::{
+    Camera, ChildRef, Light, LightKind, Material, MaterialKind, NONE, Node, RenderSettings, Sky,
+    SkyKind, Sphere, TriShade, Triangle,
+};
+use pack::{Manifest, Pack, PackWriter};
+use runtime::Scene;
+use shaders::FeatureSet;
+
+/// Size of the scene's image.
+pub(crate) const SIZE: [u32; 2] = [72, 40];
+/// Samples that the scene asks for.
+pub(crate) const SPP: u32 = 32;
+
+fn material(kind: MaterialKind, color: [f32; 3]) -> Material {
+    Material {
+        color,
+        kind: kind as u32,
+        ior: 1.5,
+        ior_minus_1: 0.5,
+        alpha: 1.0,
+        color_texture: NONE,
+        emission_texture: NONE,
+        metallic_roughness_texture: NONE,
+        alpha_texture: NONE,
+        ..Material::default()
+    }
+}
+
+fn sphere(center: [f32; 3], radius: f32, material: u32) -> Sphere {
+    Sphere { center, radius, material, light: NONE, ..Sphere::default() }
+}
+
+/// The kernel that the compiler would link for this scene.
+pub(crate) fn features() -> FeatureSet {
+    use pack::abi::MaterialKind::{Dielectric, Diffuse, Emissive, Metal};
+    FeatureSet {
+        triangles: true,
+        spheres: true,
+        materials: [Diffuse, Metal, Dielectric, Emissive].into(),
+        lights: [LightKind::Sphere].into(),
+        skies: [SkyKind::Gradient].into(),
+        ..FeatureSet::empty()
+    }
+}
+
+/// The bytes of the pack, with the kernel for `features`.
+pub(crate) fn pack_bytes(features: &FeatureSet) -> Vec<u8> {
+    let kernel = shaders::link(features).expect("the modules link").text;
+    pack_with_kernel(&kernel)
+}
+
+/// The bytes of the pack with any kernel.
+pub(crate) fn pack_with_kernel(kernel: &str) -> Vec<u8> {
+    let materials = [
+        material(MaterialKind::Diffuse, [0.7, 0.3, 0.2]),
+        Material { fuzz: 0.1, ..material(MaterialKind::Metal, [0.8, 0.8, 0.9]) },
+        material(MaterialKind::Dielectric, [1.0; 3]),
+        Material { emission: [20.0; 3], ..material(MaterialKind::Emissive, [0.0; 3]) },
+        material(MaterialKind::Diffuse, [0.5; 3]),
+    ];
+    let spheres = [
+        sphere([-0.3, -0.15, 0.0], 0.12, 0),
+        sphere([0.0, -0.15, 0.0], 0.12, 1),
+        sphere([0.3, -0.15, 0.0], 0.12, 2),
+        Sphere { light: 0, ..sphere([0.1, 0.5, 0.3], 0.06, 3) },
+    ];
+    let floor = [[-0.6, -0.27, -0.6], [0.6, -0.27, -0.6], [0.6, -0.27, 0.6], [-0.6, -0.27, 0.6]];
+    let triangle = |a: usize, b: usize, c: usize| Triangle {
+        v0: floor[a],
+        id0: a as u32,
+        v1: floor[b],
+        id1: b as u32,
+        v2: floor[c],
+        id2: c as u32,
+    };
+    let triangles = [triangle(0, 2, 1), triangle(0, 3, 2)];
+    let shades = [TriShade { material: 4, light: NONE, ..TriShade::default() }; 2];
+    let word = |child: ChildRef| child.encode().expect("small references have a word");
+    let nodes = [Node {
+        left_lo: [-0.43, -0.28, -0.13],
+        left: word(ChildRef::Spheres { first: 0, count: 4 }),
+        left_hi: [0.43, 0.57, 0.37],
+        right: word(ChildRef::Triangles { first: 0, count: 2 }),
+        right_lo: [-0.6, -0.27, -0.6],
+        right_hi: [0.6, -0.27, 0.6],
+        ..Node::default()
+    }];
+    let lights = [Light {
+        origin: [0.1, 0.5, 0.3],
+        kind: LightKind::Sphere as u32,
+        edge1: [0.06, 0.0, 0.0],
+        primitive: 3,
+        pmf: 1.0,
+        cdf: 1.0,
+        material: 3,
+        ..Light::default()
+    }];
+    let sky = Sky {
+        zenith: [0.3, 0.5, 0.9],
+        kind: SkyKind::Gradient as u32,
+        middle: [0.6, 0.7, 0.9],
+        blend_high: 0.4,
+        horizon: [0.8, 0.8, 0.8],
+        blend_low: -0.1,
+        ground: [0.2; 3],
+        glow_power: 8.0,
+        sun_direction: [0.0, 1.0, 0.0],
+        disc_power: 256.0,
+        ..Sky::default()
+    };
+    let (settings, camera) = view();
+    let manifest = Manifest { scene: "marbles".to_owned(), ..Manifest::default() };
+    let mut writer = PackWriter::new();
+    writer
+        .record(&settings)
+        .record(&camera)
+        .record(&sky)
+        .records(&nodes)
+        .records(&triangles)
+        .records(&shades)
+        .records(&spheres)
+        .records(&materials)
+        .records(&lights)
+        .kernel(kernel)
+        .manifest(&manifest)
+        .expect("a small manifest");
+    writer.to_bytes().expect("the scene keeps the rules")
+}
+
+fn view() -> (RenderSettings, Camera) {
+    let halves = |x: f64| [x.to_bits() as u32, (x.to_bits() >> 32) as u32];
+    let settings = RenderSettings {
+        image_size: SIZE,
+        samples: SPP,
+        max_depth: 12,
+        roulette_depth: 3,
+        seed: 7,
+        root: ChildRef::Inner(0).encode().expect("small references have a word"),
+        stack_need: 1,
+        scale_bits: halves(1.0),
+        n_lights: 1,
+        ..RenderSettings::default()
+    };
+    let camera = Camera {
+        origin: [0.0, 0.1, 0.9],
+        right: [1.0, 0.0, 0.0],
+        tan_half_height: 0.3,
+        up: [0.0, 1.0, 0.0],
+        focus_distance: 1.0,
+        forward: [0.0, 0.0, -1.0],
+        tan_half_width: 0.54,
+        ..Camera::default()
+    };
+    (settings, camera)
+}
+
+/// The scene.
+pub(crate) fn scene() -> Scene {
+    Scene::new(Pack::from_bytes(pack_bytes(&features())).expect("the scene keeps the rules"))
+}
