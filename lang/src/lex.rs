@@ -73,10 +73,16 @@ pub(crate) fn ends_value(token: Token, text: &str) -> bool {
         Kind::Number | Kind::Unit | Kind::Hex | Kind::Text | Kind::OpenText | Kind::Close => true,
         Kind::Word => {
             let word = token.text(text);
-            !RESERVED.contains(&word) || matches!(word, "true" | "false" | "default" | "none")
+            is_callee(token, text) || matches!(word, "true" | "false" | "default" | "none")
         }
         _ => false,
     }
+}
+
+/// Is this a name, which a bracket after it would call or index? (`assert` stands before a value.)
+pub(crate) fn is_callee(token: Token, text: &str) -> bool {
+    let word = token.text(text);
+    token.kind == Kind::Word && !RESERVED.contains(&word) && word != "assert"
 }
 
 /// Splits a text into tokens. A byte order mark at the start is skipped like a blank.
@@ -241,10 +247,7 @@ impl Lexer<'_> {
     }
 
     fn open(&mut self) -> Kind {
-        let called = self
-            .tokens
-            .last()
-            .is_some_and(|&t| t.kind == Kind::Word && !RESERVED.contains(&t.text(self.text)));
+        let called = self.tokens.last().is_some_and(|&t| is_callee(t, self.text));
         let bare = self.peek(0) == Some(b'(') && !called;
         self.open.push(Group { bare, comma: false });
         self.take(1, Kind::Open)

@@ -6,6 +6,8 @@
 //!
 //! The height of an expression is at most [`MAX_HEIGHT`], so it may be walked recursively.
 
+mod places;
+
 use crate::scene::Axis;
 use crate::source::Span;
 

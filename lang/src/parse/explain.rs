@@ -111,18 +111,22 @@ impl Reader<'_> {
         let message = format!("unexpected character {}", self.quoted(token));
         let error = Diagnostic::error(Code("E0101"), message);
         match text {
-            ";" => error
-                .at(span, "fields end with the line, or with `,`")
-                .with_fix(Fix::guess("remove it", span, "")),
+            ";" => error.at(span, "fields end with the line, or with `,`").with_fix(Fix::guess(
+                "remove it",
+                span,
+                "",
+            )),
             "'" | "\u{2018}" | "\u{2019}" | "\u{201c}" | "\u{201d}" => {
                 error.at(span, "strings stand in straight double quotes: \"…\"")
             }
             "\u{2212}" | "\u{2013}" => error
                 .at(span, "this is not the minus sign of the keyboard")
                 .with_fix(Fix::sure("write `-`", span, "-")),
-            "\u{a0}" => error
-                .at(span, "a no-break space")
-                .with_fix(Fix::sure("write a plain space", span, " ")),
+            "\u{a0}" => error.at(span, "a no-break space").with_fix(Fix::sure(
+                "write a plain space",
+                span,
+                " ",
+            )),
             _ if text.is_ascii() => error.at(span, "it has no meaning in a scene"),
             _ => error.at(span, "names use the letters a-z, digits and `_`"),
         }
@@ -146,9 +150,7 @@ impl Reader<'_> {
         // The first word of a line or head is its keyword.
         let values = usize::from(rule != Rule::strict_field);
         match before.filter(|_| !stop.inside_token && stop.n_right > values) {
-            Some(token) if ends_value(token, self.text) => {
-                self.after_value(token, &stop, end)
-            }
+            Some(token) if ends_value(token, self.text) => self.after_value(token, &stop, end),
             _ => self.no_value(&stop),
         }
     }
