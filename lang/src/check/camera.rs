@@ -1,0 +1,182 @@
+//! Camera and film fields become angles, radii and pixels.
+
+use super::fields::Fields;
+use super::light::unit;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::eval::Evaluator;
+use crate::scene::{Camera, Film, Name, ToneMap};
+use crate::schema;
+use crate::units::{self, Dim};
+
+/// Focal length when nothing is said, metres.
+const DEFAULT_LENS: f64 = 0.05;
+
+/// Sine of the smallest angle between view and up, where the image would still be upright.
+const MIN_UP_SINE: f64 = 1e-6;
+
+/// Checks how the fields of a camera go together.
+pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
+    let fov = ["lens", "fov.horizontal", "fov.vertical"];
+    one_of(ev, fields, &fov, "the field of view");
+    one_of(ev, fields, &["f_stop", "aperture"], "the opening of the lens");
+    let (Some(from), Some(to), Some(span)) =
+        (fields.vector::<3>("from"), fields.vector::<3>("to"), fields.span("to"))
+    else {
+        return;
+    };
+    let Some(view) = unit(sub(to, from)) else {
+        let error = Diagnostic::error(Code("E0704"), "the camera looks at the point where it is")
+            .at(span, "the same point");
+        let error = match fields.span("from") {
+            Some(from) => error.because(from, "the camera is here"),
+            None => error,
+        };
+        ev.fault(error);
+        return;
+    };
+    let Some(up) = fields.vector::<3>("up") else { return };
+    let sine = unit(up).map_or(0.0, |up| length(cross(view, up)));
+    if sine < MIN_UP_SINE {
+        let at = fields.span("up").unwrap_or(span);
+        let text = "the camera looks along its own `up`";
+        let error = Diagnostic::error(Code("E0704"), text)
+            .at(at, "which way is up in the image?")
+            .with_help("for a view straight down write `up = (0, 0, -1)`");
+        ev.fault(error);
+    }
+}
+
+/// At most one of these fields may be written.
+fn one_of(ev: &mut Evaluator<'_>, fields: &Fields, names: &[&str], what: &str) {
+    let written: Vec<&str> = names.iter().copied().filter(|name| fields.has(name)).collect();
+    let [first, second, ..] = written.as_slice() else { return };
+    let (Some(a), Some(b)) = (fields.span(first), fields.span(second)) else { return };
+    let (earlier, later) = if a <= b { (first, second) } else { (second, first) };
+    let (a, b) = (a.min(b), a.max(b));
+    let text = format!("`{earlier}` and `{later}` both set {what}");
+    let note = match *earlier {
+        "lens" => lens_note(fields),
+        _ => String::new(),
+    };
+    let error = Diagnostic::error(Code("E0703"), text).at(b, "keep one of them").because(a, note);
+    ev.fault(error);
+}
+
+/// What the lens sees: `50mm on a 36mm sensor: 39.6deg across, 22.9deg up at 16:9`.
+fn lens_note(fields: &Fields) -> String {
+    let (Some(lens), Some(width)) = (fields.number("lens"), fields.number("sensor.width")) else {
+        return String::new();
+    };
+    let millimetres = |metres: f64| format!("{}mm", units::show_number(round(metres * 1e3, 1e3)));
+    let across = 2.0 * libm::atan(0.5 * width / lens);
+    let up = vertical(across, 9.0 / 16.0);
+    format!(
+        "{} on a {} sensor: {} across, {} up at 16:9",
+        millimetres(lens),
+        millimetres(width),
+        degrees(across),
+        degrees(up)
+    )
+}
+
+fn degrees(radians: f64) -> String {
+    format!("{}deg", round(radians.to_degrees(), 10.0))
+}
+
+fn round(value: f64, steps: f64) -> f64 {
+    (value * steps).round() / steps
+}
+
+/// The angle across the other side of an image whose height over width is `aspect`.
+fn vertical(horizontal: f64, aspect: f64) -> f64 {
+    2.0 * libm::atan(libm::tan(0.5 * horizontal) * aspect)
+}
+
+/// Builds the film. `None` only for fields with faults.
+pub(super) fn film(name: Name, fields: &Fields) -> Option<Film> {
+    let size = fields.vector::<2>("size")?;
+    #[expect(clippy::cast_possible_truncation, reason = "whole and at most MAX_FILM_SIDE")]
+    let size = size.map(|pixels| pixels as u32);
+    let tone_map = match fields.word("tone_map")? {
+        "reinhard" => ToneMap::Reinhard,
+        "aces" => ToneMap::Aces,
+        _ => ToneMap::None,
+    };
+    Some(Film { name, size, exposure: fields.number("exposure")?, tone_map })
+}
+
+/// The film that is used when none is declared: every default of the schema.
+pub(super) fn default_film(span: crate::source::Span) -> Film {
+    let schema = schema::find_type(schema::Kind::Film, "").expect("film has one schema");
+    let fields = Fields::defaults(schema);
+    let name = Name { text: "default".to_owned(), span };
+    film(name, &fields).expect("every field of a film has a default")
+}
+
+/// Builds the camera. `None` only for fields with faults.
+pub(super) fn camera(name: Name, fields: &Fields, film: &Film) -> Option<Camera> {
+    let (from, to) = (fields.vector::<3>("from")?, fields.vector::<3>("to")?);
+    let aspect = f64::from(film.size[1]) / f64::from(film.size[0]);
+    let sensor = fields.number("sensor.width")?;
+    let (across, up) = match (fields.number("fov.horizontal"), fields.number("fov.vertical")) {
+        (Some(across), _) => (across, vertical(across, aspect)),
+        (None, Some(up)) => (vertical(up, 1.0 / aspect), up),
+        (None, None) => {
+            let lens = fields.number("lens").unwrap_or(DEFAULT_LENS);
+            let across = 2.0 * libm::atan(0.5 * sensor / lens);
+            (across, vertical(across, aspect))
+        }
+    };
+    let focal_length = 0.5 * sensor / libm::tan(0.5 * across);
+    let opening = match (fields.number("aperture"), fields.number("f_stop")) {
+        (Some(opening), _) => opening,
+        (None, Some(f_stop)) => focal_length / f_stop,
+        (None, None) => 0.0,
+    };
+    let shutter = match fields.get("shutter") {
+        Some(crate::eval::value::Value::Range(open, close, _)) => [open, close],
+        _ => [0.0; 2],
+    };
+    Some(Camera {
+        name,
+        from,
+        to,
+        up: fields.vector("up")?,
+        fov_horizontal: across,
+        fov_vertical: up,
+        lens_radius: 0.5 * opening,
+        focus_distance: fields.number("focus").unwrap_or_else(|| length(sub(to, from))),
+        shutter,
+    })
+}
+
+/// Reports angles and distances that the film makes impossible.
+pub(super) fn check_built(ev: &mut Evaluator<'_>, camera: &Camera) {
+    let numbers =
+        [camera.fov_horizontal, camera.fov_vertical, camera.lens_radius, camera.focus_distance];
+    let flat = std::f64::consts::PI - 1e-3;
+    let sound = numbers.iter().all(|v| v.is_finite() && *v >= 0.0 && *v < schema::MAX_MAGNITUDE);
+    let angles = [camera.fov_horizontal, camera.fov_vertical];
+    if !sound || angles.iter().any(|v| *v <= 1e-9 || *v >= flat) || camera.focus_distance <= 0.0 {
+        let text = format!(
+            "`{}` sees {} across and {} up, which cannot be drawn",
+            camera.name.text,
+            units::show(camera.fov_horizontal, Dim::ANGLE),
+            units::show(camera.fov_vertical, Dim::ANGLE)
+        );
+        let error = Diagnostic::error(Code("E0704"), text).at(camera.name.span, "this camera");
+        ev.fault(error.with_help("choose another field of view, or a film that is less narrow"));
+    }
+}
+
+fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn length(v: [f64; 3]) -> f64 {
+    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
+}

@@ -1,0 +1,50 @@
+//! `-D name=value` from the command line becomes expressions with places of their own.
+
+use std::collections::BTreeMap;
+
+use super::Options;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::eval::Define;
+use crate::parse;
+use crate::source::{SourceSet, Span};
+use crate::syntax::ItemKind;
+
+/// Reads all definitions; of two with one name the last counts.
+pub(super) fn read(
+    sources: &mut SourceSet,
+    options: &Options,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> BTreeMap<String, Define> {
+    let mut defines = BTreeMap::new();
+    for (name, value) in &options.defines {
+        // Read as a `let` of a file of its own, so that the value may be any expression.
+        let value = value.trim();
+        let text = format!("rts 1\nlet {name} = {value}\n");
+        let file = sources.add("command line", text);
+        let (mut tree, mut faults) = parse::parse(sources, file);
+        let one_line = !value.contains(['\n', '\r']) && !name.contains(['\n', '\r']);
+        let item = if tree.items.len() == 1 { tree.items.pop() } else { None };
+        match item.map(|item| item.kind) {
+            Some(ItemKind::Let(binding)) if faults.is_empty() && one_line => {
+                let define = Define { value: binding.value, name: binding.name.span };
+                defines.insert(name.clone(), define);
+            }
+            _ if faults.is_empty() => diagnostics.push(malformed(sources, file, name, value)),
+            _ => diagnostics.append(&mut faults),
+        }
+    }
+    defines
+}
+
+fn malformed(
+    sources: &SourceSet,
+    file: crate::source::FileId,
+    name: &str,
+    value: &str,
+) -> Diagnostic {
+    let length = u32::try_from(sources.text(file).len()).unwrap_or(u32::MAX);
+    let span = Span { file, start: 6.min(length), end: length.saturating_sub(1) };
+    Diagnostic::error(Code("E0213"), format!("cannot read `-D {name}={value}`"))
+        .at(span, "not a name and a value")
+        .with_help("write `-D name=value`, for example `-D hour=7h`")
+}

@@ -1,0 +1,551 @@
+//! One value against what its field wants: type, dimension, range, texture space.
+
+use super::lint;
+use crate::diagnostic::{Code, Diagnostic, Fix};
+use crate::eval::value::{ShapeValue, Value};
+use crate::eval::{Evaluator, Scope, with_unit_fix};
+use crate::resolve::{did_you_mean, quoted_list};
+use crate::scene::ColorSpace;
+use crate::schema::{Bounds, Default, Field, FieldType, Kind, MAX_FILM_SIDE, TypeSchema, Word};
+use crate::source::Span;
+use crate::syntax::{Expr, ExprKind, Ident};
+use crate::units::{self, Dim};
+
+/// Where a value is going.
+#[derive(Clone, Copy)]
+struct Slot<'e> {
+    schema: &'static TypeSchema,
+    field: &'static Field,
+    expr: &'e Expr,
+    module: u32,
+}
+
+impl Slot<'_> {
+    fn span(&self) -> Span {
+        self.expr.span
+    }
+
+    /// `` `ring.width` ``.
+    fn name(&self) -> String {
+        format!("`{}`", self.field.name)
+    }
+
+    /// What the field is and what people write, for a note.
+    fn note(&self, is: &str) -> String {
+        let owner = match self.schema.name {
+            "" => self.schema.kind.name(),
+            name => name,
+        };
+        let typical = match self.field.typical {
+            "" => String::new(),
+            text => format!("; {text}"),
+        };
+        format!("`{owner}.{}` is {is}{typical}", self.field.name)
+    }
+}
+
+impl Evaluator<'_> {
+    /// Evaluates an expression as the value of a field. The result is what the schema says, or
+    /// `Default`, `None` or `Poison`.
+    pub(crate) fn field_value(
+        &mut self,
+        schema: &'static TypeSchema,
+        field: &'static Field,
+        expr: &Expr,
+        scope: Scope<'_>,
+    ) -> Value {
+        let slot = Slot { schema, field, expr, module: scope.module };
+        match &expr.kind {
+            ExprKind::If { condition, then, otherwise } => {
+                let taken = self.condition(condition, scope);
+                self.branches(taken, [then, otherwise], |ev, branch| {
+                    ev.field_value(schema, field, branch, scope)
+                })
+            }
+            ExprKind::Default => Value::Default,
+            ExprKind::None if matches!(field.default, Default::Absent(_)) => Value::None,
+            ExprKind::None => {
+                let text = format!("{} cannot be `none`", slot.name());
+                self.fault(Diagnostic::error(Code("E0305"), text).at(expr.span, "needs a value"))
+            }
+            ExprKind::Path(path) if path.segments.len() == 1 && wants_word(field.ty) => {
+                self.word(slot, &path.segments[0])
+            }
+            ExprKind::Path(path) => {
+                let kind = match field.ty {
+                    FieldType::Name(kind) => Some(kind),
+                    _ => None,
+                };
+                let value = self.path(path, scope, kind);
+                self.fit(slot, value)
+            }
+            _ => {
+                let value = self.eval(expr, scope);
+                let value = self.fit(slot, value);
+                if value != Value::Poison && !self.is_speculative() {
+                    lint::literal(self, field, expr);
+                }
+                value
+            }
+        }
+    }
+
+    fn word(&mut self, slot: Slot<'_>, name: &Ident) -> Value {
+        match slot.field.ty {
+            FieldType::Word(words) => self.one_of(slot, words, name),
+            FieldType::Axis => {
+                let known = ["x", "y", "z"].contains(&name.text.as_str());
+                let error =
+                    Diagnostic::error(Code("E0308"), format!("{} needs a sign", slot.name()));
+                let error = error.at(name.span, "which way?");
+                self.fault(if known {
+                    let text = format!("+{}", name.text);
+                    error.with_fix(Fix::guess(format!("write `{text}`"), name.span, text))
+                } else {
+                    error.with_note("an axis is `+x`, `-x`, `+y`, `-y`, `+z` or `-z`")
+                })
+            }
+            _ => match units::find(&name.text).filter(|unit| unit.dim == Dim::LENGTH) {
+                Some(unit) => Value::Number(unit.factor, Dim::LENGTH),
+                None => self.unknown_length_unit(slot, name),
+            },
+        }
+    }
+
+    fn unknown_length_unit(&mut self, slot: Slot<'_>, name: &Ident) -> Value {
+        let text = format!("{} needs a unit of length, found `{}`", slot.name(), name.text);
+        let error = Diagnostic::error(Code("E0303"), text);
+        if let Some(metric) = units::not_metric(&name.text) {
+            let fix = Fix::sure(format!("write `{metric}`"), name.span, metric);
+            return self.fault(error.at(name.span, "not metric").with_fix(fix));
+        }
+        let lengths: Vec<&str> =
+            units::UNITS.iter().filter(|u| u.dim == Dim::LENGTH).map(|u| u.symbol).collect();
+        let error = match units::other_spelling(&name.text).filter(|ours| lengths.contains(ours)) {
+            Some(ours) => error
+                .at(name.span, format!("did you mean `{ours}`?"))
+                .with_fix(Fix::sure(format!("write `{ours}`"), name.span, ours)),
+            None => error.at(name.span, "not known"),
+        };
+        self.fault(error.with_note(format!("the units of length are {}", lengths.join(" "))))
+    }
+
+    fn one_of(&mut self, slot: Slot<'_>, words: &'static [Word], name: &Ident) -> Value {
+        if let Some((word, _)) = words.iter().find(|(word, _)| *word == name.text) {
+            return Value::Word(word);
+        }
+        let text = format!("{} cannot be `{}`", slot.name(), name.text);
+        let all: Vec<String> = words.iter().map(|(word, _)| (*word).to_owned()).collect();
+        let error = Diagnostic::error(Code("E0308"), text);
+        let error = did_you_mean(error, name, words.iter().map(|(word, _)| *word));
+        self.fault(error.with_note(format!("it is one of {}", quoted_list(&all))))
+    }
+
+    /// Turns a value into what the field wants, or reports why not.
+    fn fit(&mut self, slot: Slot<'_>, value: Value) -> Value {
+        if let Value::Poison | Value::Default = value {
+            return value;
+        }
+        match slot.field.ty {
+            FieldType::Number(bounds) => self.fit_number(slot, value, bounds),
+            FieldType::Integer(min, max) => self.fit_integer(slot, value, [min, max]),
+            FieldType::Vector(dim, unit) => self.fit_vector(slot, value, (dim, unit), 3),
+            FieldType::Size(n) => self.fit_size(slot, value, n),
+            FieldType::Pixels => self.fit_pixels(slot, value),
+            FieldType::Color(max) => self.fit_color(slot, value, max),
+            FieldType::ColorSlot(max) => match value {
+                Value::TextureColor(id) | Value::Item(Kind::Texture, id) => {
+                    self.fit_texture(slot, id, Value::TextureColor(id), true)
+                }
+                other => self.fit_color(slot, other, max),
+            },
+            FieldType::ScalarSlot(bounds) => match value {
+                Value::TextureChannel(id, 3) => Value::TextureChannel(id, 3),
+                Value::TextureChannel(id, channel) => {
+                    self.fit_texture(slot, id, Value::TextureChannel(id, channel), false)
+                }
+                Value::TextureColor(_) | Value::Item(Kind::Texture, _) => self.which_channel(slot),
+                other => self.fit_number(slot, other, bounds),
+            },
+            FieldType::Name(kind) => match value {
+                Value::Item(own, _) if own == kind => value,
+                other => self.wrong_kind(slot, &other, kind.with_article()),
+            },
+            FieldType::Shape => self.fit_shape(slot, value),
+            FieldType::Interval(bounds) => self.fit_interval(slot, value, bounds),
+            FieldType::Text | FieldType::Path => self.fit_text(slot, value),
+            FieldType::Scale => self.fit_scale(slot, value),
+            FieldType::Axis if matches!(value, Value::Axis(_)) => value,
+            FieldType::Axis => self.wrong_kind(slot, &value, "an axis such as `+y`"),
+            FieldType::Word(words) => {
+                let all: Vec<String> = words.iter().map(|(word, _)| (*word).to_owned()).collect();
+                let wanted = format!("one of {}", quoted_list(&all));
+                self.wrong_kind(slot, &value, &wanted)
+            }
+            FieldType::LengthUnit => {
+                self.fit_number(slot, value, Bounds { above_min: true, ..any(Dim::LENGTH, "m") })
+            }
+        }
+    }
+
+    fn fit_number(&mut self, slot: Slot<'_>, value: Value, bounds: Bounds) -> Value {
+        match value {
+            Value::Number(number, dim) if dim == bounds.dim => {
+                self.in_bounds(slot, number, bounds).map_or(Value::Poison, |()| value)
+            }
+            other => self.wrong_dimension(
+                slot,
+                &other,
+                (bounds.dim, bounds.unit),
+                &bounds.dim.to_string(),
+            ),
+        }
+    }
+
+    fn in_bounds(&mut self, slot: Slot<'_>, number: f64, bounds: Bounds) -> Option<()> {
+        if bounds.contains(number) {
+            return Some(());
+        }
+        let (name, range) = (slot.name(), bounds.described());
+        let text = format!("{name} must be {range}, found {}", bounds.show(number));
+        let mut error = Diagnostic::error(Code("E0401"), text).at(slot.span(), range);
+        if !slot.field.typical.is_empty() {
+            error = error.with_note(format!("typical: {}", slot.field.typical));
+        }
+        let looks_like_percent = bounds.max == 1.0 && number > 1.0 && number <= 100.0;
+        if looks_like_percent && matches!(&slot.expr.kind, ExprKind::Number(n) if n.unit.is_none())
+        {
+            error = error.with_fix(Fix::guess("write percent", slot.span().after(), "%"));
+        }
+        self.number_fault(error);
+        None
+    }
+
+    /// A number or tuple of the wrong dimension, or no number at all.
+    fn wrong_dimension(
+        &mut self,
+        slot: Slot<'_>,
+        value: &Value,
+        (dim, unit): (Dim, &str),
+        needs: &str,
+    ) -> Value {
+        let text = format!("{} needs {needs}, found {}", slot.name(), value.described());
+        let error = |code| Diagnostic::error(Code(code), text);
+        let numbers = matches!(value, Value::Number(..) | Value::Vector(..) | Value::Range(..));
+        match value.dim() {
+            Some(Dim::NONE) if numbers && !dim.is_none() => {
+                let error = error("E0301").at(slot.span(), "no unit").with_note(slot.note(needs));
+                self.fault(with_unit_fix(error, slot.expr, dim, unit))
+            }
+            Some(own) if numbers && own != dim => {
+                let error =
+                    error("E0302").at(slot.span(), value.described()).with_note(slot.note(needs));
+                let scope = Scope { module: slot.module, local: None };
+                let error = self.explain_names(error, slot.expr, scope);
+                self.fault(error)
+            }
+            _ => self.fault(error("E0305").at(slot.span(), value.described())),
+        }
+    }
+
+    fn fit_integer(&mut self, slot: Slot<'_>, value: Value, [min, max]: [u32; 2]) -> Value {
+        let Value::Number(number, Dim::NONE) = value else {
+            return self.wrong_dimension(slot, &value, (Dim::NONE, ""), "a whole number");
+        };
+        if number.fract() == 0.0 && (f64::from(min)..=f64::from(max)).contains(&number) {
+            #[expect(clippy::cast_possible_truncation, reason = "whole and inside u32")]
+            return Value::Integer(number as u32);
+        }
+        let range = format!("a whole number between {min} and {max}");
+        let text = format!("{} must be {range}, found {}", slot.name(), units::show_number(number));
+        self.number_fault(Diagnostic::error(Code("E0401"), text).at(slot.span(), range))
+    }
+
+    fn fit_vector(
+        &mut self,
+        slot: Slot<'_>,
+        value: Value,
+        (dim, unit): (Dim, &str),
+        n: usize,
+    ) -> Value {
+        match &value {
+            Value::Vector(values, own) if *own == dim && values.len() == n => value,
+            Value::Vector(values, own) if *own == dim => {
+                let found = values.len();
+                let text = format!("{} needs {n} entries, found {found}", slot.name());
+                self.fault(
+                    Diagnostic::error(Code("E0306"), text)
+                        .at(slot.span(), format!("{found} entries")),
+                )
+            }
+            _ => {
+                let noun = dim.to_string();
+                let noun = noun.trim_start_matches("an ").trim_start_matches("a ");
+                let words = ["", "one", "two", "three"];
+                let needs = match dim {
+                    Dim::NONE => format!("{} plain numbers", words[n.min(3)]),
+                    Dim::PIXEL => format!("{} numbers of pixels", words[n.min(3)]),
+                    _ => format!("{} {noun}s", words[n.min(3)]),
+                };
+                if matches!(value, Value::Number(_, own) if own == dim) {
+                    let text = format!("{} needs {needs}, found one", slot.name());
+                    let error =
+                        Diagnostic::error(Code("E0306"), text).at(slot.span(), "one number");
+                    return self.fault(error);
+                }
+                self.wrong_dimension(slot, &value, (dim, unit), &needs)
+            }
+        }
+    }
+
+    fn fit_size(&mut self, slot: Slot<'_>, value: Value, n: usize) -> Value {
+        let value = self.fit_vector(slot, value, (Dim::LENGTH, "m"), n);
+        if let Value::Vector(values, _) = &value
+            && let Some(wrong) = values.iter().find(|v| **v <= 0.0)
+        {
+            let text = format!(
+                "each {} must be above 0m, found {}",
+                slot.name(),
+                units::show(*wrong, Dim::LENGTH)
+            );
+            return self
+                .number_fault(Diagnostic::error(Code("E0401"), text).at(slot.span(), "above 0m"));
+        }
+        value
+    }
+
+    fn fit_pixels(&mut self, slot: Slot<'_>, value: Value) -> Value {
+        let value = self.fit_vector(slot, value, (Dim::PIXEL, "px"), 2);
+        let fits = |v: f64| v.fract() == 0.0 && (1.0..=f64::from(MAX_FILM_SIDE)).contains(&v);
+        if let Value::Vector(values, _) = &value
+            && let Some(wrong) = values.iter().find(|v| !fits(**v))
+        {
+            let range = format!("whole and between 1px and {MAX_FILM_SIDE}px");
+            let text = format!("each {} must be {range}, found {wrong}px", slot.name());
+            return self
+                .number_fault(Diagnostic::error(Code("E0401"), text).at(slot.span(), range));
+        }
+        value
+    }
+
+    fn fit_color(&mut self, slot: Slot<'_>, value: Value, max: f64) -> Value {
+        match &value {
+            Value::Color(rgb) => {
+                let bounds = Bounds { max, min: 0.0, ..any(Dim::NONE, "") };
+                match rgb.iter().find(|c| !bounds.contains(**c)) {
+                    None => value,
+                    Some(wrong) => {
+                        let range = bounds.described();
+                        let wrong = units::show_number(*wrong);
+                        let text = format!(
+                            "each channel of {} must be {range}, found {wrong}",
+                            slot.name()
+                        );
+                        let error = Diagnostic::error(Code("E0401"), text).at(slot.span(), range);
+                        self.number_fault(if max == 1.0 {
+                            error.with_note("a surface cannot reflect more light than it gets")
+                        } else {
+                            error
+                        })
+                    }
+                }
+            }
+            Value::Hex(_) | Value::Number(_, Dim::NONE) | Value::Vector(_, Dim::NONE) => {
+                self.without_space(&slot.name(), &value, slot.span())
+            }
+            Value::TextureColor(_) | Value::TextureChannel(..) | Value::Item(Kind::Texture, _) => {
+                let wanted = match slot.field.ty {
+                    FieldType::ColorSlot(_) => "a colour: of a texture that is `.rgb`",
+                    _ => "one colour, which no texture is",
+                };
+                self.wrong_kind(slot, &value, wanted)
+            }
+            _ => self.wrong_kind(slot, &value, "a colour"),
+        }
+    }
+
+    /// A texture must be read as what its image holds.
+    fn fit_texture(
+        &mut self,
+        slot: Slot<'_>,
+        id: crate::resolve::ItemId,
+        value: Value,
+        wants_color: bool,
+    ) -> Value {
+        let Some(info) = self.textures.get(&id) else { return Value::Poison };
+        let (wants, write) = match (wants_color, info.space) {
+            (true, ColorSpace::Data) => ("a colour", "srgb"),
+            (false, ColorSpace::Srgb) => ("linear data", "data"),
+            _ => return value,
+        };
+        let tagged = match info.space {
+            ColorSpace::Srgb => "sRGB",
+            ColorSpace::Linear => "linear colour",
+            ColorSpace::Data => "data",
+        };
+        let text = format!("{} wants {wants}, but this image is tagged {tagged}", slot.name());
+        let mut error = Diagnostic::error(Code("E0601"), text)
+            .at(slot.span(), format!("used as {wants} here"))
+            .because(info.space_span, "tagged here")
+            .with_fix(Fix::guess(format!("write `space: {write}`"), info.space_value, write));
+        if let Some(import) = self.program.import_span(slot.module, id.module) {
+            error = error.because(import, "imported from here");
+        }
+        self.fault(error)
+    }
+
+    fn which_channel(&mut self, slot: Slot<'_>) -> Value {
+        let text = format!("{} needs one channel of the texture", slot.name());
+        let error = Diagnostic::error(Code("E0203"), text).at(slot.span(), "which channel?");
+        let error = match &slot.expr.kind {
+            ExprKind::Path(path) if path.segments.last().is_some_and(|s| s.text == "rgb") => {
+                let last = path.segments.last().map_or(slot.span(), |s| s.span);
+                error.with_fix(Fix::guess("take red", last, "r"))
+            }
+            _ => error.with_fix(Fix::guess("take red", slot.span().after(), ".r")),
+        };
+        self.fault(error.with_note("a texture has `.r`, `.g`, `.b` and `.a`"))
+    }
+
+    fn wrong_kind(&mut self, slot: Slot<'_>, value: &Value, wanted: &str) -> Value {
+        let text = format!("{} needs {wanted}, found {}", slot.name(), value.described());
+        let item = match value {
+            Value::Item(_, id) | Value::TextureColor(id) | Value::TextureChannel(id, _) => {
+                Some(*id)
+            }
+            _ => None,
+        };
+        let code = if item.is_some() { "E0203" } else { "E0305" };
+        let error = Diagnostic::error(Code(code), text).at(slot.span(), value.described());
+        let error = match item {
+            Some(id) => error.because(self.program.name_span(id), "declared here"),
+            None => error,
+        };
+        self.fault(error)
+    }
+
+    fn fit_shape(&mut self, slot: Slot<'_>, value: Value) -> Value {
+        let wanted = "a shape, an asset, an object or a list of objects";
+        match value {
+            Value::Shape(_) => value,
+            Value::Item(Kind::Asset, id) => Value::Shape(Box::new(ShapeValue::Mesh(id, None))),
+            Value::Item(Kind::Object, id) => {
+                Value::Shape(Box::new(ShapeValue::Object(id, slot.span())))
+            }
+            Value::List(entries) => self.fit_group(slot, entries),
+            other => self.wrong_kind(slot, &other, wanted),
+        }
+    }
+
+    fn fit_group(&mut self, slot: Slot<'_>, entries: Vec<(Value, Span)>) -> Value {
+        let mut objects: Vec<(crate::resolve::ItemId, Span)> = Vec::new();
+        let mut fine = true;
+        for (value, span) in entries {
+            match value {
+                Value::Item(Kind::Object, id) => {
+                    match objects.iter().find(|(other, _)| *other == id) {
+                        None => objects.push((id, span)),
+                        Some((_, first)) => {
+                            fine = false;
+                            let text = "this object is listed twice";
+                            let error = Diagnostic::error(Code("E0204"), text)
+                                .at(span, "again")
+                                .because(*first, "first listed here")
+                                .with_note("both would stand in the same place");
+                            self.fault(error);
+                        }
+                    }
+                }
+                Value::Poison => fine = false,
+                other => {
+                    fine = false;
+                    let text = format!("a group holds objects, not {}", other.described());
+                    let error = Diagnostic::error(Code("E0203"), text).at(span, other.described());
+                    self.fault(
+                        error.with_help("declare an `object` with this shape and list its name"),
+                    );
+                }
+            }
+        }
+        if objects.is_empty() && fine {
+            let text = format!("{} is an empty list", slot.name());
+            return self
+                .fault(Diagnostic::error(Code("E0305"), text).at(slot.span(), "no objects"));
+        }
+        if fine { Value::Shape(Box::new(ShapeValue::Objects(objects))) } else { Value::Poison }
+    }
+
+    fn fit_interval(&mut self, slot: Slot<'_>, value: Value, bounds: Bounds) -> Value {
+        match value {
+            Value::Range(low, high, dim) if dim == bounds.dim => {
+                if low > high {
+                    let text = format!("{} ends before it begins", slot.name());
+                    let error =
+                        Diagnostic::error(Code("E0401"), text).at(slot.span(), "a..b, a first");
+                    return self.number_fault(error);
+                }
+                let inside =
+                    [low, high].into_iter().all(|end| self.in_bounds(slot, end, bounds).is_some());
+                if inside { value } else { Value::Poison }
+            }
+            Value::Number(_, dim) if dim == bounds.dim => {
+                let text = format!("{} needs an interval `a..b`, found one value", slot.name());
+                self.fault(
+                    Diagnostic::error(Code("E0306"), text).at(slot.span(), "from where to where?"),
+                )
+            }
+            other => {
+                let needs = format!("an interval between two values, each {}", bounds.dim);
+                self.wrong_dimension(slot, &other, (bounds.dim, bounds.unit), &needs)
+            }
+        }
+    }
+
+    fn fit_text(&mut self, slot: Slot<'_>, value: Value) -> Value {
+        let Value::Text(text) = &value else {
+            return self.wrong_kind(slot, &value, "a text in quotes");
+        };
+        let is_path = matches!(slot.field.ty, FieldType::Path);
+        if text.is_empty() {
+            let message = format!("{} is empty", slot.name());
+            return self.fault(Diagnostic::error(Code("E0501"), message).at(slot.span(), "empty"));
+        }
+        if is_path && text.contains('\\') {
+            let message = "a path has a `\\` in it, which only Windows understands";
+            let error = Diagnostic::error(Code("E0501"), message).at(slot.span(), "use `/`");
+            let literal = matches!(slot.expr.kind, ExprKind::Text(_));
+            return self.fault(if literal {
+                let fixed = format!("\"{}\"", text.replace('\\', "/"));
+                error.with_fix(Fix::sure("use `/`", slot.span(), fixed))
+            } else {
+                error
+            });
+        }
+        value
+    }
+
+    fn fit_scale(&mut self, slot: Slot<'_>, value: Value) -> Value {
+        let values = match value {
+            Value::Number(factor, Dim::NONE) => vec![factor; 3],
+            Value::Vector(values, Dim::NONE) if values.len() == 3 => values,
+            other => {
+                return self.fit_vector(slot, other, (Dim::NONE, ""), 3);
+            }
+        };
+        if values.contains(&0.0) {
+            let text = format!("{} must not be zero", slot.name());
+            return self
+                .number_fault(Diagnostic::error(Code("E0401"), text).at(slot.span(), "not zero"));
+        }
+        Value::Vector(values, Dim::NONE)
+    }
+}
+
+fn wants_word(ty: FieldType) -> bool {
+    matches!(ty, FieldType::Word(_) | FieldType::LengthUnit | FieldType::Axis)
+}
+
+/// No limit but those of the language; the lower end is zero.
+fn any(dim: Dim, unit: &'static str) -> Bounds {
+    Bounds { dim, unit, min: 0.0, above_min: false, max: f64::INFINITY }
+}

@@ -1,0 +1,172 @@
+//! The one `render` declaration, and the camera, film and sky it takes.
+
+use super::fields::Fields;
+use super::{Checker, camera, ids_of, light};
+use crate::diagnostic::{Code, Diagnostic, Fix};
+use crate::eval::Evaluator;
+use crate::resolve::{ItemId, quoted_list};
+use crate::scene::{Camera, Film, Name, Render, Sky};
+use crate::schema::Kind;
+use crate::source::Span;
+use crate::syntax::{File, ItemKind};
+
+/// What `render` decides.
+pub(super) struct View {
+    pub(super) camera: Camera,
+    pub(super) film: Film,
+    pub(super) sky: Option<Sky>,
+    pub(super) render: Render,
+}
+
+impl Checker {
+    /// Finds the render of the root file and what it uses.
+    pub(super) fn view(&self, ev: &mut Evaluator<'_>) -> Option<View> {
+        let id = one_render(ev)?;
+        let fields = self.fields.get(&id)?;
+        let name_span = ev.program.name_span(id);
+        let camera = self.choose(ev, id, fields, Kind::Camera);
+        let film = self.choose(ev, id, fields, Kind::Film);
+        let sky = self.choose(ev, id, fields, Kind::Sky);
+        if !fields.ok {
+            return None;
+        }
+        let film = match film? {
+            Some(film) => camera::film(name(ev, film), self.sound(film)?)?,
+            None => camera::default_film(name_span),
+        };
+        let camera = camera??;
+        let camera = camera::camera(name(ev, camera), self.sound(camera)?, &film)?;
+        camera::check_built(ev, &camera);
+        let sky = match sky? {
+            Some(sky) => Some(light::sky(name(ev, sky), self.sound(sky)?)?),
+            None => None,
+        };
+        let render = Render {
+            name: name(ev, id),
+            samples: fields.integer("samples")?,
+            max_depth: fields.integer("depth")?,
+            roulette_depth: fields.integer("roulette")?,
+            seed: fields.integer("seed")?,
+            output: fields.text("output"),
+        };
+        Some(View { camera, film, sky, render })
+    }
+
+    /// Fields without a fault.
+    pub(super) fn sound(&self, id: ItemId) -> Option<&Fields> {
+        self.fields.get(&id).filter(|fields| fields.ok)
+    }
+
+    /// The declaration that `render` names, or the only one of the root file. `None` is a fault,
+    /// `Some(None)` an absence.
+    fn choose(
+        &self,
+        ev: &mut Evaluator<'_>,
+        render: ItemId,
+        fields: &Fields,
+        kind: Kind,
+    ) -> Option<Option<ItemId>> {
+        let word = kind.name();
+        if let Some(id) = fields.item(word) {
+            return Some(Some(id));
+        }
+        if fields.is_none(word) && kind == Kind::Sky {
+            return Some(None);
+        }
+        if fields.span(word).is_some() && !fields.ok {
+            return None;
+        }
+        let here: Vec<ItemId> =
+            ids_of(ev.program, kind).into_iter().filter(|id| id.module == 0).collect();
+        match here.as_slice() {
+            [only] => {
+                ev.used.insert(*only);
+                Some(Some(*only))
+            }
+            [] if kind != Kind::Camera => Some(None),
+            [] => {
+                if !has_errors(&ev.program.modules[0].tree) {
+                    let text = "there is no camera to render from";
+                    let error = Diagnostic::error(Code("E0712"), text)
+                        .at(ev.program.name_span(render), "this render needs one")
+                        .with_help(
+                            "declare `camera hero: perspective { from = (0, 1, 5)m, to = (0, 1, 0)m }`",
+                        );
+                    ev.fault(error);
+                }
+                None
+            }
+            several => {
+                let names: Vec<String> =
+                    several.iter().map(|id| ev.program.name(*id).to_owned()).collect();
+                let text = format!("which {word}? there are {}", quoted_list(&names));
+                let mut error = Diagnostic::error(Code("E0712"), text)
+                    .at(ev.program.name_span(render), format!("this render names no {word}"));
+                for id in several.iter().take(4) {
+                    error = error.because(ev.program.name_span(*id), "one of them");
+                }
+                ev.fault(error.with_help(format!("write `{word} = {}`", names[0])));
+                None
+            }
+        }
+    }
+}
+
+/// The name of an item in the scene.
+pub(super) fn name(ev: &Evaluator<'_>, id: ItemId) -> Name {
+    Name { text: ev.program.full_name(id), span: ev.program.name_span(id) }
+}
+
+fn has_errors(tree: &File) -> bool {
+    tree.has_errors || tree.items.iter().any(|item| matches!(item.kind, ItemKind::Poisoned(_)))
+}
+
+/// The render of the root file; reports that there is none, or more than one.
+fn one_render(ev: &mut Evaluator<'_>) -> Option<ItemId> {
+    let here: Vec<ItemId> =
+        ids_of(ev.program, Kind::Render).into_iter().filter(|id| id.module == 0).collect();
+    match here.as_slice() {
+        [only] => return Some(*only),
+        [] => {
+            let root = ev.program.modules.first()?;
+            if has_errors(&root.tree) {
+                return None;
+            }
+            let error = no_render(ev, root.file);
+            ev.fault(error);
+        }
+        [first, rest @ ..] => {
+            let mut error =
+                Diagnostic::error(Code("E0711"), "a scene has one `render`, this has more");
+            for id in rest {
+                error = error.at(ev.program.name_span(*id), "one too many");
+            }
+            error = error.because(ev.program.name_span(*first), "the first one");
+            ev.fault(error);
+        }
+    }
+    None
+}
+
+fn no_render(ev: &Evaluator<'_>, file: crate::source::FileId) -> Diagnostic {
+    let text = ev.sources.text(file);
+    let end = u32::try_from(text.len()).unwrap_or(u32::MAX);
+    let last = u32::try_from(text.trim_end().len()).unwrap_or(u32::MAX);
+    let at = Span { file, start: last, end: last };
+    let error = Diagnostic::error(Code("E0711"), "the scene has no `render`")
+        .at(at, "nothing says what to draw");
+    let cameras: Vec<ItemId> =
+        ids_of(ev.program, Kind::Camera).into_iter().filter(|id| id.module == 0).collect();
+    match cameras.as_slice() {
+        [only] => {
+            let line = if text.ends_with('\n') { "" } else { "\n" };
+            let camera = ev.program.name(*only);
+            let name =
+                if ev.program.modules[0].names.contains_key("main") { "picture" } else { "main" };
+            let text = format!("{line}render {name}: path {{ camera = {camera} }}\n");
+            let end = Span { file, start: end, end };
+            error.with_fix(Fix::sure("render what this camera sees", end, text))
+        }
+        _ => error.with_help("declare `render main: path { camera = name }`"),
+    }
+}

@@ -1,0 +1,164 @@
+//! Checked declarations become the scene: names turn into indices, lists are sorted by name.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::instance::Placed;
+use super::render::name;
+use super::{Checker, ids_of, is_in_world, light, material};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::eval::Evaluator;
+use crate::eval::value::ShapeValue;
+use crate::resolve::ItemId;
+use crate::scene::{Asset, Instance, Light, Material, Name, Scene, Shape, Texture};
+use crate::schema::Kind;
+
+impl Checker {
+    /// Builds the scene, as far as it is sound.
+    pub(super) fn build(mut self, ev: &mut Evaluator<'_>) -> Option<Scene> {
+        let view = self.view(ev);
+        let lights = self.lights(ev);
+        if ev.diagnostics.iter().any(Diagnostic::is_error) {
+            return None;
+        }
+        let view = view?;
+        let mut placed = std::mem::take(&mut self.world.placed);
+        placed.sort_by(|a, b| a.key.cmp(&b.key));
+        let used: BTreeSet<ItemId> =
+            placed.iter().filter_map(|p| p.material.map(|(id, _)| id)).collect();
+        let read: BTreeSet<ItemId> =
+            used.iter().filter_map(|id| self.sound(*id)).flat_map(material::textures).collect();
+        let meshes: BTreeSet<ItemId> = placed
+            .iter()
+            .filter_map(|p| match p.shape {
+                ShapeValue::Mesh(id, _) => Some(id),
+                _ => None,
+            })
+            .collect();
+        let (texture_order, material_order, asset_order) =
+            (sorted(ev, &read), sorted(ev, &used), sorted(ev, &meshes));
+        let texture_at = index(&texture_order);
+        let materials = material_order
+            .iter()
+            .map(|(name, id)| {
+                let texture = |id: ItemId| texture_at.get(&id).copied().unwrap_or(0);
+                let model = material::model(self.sound(*id)?, &texture)?;
+                Some(Material { name: name.clone(), model })
+            })
+            .collect::<Option<Vec<Material>>>()?;
+        let scene = Scene {
+            assets: self.assets(&asset_order)?,
+            textures: textures(ev, &texture_order)?,
+            materials,
+            instances: instances(placed, &index(&material_order), &index(&asset_order))?,
+            lights,
+            sky: view.sky,
+            camera: view.camera,
+            film: view.film,
+            render: view.render,
+        };
+        no_light(ev, &scene);
+        Some(scene)
+    }
+
+    fn lights(&self, ev: &mut Evaluator<'_>) -> Vec<Light> {
+        let mut lights = Vec::new();
+        for id in ids_of(ev.program, Kind::Light) {
+            let name = name(ev, id);
+            let built = self.sound(id).and_then(|fields| light::light(ev, name, fields));
+            lights.extend(built.filter(|_| is_in_world(ev.program, id)));
+        }
+        lights.sort_by(|a, b| a.name.text.cmp(&b.name.text));
+        lights
+    }
+
+    fn assets(&self, order: &[(Name, ItemId)]) -> Option<Vec<Asset>> {
+        order
+            .iter()
+            .map(|(name, id)| {
+                let info = self.assets.get(id)?;
+                Some(Asset {
+                    name: name.clone(),
+                    path: info.path.clone(),
+                    path_span: info.path_span,
+                    format: info.format,
+                })
+            })
+            .collect()
+    }
+}
+
+fn textures(ev: &Evaluator<'_>, order: &[(Name, ItemId)]) -> Option<Vec<Texture>> {
+    order
+        .iter()
+        .map(|(name, id)| {
+            let info = ev.textures.get(id)?;
+            Some(Texture {
+                name: name.clone(),
+                path: info.path.clone(),
+                path_span: info.path_span,
+                space: info.space,
+                wrap: info.wrap,
+            })
+        })
+        .collect()
+}
+
+fn instances(
+    placed: Vec<Placed>,
+    material_at: &BTreeMap<ItemId, usize>,
+    asset_at: &BTreeMap<ItemId, usize>,
+) -> Option<Vec<Instance>> {
+    placed
+        .into_iter()
+        .map(|placed| {
+            let shape = match placed.shape {
+                ShapeValue::Sphere(radius) => Shape::Sphere { radius },
+                ShapeValue::Rectangle(size) => Shape::Rectangle { size },
+                ShapeValue::Box(size) => Shape::Box { size },
+                ShapeValue::Mesh(id, part) => Shape::Mesh { asset: *asset_at.get(&id)?, part },
+                ShapeValue::Object(..) | ShapeValue::Objects(_) => return None,
+            };
+            let material = match placed.material {
+                Some((id, _)) => Some(*material_at.get(&id)?),
+                None => None,
+            };
+            Some(Instance {
+                name: Name { text: placed.name, span: placed.name_span },
+                shape,
+                shape_span: placed.shape_span,
+                material,
+                material_span: placed.material.map(|(_, span)| span),
+                world_from_object: placed.matrix,
+            })
+        })
+        .collect()
+}
+
+/// Items by the names they have in the scene.
+fn sorted(ev: &Evaluator<'_>, ids: &BTreeSet<ItemId>) -> Vec<(Name, ItemId)> {
+    let mut named: Vec<(Name, ItemId)> = ids.iter().map(|id| (name(ev, *id), *id)).collect();
+    named.sort_by(|a, b| a.0.text.cmp(&b.0.text));
+    named
+}
+
+fn index(order: &[(Name, ItemId)]) -> BTreeMap<ItemId, usize> {
+    order.iter().enumerate().map(|(i, (_, id))| (*id, i)).collect()
+}
+
+/// Reports a scene in which nothing gives off light. A mesh that brings its own materials may.
+fn no_light(ev: &mut Evaluator<'_>, scene: &Scene) {
+    let lit = scene.lights.iter().any(|light| light.radiance.iter().any(|c| *c > 0.0))
+        || scene.sky.as_ref().is_some_and(|sky| !light::is_black(sky))
+        || scene.instances.iter().any(|instance| {
+            instance
+                .material
+                .is_none_or(|material| material::emits(&scene.materials[material].model))
+        });
+    if !lit {
+        let text = "nothing in this scene gives off light: the picture would be black";
+        let error = Diagnostic::error(Code("E0710"), text)
+            .at(scene.render.name.span, "this render")
+            .with_help("declare a `light`, a `sky`, or an instance with an `emissive` material");
+        ev.fault(error);
+    }
+}

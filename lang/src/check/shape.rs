@@ -1,0 +1,28 @@
+//! Shape calls become geometry: `sphere(radius: 14cm)`.
+
+use crate::eval::value::{ShapeValue, Value};
+use crate::eval::{Evaluator, Scope};
+use crate::schema::TypeSchema;
+use crate::syntax::{Arg, Ident};
+
+impl Evaluator<'_> {
+    /// Evaluates a call of the shape that `schema` describes.
+    pub(crate) fn shape_call(
+        &mut self,
+        schema: &'static TypeSchema,
+        name: &Ident,
+        args: &[Arg],
+        scope: Scope<'_>,
+    ) -> Value {
+        let fields = self.call_fields(schema, name, args, scope);
+        if !fields.ok {
+            return Value::Poison;
+        }
+        let shape = match schema.name {
+            "sphere" => fields.number("radius").map(ShapeValue::Sphere),
+            "rectangle" => fields.vector("size").map(ShapeValue::Rectangle),
+            _ => fields.vector("size").map(ShapeValue::Box),
+        };
+        shape.map_or(Value::Poison, |shape| Value::Shape(Box::new(shape)))
+    }
+}

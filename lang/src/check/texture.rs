@@ -1,0 +1,136 @@
+//! `asset` and `texture` declarations: a call after `=` becomes what the file needs to be told.
+
+use super::fields::Fields;
+use crate::diagnostic::{Code, Diagnostic, Fix};
+use crate::eval::value::Value;
+use crate::eval::{Evaluator, Scope};
+use crate::resolve::{ItemId, did_you_mean, quoted_list};
+use crate::scene::{AssetFormat, Axis, ColorSpace, Wrap};
+use crate::schema::{self, Kind};
+use crate::source::Span;
+use crate::syntax::{Binding, Expr, ExprKind, Ident};
+
+/// A sound `texture` declaration.
+#[derive(Clone, Debug)]
+pub(crate) struct TextureInfo {
+    pub(crate) path: String,
+    pub(crate) path_span: Span,
+    pub(crate) space: ColorSpace,
+    /// `space: srgb`.
+    pub(crate) space_span: Span,
+    /// `srgb`.
+    pub(crate) space_value: Span,
+    pub(crate) wrap: [Wrap; 2],
+}
+
+/// A sound `asset` declaration.
+#[derive(Clone, Debug)]
+pub(crate) struct AssetInfo {
+    pub(crate) path: String,
+    pub(crate) path_span: Span,
+    pub(crate) format: AssetFormat,
+}
+
+/// Checks an `asset`.
+pub(super) fn asset(ev: &mut Evaluator<'_>, id: ItemId, binding: &Binding) -> Option<AssetInfo> {
+    let fields = file_call(ev, id, Kind::Asset, &binding.value)?;
+    let format = match fields.schema.name {
+        "obj" => {
+            let up = match fields.get("up") {
+                Some(Value::Axis(axis)) => axis,
+                _ => Axis::PlusY,
+            };
+            AssetFormat::Obj { metres_per_unit: fields.number("unit")?, up }
+        }
+        _ => AssetFormat::Gltf,
+    };
+    Some(AssetInfo { path: fields.text("path")?, path_span: fields.value_span("path")?, format })
+}
+
+/// Checks a `texture`.
+pub(super) fn texture(
+    ev: &mut Evaluator<'_>,
+    id: ItemId,
+    binding: &Binding,
+) -> Option<TextureInfo> {
+    let fields = file_call(ev, id, Kind::Texture, &binding.value)?;
+    let space = match fields.word("space")? {
+        "srgb" => ColorSpace::Srgb,
+        "linear" => ColorSpace::Linear,
+        _ => ColorSpace::Data,
+    };
+    let wrap = |name: &str| {
+        let word = fields.word(name).or_else(|| fields.word("wrap"));
+        match word {
+            Some("clamp") => Wrap::Clamp,
+            Some("mirror") => Wrap::Mirror,
+            _ => Wrap::Repeat,
+        }
+    };
+    Some(TextureInfo {
+        path: fields.text("path")?,
+        path_span: fields.value_span("path")?,
+        space,
+        space_span: fields.span("space")?,
+        space_value: fields.value_span("space")?,
+        wrap: [wrap("wrap_u"), wrap("wrap_v")],
+    })
+}
+
+/// The fields of the call that a declaration must be.
+fn file_call(ev: &mut Evaluator<'_>, id: ItemId, kind: Kind, expr: &Expr) -> Option<Fields> {
+    let scope = Scope { module: id.module, local: None };
+    match &expr.kind {
+        ExprKind::Error => None,
+        ExprKind::If { condition, then, otherwise } => {
+            let taken = ev.condition(condition, scope);
+            let first = file_call(ev, id, kind, then);
+            let second = file_call(ev, id, kind, otherwise);
+            if taken? { first } else { second }
+        }
+        ExprKind::Call { path, args } if path.segments.len() == 1 => {
+            let name = &path.segments[0];
+            let Some(schema) = schema::find_type(kind, &name.text) else {
+                unknown_call(ev, kind, name);
+                return None;
+            };
+            let fields = ev.call_fields(schema, name, args, scope);
+            fields.ok.then_some(fields)
+        }
+        _ => {
+            let value = ev.eval(expr, scope);
+            if value != Value::Poison {
+                let examples: Vec<String> =
+                    kind.types().iter().map(|schema| format!("{}(...)", schema.name)).collect();
+                let text = format!(
+                    "{} is {}, not {}",
+                    kind.with_article(),
+                    quoted_list(&examples),
+                    value.described()
+                );
+                let error = Diagnostic::error(Code("E0305"), text).at(expr.span, value.described());
+                ev.fault(error);
+            }
+            None
+        }
+    }
+}
+
+fn unknown_call(ev: &mut Evaluator<'_>, kind: Kind, name: &Ident) {
+    let text = format!("there is no {} `{}(...)`", kind.name(), name.text);
+    let error = Diagnostic::error(Code("E0202"), text);
+    let foreign = kind.types().iter().find_map(|schema| {
+        schema.foreign.iter().find(|f| f.0 == name.text).map(|f| (schema.name, f.1))
+    });
+    let error = match foreign {
+        Some((ours, from)) => error
+            .at(name.span, "not known")
+            .with_note(format!("`{}` is the name in {from}", name.text))
+            .with_fix(Fix::sure(format!("in `.rts` it is `{ours}`"), name.span, ours)),
+        None => {
+            let names = kind.types().iter().map(|schema| schema.name);
+            did_you_mean(error, name, names)
+        }
+    };
+    ev.fault(error);
+}

@@ -1,0 +1,449 @@
+//! The one table of the language: every kind, type and field with unit, range, default and doc.
+//!
+//! Checking, `rtc explain`, the resolved listing and `docs/reference.md` all read this table, so a
+//! field that is not here does not exist anywhere. It does not know the syntax tree or values.
+
+use crate::units::{self, Dim};
+
+mod asset;
+mod camera;
+mod film;
+mod instance;
+mod light;
+mod material;
+mod render;
+mod shape;
+mod sky;
+mod texture;
+
+/// What a declaration is, or what a call makes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// A mesh file.
+    Asset,
+    /// An image file.
+    Texture,
+    /// How a surface scatters and emits.
+    Material,
+    /// Geometry; only ever a value, never a declaration.
+    Shape,
+    /// A reusable thing.
+    Object,
+    /// A thing in the world.
+    Instance,
+    /// A light source without a mesh.
+    Light,
+    /// What a ray sees that leaves the scene.
+    Sky,
+    /// The eye.
+    Camera,
+    /// The picture.
+    Film,
+    /// How the picture is made.
+    Render,
+}
+
+impl Kind {
+    /// Every kind, in the order of the reference.
+    pub const ALL: [Self; 11] = [
+        Self::Asset,
+        Self::Texture,
+        Self::Material,
+        Self::Shape,
+        Self::Object,
+        Self::Instance,
+        Self::Light,
+        Self::Sky,
+        Self::Camera,
+        Self::Film,
+        Self::Render,
+    ];
+
+    /// The keyword of its declarations.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Asset => "asset",
+            Self::Texture => "texture",
+            Self::Material => "material",
+            Self::Shape => "shape",
+            Self::Object => "object",
+            Self::Instance => "instance",
+            Self::Light => "light",
+            Self::Sky => "sky",
+            Self::Camera => "camera",
+            Self::Film => "film",
+            Self::Render => "render",
+        }
+    }
+
+    /// The kind with this keyword.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+
+    /// With its article, as it stands in a message.
+    #[must_use]
+    pub fn with_article(self) -> &'static str {
+        match self {
+            Self::Asset => "an asset",
+            Self::Texture => "a texture",
+            Self::Material => "a material",
+            Self::Shape => "a shape",
+            Self::Object => "an object",
+            Self::Instance => "an instance",
+            Self::Light => "a light",
+            Self::Sky => "a sky",
+            Self::Camera => "a camera",
+            Self::Film => "a film",
+            Self::Render => "a render",
+        }
+    }
+
+    /// Its types; one without a name for kinds that are declared without `: type`.
+    #[must_use]
+    pub fn types(self) -> &'static [&'static TypeSchema] {
+        match self {
+            Self::Asset => asset::TYPES,
+            Self::Texture => texture::TYPES,
+            Self::Material => material::TYPES,
+            Self::Shape => shape::TYPES,
+            Self::Object => instance::OBJECT_TYPES,
+            Self::Instance => instance::INSTANCE_TYPES,
+            Self::Light => light::TYPES,
+            Self::Sky => sky::TYPES,
+            Self::Camera => camera::TYPES,
+            Self::Film => film::TYPES,
+            Self::Render => render::TYPES,
+        }
+    }
+}
+
+/// One type of a kind, such as `diffuse` of `material`.
+#[derive(Debug)]
+pub struct TypeSchema {
+    /// The kind it belongs to.
+    pub kind: Kind,
+    /// Its name after the colon or as a call; empty for kinds without types.
+    pub name: &'static str,
+    /// One or two sentences.
+    pub doc: &'static str,
+    /// A declaration that compiles, for the reference.
+    pub example: &'static str,
+    /// Its fields, in the order in which they are best written.
+    pub fields: &'static [Field],
+    /// Names that other renderers give this type, with the renderers.
+    pub foreign: &'static [(&'static str, &'static str)],
+}
+
+impl TypeSchema {
+    /// The field of this name.
+    #[must_use]
+    pub fn field(&self, name: &str) -> Option<&'static Field> {
+        self.fields.iter().find(|field| field.name == name)
+    }
+
+    /// `material.diffuse`, `film`.
+    #[must_use]
+    pub fn path(&self) -> String {
+        if self.name.is_empty() {
+            self.kind.name().to_owned()
+        } else {
+            format!("{}.{}", self.kind.name(), self.name)
+        }
+    }
+
+    /// As it stands in a message: ``material type `diffuse` ``, `film`.
+    #[must_use]
+    pub fn described(&self) -> String {
+        match (self.name, self.kind) {
+            ("", kind) => format!("`{}`", kind.name()),
+            (name, Kind::Asset | Kind::Texture | Kind::Shape) => format!("`{name}(...)`"),
+            (name, kind) => format!("{} type `{name}`", kind.name()),
+        }
+    }
+}
+
+/// The type `name` of `kind`.
+#[must_use]
+pub fn find_type(kind: Kind, name: &str) -> Option<&'static TypeSchema> {
+    kind.types().iter().copied().find(|schema| schema.name == name)
+}
+
+/// Every type of every kind, in the order of the reference.
+pub fn all_types() -> impl Iterator<Item = &'static TypeSchema> {
+    Kind::ALL.into_iter().flat_map(|kind| kind.types().iter().copied())
+}
+
+/// One field of a type, or one argument of a call.
+#[derive(Clone, Copy, Debug)]
+pub struct Field {
+    /// Its name, dots included.
+    pub name: &'static str,
+    /// What may be assigned.
+    pub ty: FieldType,
+    /// What holds when it is not written.
+    pub default: Default,
+    /// One sentence.
+    pub doc: &'static str,
+    /// What people usually write; may be empty.
+    pub typical: &'static str,
+    /// Names that other renderers give this field, with the renderers.
+    pub foreign: &'static [(&'static str, &'static str)],
+}
+
+impl Field {
+    const fn new(name: &'static str, ty: FieldType, default: Default, doc: &'static str) -> Self {
+        Self { name, ty, default, doc, typical: "", foreign: &[] }
+    }
+
+    const fn typical(mut self, typical: &'static str) -> Self {
+        self.typical = typical;
+        self
+    }
+
+    const fn foreign(mut self, foreign: &'static [(&'static str, &'static str)]) -> Self {
+        self.foreign = foreign;
+        self
+    }
+
+    /// Must be written.
+    #[must_use]
+    pub fn is_required(&self) -> bool {
+        matches!(self.default, Default::Required)
+    }
+}
+
+/// What may be assigned to a field.
+#[derive(Clone, Copy, Debug)]
+pub enum FieldType {
+    /// A number with a dimension.
+    Number(Bounds),
+    /// A whole number without a unit, both ends included.
+    Integer(u32, u32),
+    /// Three numbers of one dimension; the text is the unit to suggest.
+    Vector(Dim, &'static str),
+    /// Two or three lengths above zero.
+    Size(usize),
+    /// Width and height in whole pixels.
+    Pixels,
+    /// A colour, each channel at most this.
+    Color(f64),
+    /// A colour, each channel at most this, or a texture.
+    ColorSlot(f64),
+    /// A number, or one channel of a texture.
+    ScalarSlot(Bounds),
+    /// One of these words.
+    Word(&'static [Word]),
+    /// The name of a declaration.
+    Name(Kind),
+    /// A shape, an object or a list of objects.
+    Shape,
+    /// `a..b`, with a not after b.
+    Interval(Bounds),
+    /// A text in quotes.
+    Text,
+    /// A path in quotes, relative to the file that says it.
+    Path,
+    /// One number for all axes, or one for each; not zero.
+    Scale,
+    /// `+x`, `-x`, `+y`, `-y`, `+z` or `-z`.
+    Axis,
+    /// The symbol of a unit of length.
+    LengthUnit,
+}
+
+/// A word and what it means.
+pub type Word = (&'static str, &'static str);
+
+/// A range of numbers with a dimension; values in SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Dimension of the value.
+    pub dim: Dim,
+    /// The unit to suggest when one is missing; empty for plain numbers.
+    pub unit: &'static str,
+    /// Smallest value.
+    pub min: f64,
+    /// `min` itself is outside.
+    pub above_min: bool,
+    /// Largest value; infinite where only the size limit of the language holds.
+    pub max: f64,
+}
+
+impl Bounds {
+    const fn new(dim: Dim, unit: &'static str, min: f64, max: f64) -> Self {
+        Self { dim, unit, min, above_min: false, max }
+    }
+
+    const fn number(min: f64, max: f64) -> Self {
+        Self::new(Dim::NONE, "", min, max)
+    }
+
+    const fn above(dim: Dim, unit: &'static str, min: f64) -> Self {
+        Self { dim, unit, min, above_min: true, max: f64::INFINITY }
+    }
+
+    /// Lies inside.
+    #[must_use]
+    pub fn contains(&self, value: f64) -> bool {
+        let low = if self.above_min { value > self.min } else { value >= self.min };
+        low && value <= self.max
+    }
+
+    /// In words for a message: `between 0 and 1`, `at least 1`, `above 0m`.
+    #[must_use]
+    pub fn described(&self) -> String {
+        let show = |value: f64| self.show(value);
+        let low = if self.above_min { "above" } else { "at least" };
+        match (self.min == f64::NEG_INFINITY, self.max == f64::INFINITY) {
+            (true, true) => "any value".to_owned(),
+            (true, false) => format!("at most {}", show(self.max)),
+            (false, true) => format!("{low} {}", show(self.min)),
+            (false, false) if self.above_min => {
+                format!("above {} and at most {}", show(self.min), show(self.max))
+            }
+            (false, false) => format!("between {} and {}", show(self.min), show(self.max)),
+        }
+    }
+
+    /// Prints a value in the unit of this field where that is exact.
+    #[must_use]
+    pub fn show(&self, value: f64) -> String {
+        let unit = units::find(self.unit);
+        unit.and_then(|unit| units::show_in(value, unit))
+            .unwrap_or_else(|| units::show(value, self.dim))
+    }
+}
+
+/// What holds when a field is not written; numbers in SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Default {
+    /// The field must be written.
+    Required,
+    /// A number.
+    Number(f64),
+    /// A triple.
+    Vector([f64; 3]),
+    /// Width and height.
+    Pixels([u32; 2]),
+    /// Linear Rec. 709.
+    Color([f64; 3]),
+    /// A word, an axis or a unit.
+    Word(&'static str),
+    /// `a..b`.
+    Interval(f64, f64),
+    /// Nothing; the text says what follows from that.
+    Absent(&'static str),
+}
+
+/// Dimension and suggested unit of a field that holds numbers; `None` for others.
+#[must_use]
+pub fn unit_of(ty: FieldType) -> Option<(Dim, &'static str)> {
+    match ty {
+        FieldType::Number(b) | FieldType::ScalarSlot(b) | FieldType::Interval(b) => {
+            Some((b.dim, b.unit))
+        }
+        FieldType::Integer(..) | FieldType::Scale => Some((Dim::NONE, "")),
+        FieldType::Vector(dim, unit) => Some((dim, unit)),
+        FieldType::Size(_) => Some((Dim::LENGTH, "m")),
+        FieldType::Pixels => Some((Dim::PIXEL, "px")),
+        _ => None,
+    }
+}
+
+/// Short, for tables: `length`, `colour or texture`, `none | reinhard | aces`.
+#[must_use]
+pub fn type_text(ty: FieldType) -> String {
+    let noun = |dim: Dim| {
+        let text = dim.to_string();
+        text.trim_start_matches("a plain ")
+            .trim_start_matches("an ")
+            .trim_start_matches("a ")
+            .to_owned()
+    };
+    match ty {
+        FieldType::Number(b) => noun(b.dim),
+        FieldType::Integer(..) => "whole number".to_owned(),
+        FieldType::Vector(Dim::NONE, _) => "three numbers".to_owned(),
+        FieldType::Vector(dim, _) => format!("three {}s", noun(dim)),
+        FieldType::Size(n) => format!("{n} lengths"),
+        FieldType::Pixels => "width and height in pixels".to_owned(),
+        FieldType::Color(_) => "colour".to_owned(),
+        FieldType::ColorSlot(_) => "colour or texture".to_owned(),
+        FieldType::ScalarSlot(_) => "number or texture channel".to_owned(),
+        FieldType::Word(words) => {
+            words.iter().map(|(word, _)| format!("`{word}`")).collect::<Vec<_>>().join(" or ")
+        }
+        FieldType::Name(kind) => format!("name of {}", kind.with_article()),
+        FieldType::Shape => "shape, object, or list of objects".to_owned(),
+        FieldType::Interval(b) => format!("interval of {}", noun(b.dim)),
+        FieldType::Text => "text".to_owned(),
+        FieldType::Path => "path".to_owned(),
+        FieldType::Scale => "number or three numbers".to_owned(),
+        FieldType::Axis => "axis".to_owned(),
+        FieldType::LengthUnit => "unit of length".to_owned(),
+    }
+}
+
+/// The allowed range in words, or empty.
+#[must_use]
+pub fn range_text(ty: FieldType) -> String {
+    match ty {
+        FieldType::Number(b) | FieldType::ScalarSlot(b) | FieldType::Interval(b) => {
+            let text = b.described();
+            if text == "any value" { String::new() } else { text }
+        }
+        FieldType::Integer(min, max) => format!("between {min} and {max}"),
+        FieldType::Size(_) => "each above 0m".to_owned(),
+        FieldType::Pixels => format!("each between 1px and {MAX_FILM_SIDE}px"),
+        FieldType::Color(max) | FieldType::ColorSlot(max) if max.is_finite() => {
+            format!("each channel between 0 and {max}")
+        }
+        FieldType::Color(_) | FieldType::ColorSlot(_) => "each channel at least 0".to_owned(),
+        FieldType::Scale => "not zero".to_owned(),
+        _ => String::new(),
+    }
+}
+
+/// The default as it would be written in `.rts`, or a sentence, or `required`.
+#[must_use]
+pub fn default_text(field: &Field) -> String {
+    let (dim, unit) = unit_of(field.ty).unwrap_or((Dim::NONE, ""));
+    let bounds = Bounds::new(dim, unit, f64::NEG_INFINITY, f64::INFINITY);
+    match field.default {
+        Default::Required => "required".to_owned(),
+        Default::Number(value) => format!("`{}`", bounds.show(value)),
+        Default::Vector([x, y, z]) => {
+            let number = units::show_number;
+            format!("`({}, {}, {}){unit}`", number(x), number(y), number(z))
+        }
+        Default::Pixels([w, h]) => format!("`({w}, {h})px`"),
+        Default::Color(rgb) => format!("`{}`", color_text(rgb)),
+        Default::Word(word) => format!("`{word}`"),
+        Default::Interval(a, b) => format!("`{}..{}`", bounds.show(a), bounds.show(b)),
+        Default::Absent(text) => text.to_owned(),
+    }
+}
+
+/// A linear colour as `.rts` text.
+#[must_use]
+pub fn color_text([r, g, b]: [f64; 3]) -> String {
+    let number = units::show_number;
+    if r == g && g == b {
+        format!("linear({})", number(r))
+    } else {
+        format!("linear({}, {}, {})", number(r), number(g), number(b))
+    }
+}
+
+/// Largest width or height of a film, in pixels.
+pub const MAX_FILM_SIDE: u32 = 65_536;
+
+/// No number of a scene may be larger, in SI: it must still fit a 32-bit float after squaring.
+pub const MAX_MAGNITUDE: f64 = 1e15;
+
+/// No limit above the general one.
+const ANY: f64 = f64::INFINITY;
+const WHITE: [f64; 3] = [1.0; 3];

@@ -1,0 +1,136 @@
+//! Cameras: `camera NAME: perspective { ... }`.
+
+use super::{Bounds, Default, Field, FieldType, Kind, TypeSchema};
+use crate::units::Dim;
+
+pub(super) const TYPES: &[&TypeSchema] = &[&PERSPECTIVE];
+
+/// 179 degrees: at 180 the image plane is infinite.
+const MAX_FOV: f64 = 179.0 * std::f64::consts::PI / 180.0;
+
+const FOV: FieldType = FieldType::Number(Bounds {
+    dim: Dim::ANGLE,
+    unit: "deg",
+    min: 0.0,
+    above_min: true,
+    max: MAX_FOV,
+});
+
+const MILLIMETRES: FieldType = FieldType::Number(Bounds::above(Dim::LENGTH, "mm", 0.0));
+
+const PERSPECTIVE: TypeSchema = TypeSchema {
+    kind: Kind::Camera,
+    name: "perspective",
+    doc: "A camera with a thin lens, or a pinhole when it has no aperture. The field of view comes \
+          from `lens`, `fov.horizontal` or `fov.vertical`: one of them, or the default lens.",
+    example: "camera hero: perspective { from = (4, 1.5, 10)m, to = (0, 2, 0)m, lens = 50mm, \
+              f_stop = 2.0 }",
+    fields: &[
+        Field::new(
+            "from",
+            FieldType::Vector(Dim::LENGTH, "m"),
+            Default::Required,
+            "Where the eye is.",
+        )
+        .foreign(&[
+            ("origin", "Mitsuba"),
+            ("orig", "LuxCore"),
+            ("eye", "common use"),
+            ("position", "common use"),
+            ("lookfrom", "Ray Tracing in One Weekend"),
+        ]),
+        Field::new(
+            "to",
+            FieldType::Vector(Dim::LENGTH, "m"),
+            Default::Required,
+            "The point in the middle of the image.",
+        )
+        .foreign(&[
+            ("target", "LuxCore and Mitsuba"),
+            ("look_at", "common use"),
+            ("lookat", "Ray Tracing in One Weekend"),
+        ]),
+        Field::new(
+            "up",
+            FieldType::Vector(Dim::NONE, ""),
+            Default::Vector([0.0, 1.0, 0.0]),
+            "Which way is up in the image; not along the view.",
+        )
+        .foreign(&[("vup", "Ray Tracing in One Weekend")]),
+        Field::new(
+            "lens",
+            MILLIMETRES,
+            Default::Absent("50mm, unless a `fov` is given"),
+            "Focal length; with `sensor.width` it sets the field of view.",
+        )
+        .typical("wide 24mm, normal 50mm, portrait 85mm on a 36mm sensor")
+        .foreign(&[("focal_length", "Mitsuba and Blender"), ("focallength", "common use")]),
+        Field::new(
+            "sensor.width",
+            MILLIMETRES,
+            Default::Number(0.036),
+            "Width of the image behind the lens.",
+        )
+        .foreign(&[("sensor_width", "Blender"), ("film_width", "common use")]),
+        Field::new(
+            "fov.horizontal",
+            FOV,
+            Default::Absent("what `lens` says"),
+            "Angle between the left and the right edge of the image.",
+        )
+        .foreign(&[("xfov", "glTF"), ("fov_x", "Mitsuba")]),
+        Field::new(
+            "fov.vertical",
+            FOV,
+            Default::Absent("what `lens` says"),
+            "Angle between the lower and the upper edge of the image.",
+        )
+        .foreign(&[
+            ("fov", "pbrt, Mitsuba and LuxCore"),
+            ("vfov", "Ray Tracing in One Weekend"),
+            ("yfov", "glTF"),
+            ("fieldofview", "LuxCore"),
+        ]),
+        Field::new(
+            "f_stop",
+            FieldType::Number(Bounds::number(0.1, 1e6)),
+            Default::Absent("what `aperture` says"),
+            "Focal length over aperture; smaller means a shallower depth of field.",
+        )
+        .typical("1.4 to 22")
+        .foreign(&[
+            ("fstop", "Blender"),
+            ("aperture_fstop", "Blender"),
+            ("f_number", "common use"),
+        ]),
+        Field::new(
+            "aperture",
+            FieldType::Number(Bounds::new(Dim::LENGTH, "mm", 0.0, f64::INFINITY)),
+            Default::Absent("0mm, a pinhole: everything is sharp"),
+            "Diameter of the opening of the lens.",
+        )
+        .foreign(&[
+            ("lensradius", "pbrt and LuxCore; it is half of this"),
+            ("aperture_radius", "Mitsuba; it is half of this"),
+        ]),
+        Field::new(
+            "focus",
+            FieldType::Number(Bounds::above(Dim::LENGTH, "m", 0.0)),
+            Default::Absent("the distance from `from` to `to`"),
+            "Distance at which things are sharp.",
+        )
+        .foreign(&[
+            ("focaldistance", "pbrt and LuxCore"),
+            ("focus_distance", "Mitsuba and Blender"),
+            ("focus_dist", "Ray Tracing in One Weekend"),
+        ]),
+        Field::new(
+            "shutter",
+            FieldType::Interval(Bounds::new(Dim::TIME, "ms", f64::NEG_INFINITY, f64::INFINITY)),
+            Default::Interval(0.0, 0.0),
+            "When the shutter opens and closes, relative to the frame.",
+        )
+        .foreign(&[("shutteropen", "pbrt and LuxCore"), ("shutter_open", "Mitsuba")]),
+    ],
+    foreign: &[("thinlens", "Mitsuba"), ("pinhole", "common use"), ("persp", "Blender")],
+};

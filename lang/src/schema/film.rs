@@ -1,0 +1,49 @@
+//! Films: `film NAME { ... }`.
+
+use super::{Bounds, Default, Field, FieldType, Kind, TypeSchema, Word};
+use crate::units::Dim;
+
+pub(super) const TYPES: &[&TypeSchema] = &[&FILM];
+
+const TONE_MAPS: &[Word] = &[
+    ("none", "the sRGB curve only; what is brighter than 1 is white"),
+    ("reinhard", "`x / (1 + x)`"),
+    ("aces", "a filmic curve with a soft shoulder"),
+];
+
+const FILM: TypeSchema = TypeSchema {
+    kind: Kind::Film,
+    name: "",
+    doc: "The picture: its size, and how the PNG is developed. The EXR is always linear and \
+          untouched.",
+    example: "film uhd { size = (3840, 2160)px, exposure = 1.5EV, tone_map = aces }",
+    fields: &[
+        Field::new("size", FieldType::Pixels, Default::Pixels([960, 540]), "Width and height.")
+            .foreign(&[
+                ("xresolution", "pbrt"),
+                ("yresolution", "pbrt"),
+                ("width", "Mitsuba and LuxCore"),
+                ("height", "Mitsuba and LuxCore"),
+                ("resolution", "Blender"),
+            ]),
+        Field::new(
+            "exposure",
+            FieldType::Number(Bounds::new(Dim::EV, "EV", -64.0, 64.0)),
+            Default::Number(0.0),
+            "Stops: each doubles the brightness of the PNG.",
+        )
+        .foreign(&[("iso", "pbrt"), ("imagingratio", "pbrt"), ("gain", "common use")]),
+        Field::new(
+            "tone_map",
+            FieldType::Word(TONE_MAPS),
+            Default::Word("none"),
+            "How brightness becomes the eight bits of the PNG.",
+        )
+        .foreign(&[
+            ("tonemap", "LuxCore"),
+            ("view_transform", "Blender"),
+            ("tonemapping", "common use"),
+        ]),
+    ],
+    foreign: &[],
+};

@@ -1,0 +1,101 @@
+//! Things in the world and things to reuse: `object` and `instance`.
+
+use super::{Default, Field, FieldType, Kind, TypeSchema};
+use crate::units::Dim;
+
+pub(super) const OBJECT_TYPES: &[&TypeSchema] = &[&OBJECT];
+pub(super) const INSTANCE_TYPES: &[&TypeSchema] = &[&INSTANCE];
+
+const AT: Field = Field::new(
+    "at",
+    FieldType::Vector(Dim::LENGTH, "m"),
+    Default::Vector([0.0; 3]),
+    "Where its origin is.",
+)
+.foreign(&[
+    ("translate", "pbrt and Mitsuba"),
+    ("translation", "glTF"),
+    ("location", "Blender"),
+    ("position", "common use"),
+    ("pos", "common use"),
+]);
+
+const ROTATE: Field = Field::new(
+    "rotate",
+    FieldType::Vector(Dim::ANGLE, "deg"),
+    Default::Vector([0.0; 3]),
+    "Turned about x, then about y, then about z; each counter-clockwise seen from the tip of the axis.",
+)
+.foreign(&[("rotation", "glTF and Blender"), ("rotation_euler", "Blender"), ("orient", "common use")]);
+
+const SCALE: Field = Field::new(
+    "scale",
+    FieldType::Scale,
+    Default::Number(1.0),
+    "Size factor for all axes or for each, before it is turned and moved; a negative factor mirrors.",
+)
+.foreign(&[("size", "common use")]);
+
+const fn material(doc: &'static str) -> Field {
+    Field::new(
+        "material",
+        FieldType::Name(Kind::Material),
+        Default::Absent("the materials of the mesh file; other shapes need one"),
+        doc,
+    )
+    .foreign(&[("bsdf", "Mitsuba"), ("NamedMaterial", "pbrt"), ("mat", "common use")])
+}
+
+const OBJECT: TypeSchema = TypeSchema {
+    kind: Kind::Object,
+    name: "",
+    doc: "A thing to reuse: a shape with a material and a place of its own. `shape` may be another \
+          object, or a list of objects to group them; groups may hold groups to depth 8. An object \
+          is not in the world until an instance names it.",
+    example: "object post { shape = box(size: (20, 300, 20)cm), material = clay }",
+    fields: &[
+        Field::new(
+            "shape",
+            FieldType::Shape,
+            Default::Required,
+            "What it looks like: a shape, a mesh file or part, an object, or a list of objects.",
+        )
+        .foreign(&[
+            ("geometry", "common use"),
+            ("mesh", "glTF and Blender"),
+            ("children", "glTF"),
+        ]),
+        material("What it is made of. Inside a group, an object's own material comes first."),
+        AT,
+        ROTATE,
+        SCALE,
+    ],
+    foreign: &[],
+};
+
+const INSTANCE: TypeSchema = TypeSchema {
+    kind: Kind::Instance,
+    name: "",
+    doc: "A thing in the world. `instance a: post { ... }` takes shape and material from an object; \
+          a material of its own then replaces those of the object. `instance a[i in 0..6] { ... }` \
+          makes `a[0]` to `a[5]`. In an imported file only `pub` instances are in the world.",
+    example: "instance left: post { at = (-1.8, 0, 0)m, rotate = (0, 45, 0)deg }",
+    fields: &[
+        Field::new(
+            "shape",
+            FieldType::Shape,
+            Default::Absent("the shape of the object after the colon"),
+            "What it looks like: a shape, a mesh file or part, an object, or a list of objects.",
+        )
+        .foreign(&[
+            ("geometry", "common use"),
+            ("mesh", "glTF and Blender"),
+            ("object", "common use"),
+        ]),
+        material("What it is made of."),
+        AT,
+        ROTATE,
+        SCALE,
+    ],
+    foreign: &[],
+};

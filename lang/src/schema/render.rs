@@ -1,0 +1,81 @@
+//! The render: `render NAME: path { ... }`.
+
+use super::{Default, Field, FieldType, Kind, TypeSchema};
+
+pub(super) const TYPES: &[&TypeSchema] = &[&PATH];
+
+const PATH: TypeSchema = TypeSchema {
+    kind: Kind::Render,
+    name: "path",
+    doc: "A path tracer. A scene has exactly one render.",
+    example: "render main: path { camera = hero, film = uhd, sky = dusk, samples = 256 }",
+    fields: &[
+        Field::new(
+            "camera",
+            FieldType::Name(Kind::Camera),
+            Default::Absent("the only camera of the file"),
+            "From where it is seen.",
+        )
+        .foreign(&[("sensor", "Mitsuba")]),
+        Field::new(
+            "film",
+            FieldType::Name(Kind::Film),
+            Default::Absent("the only film of the file, or one with every default"),
+            "What the picture is.",
+        ),
+        Field::new(
+            "sky",
+            FieldType::Name(Kind::Sky),
+            Default::Absent("the only sky of the file, or black; `none` is black"),
+            "What is seen where nothing is.",
+        )
+        .foreign(&[("environment", "common use"), ("world", "Blender"), ("background", "common use")]),
+        Field::new(
+            "samples",
+            FieldType::Integer(1, 1 << 24),
+            Default::Number(64.0),
+            "Paths for each pixel; four times as many halve the noise.",
+        )
+        .typical("16 to look, 256 to show, 4096 to keep")
+        .foreign(&[
+            ("pixelsamples", "pbrt"),
+            ("sample_count", "Mitsuba"),
+            ("spp", "common use"),
+            ("samples_per_pixel", "Ray Tracing in One Weekend"),
+            ("halt_spp", "LuxCore"),
+        ]),
+        Field::new(
+            "depth",
+            FieldType::Integer(1, 1024),
+            Default::Number(12.0),
+            "Longest path, in segments; 1 sees only what gives off light.",
+        )
+        .typical("8 to 50; glass inside glass needs more")
+        .foreign(&[
+            ("maxdepth", "pbrt and LuxCore"),
+            ("max_depth", "Mitsuba and Ray Tracing in One Weekend"),
+            ("max_bounces", "Blender"),
+        ]),
+        Field::new(
+            "roulette",
+            FieldType::Integer(0, 1024),
+            Default::Number(4.0),
+            "Bounce from which weak paths may end early; 1024 never ends one.",
+        )
+        .foreign(&[("rr_depth", "Mitsuba"), ("rrthreshold", "pbrt-v3")]),
+        Field::new(
+            "seed",
+            FieldType::Integer(0, u32::MAX),
+            Default::Number(0.0),
+            "Another seed gives another picture of the same scene, equally noisy.",
+        ),
+        Field::new(
+            "output",
+            FieldType::Text,
+            Default::Absent("the name of the pack"),
+            "Where the picture goes, relative to where the renderer runs; the ending is `.exr` or `.png`.",
+        )
+        .foreign(&[("filename", "pbrt"), ("file", "common use")]),
+    ],
+    foreign: &[("pathtracer", "common use"), ("volpath", "pbrt"), ("PATHCPU", "LuxCore")],
+};
