@@ -83,3 +83,32 @@ fn branches_are_taken_in_order() {
     assert_eq!([k.only_else(true), k.only_else(false)], [1, 2]);
     assert_eq!(k.shadowed(4), 13 + 5);
 }
+
+/// What the probe `deep` says, written as Rust says it.
+fn deep(n: u32) -> u32 {
+    let (mut sum, mut seen) = (0, [0_u32; 4]);
+    for i in 0..n {
+        sum += match (i % 4, i) {
+            (0, 0..=4) => 1,
+            (0, _) => 10100,
+            (1, _) => 10110,
+            (2, _) => 0,
+            (_, 7) => 10000,
+            _ => 11000,
+        };
+        seen[i as usize % 4] += (i + 1).min(2);
+    }
+    sum + 1_000_000 * seen.iter().sum::<u32>()
+}
+
+#[test]
+fn deep_nesting_goes_where_it_says() {
+    let mut k = kernel();
+    for n in 0..14 {
+        assert_eq!(k.deep(n), deep(n), "{n}");
+    }
+    assert_eq!(
+        [k.loops_and_returns(1), k.loops_and_returns(8), k.loops_and_returns(300)],
+        [0, 1004, 1300]
+    );
+}

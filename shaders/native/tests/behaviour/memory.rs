@@ -5,9 +5,15 @@
     reason = "a method of `Kernel<'_>` is not general enough where the closure is"
 )]
 
-use crate::kernels::memory::{Bindings, Kernel, Leaf, Real, Tree2, Vec3};
-use glam::{BVec3, UVec3, UVec4, Vec2};
+use crate::kernels::memory::{self, Bindings, Kernel, Leaf, Real, Tree2, Vec3};
+use glam::{BVec3, Mat4, UVec3, UVec4, Vec2, Vec4};
 
+const MOVE: Mat4 = Mat4::from_cols(
+    Vec4::X,
+    Vec4::Y,
+    Vec4::new(0.0, 0.0, 3.0, 0.0),
+    Vec4::new(0.5, 0.25, 0.0, 1.0),
+);
 const POINTS: [Vec2; 2] = [Vec2::new(0.5, 0.1), Vec2::new(2.5, 4.0)];
 
 /// Runs `f` with small resources; returns what it wrote.
@@ -23,6 +29,8 @@ fn with_kernel<T>(f: impl FnOnce(&mut Kernel) -> T) -> (T, [UVec4; 3], [f32; 2])
     let mut film_words = [UVec4::ZERO; 3];
     let mut sums = [0.25_f32, 0.5];
     let mut total = Leaf::ZERO;
+    let mut grid = [[Vec2::ZERO; 2]; 3];
+    let mut records = [Leaf { weight: 0.25, count: 1 }];
     let setting = Tree2 { gain: 2.0, offset: Vec3::new(0.0, 0.0, 0.5) };
     let mut kernel = Kernel::new(Bindings {
         frame_words: &frame_words,
@@ -34,6 +42,10 @@ fn with_kernel<T>(f: impl FnOnce(&mut Kernel) -> T) -> (T, [UVec4; 3], [f32; 2])
         total: &mut total,
         setting: &setting,
         points: &POINTS,
+        transforms: &[Mat4::IDENTITY, MOVE],
+        grid: &mut grid,
+        records: &mut records,
+        scale: &2.0,
     });
     let value = f(&mut kernel);
     (value, film_words, sums)
@@ -117,6 +129,10 @@ fn empty_resources_read_as_zero() {
         total: &mut total,
         setting: &Tree2::ZERO,
         points: &[],
+        transforms: &[],
+        grid: &mut [],
+        records: &mut [],
+        scale: &2.0,
     });
     assert_eq!(k.node(0), UVec4::ZERO);
     assert_eq!(k.frame(1), UVec4::ZERO);
@@ -164,4 +180,16 @@ fn private_variables_outlive_calls() {
     assert_eq!(run(|k| k.push_and_peek(4, 7)), 472);
     let twice = run(|k| [k.next_random(), k.next_random()]);
     assert_ne!(twice[0], twice[1]);
+}
+
+#[test]
+fn resources_nest() {
+    let p = memory::Vec4::new(1.0, 1.0, 1.0, 1.0);
+    assert_eq!(run(|k| k.transform(1, p)).to_array(), [3.0, 2.5, 6.0, 2.0]);
+    assert_eq!(run(|k| k.transform(0, p)).to_array(), [2.0; 4]);
+    assert_eq!(run(|k| k.transform_column(7, 9)).to_array(), [0.5, 0.25, 0.0, 1.0]);
+    assert_eq!(run(|k| [k.grid_set(1, 1, 2.0), k.grid_set(1, 0, 3.0)]), [2.5, 3.5]);
+    assert_eq!(run(|k| [k.grid_set(9, 1, 2.0), k.grid_set(2, 2, 2.0)]), [0.0, 0.0]);
+    assert_eq!(run(|k| [k.record_set(0, 1.0), k.record_set(0, 2.0)]), [1.25, 3.25]);
+    assert_eq!(run(|k| [k.table_set(0, 1), k.table_set(1, 2), k.table_set(2, 0)]), [3, 6, 3]);
 }

@@ -390,6 +390,110 @@ impl<'a> Kernel<'a> {
         }
         return y.wrapping_add(z);
     }
+
+    /// WGSL line 187.
+    #[inline]
+    pub fn deep(&mut self, n: u32) -> u32 {
+        let mut sum: u32 = 0u32;
+        let mut i: u32 = 0u32;
+        let mut seen: [u32; 4] = [0u32, 0u32, 0u32, 0u32];
+        let mut k: u32 = 0u32;
+        'repeat1: loop {
+            let mut e15: u32 = 0u32;
+            let mut step: u32 = 0u32;
+            'next2: {
+                if i >= n {
+                    break 'repeat1;
+                }
+                e15 = wgsl::rem_u32(i, 4u32);
+                step = i.wrapping_add(1u32);
+                'switch3: {
+                    match wgsl::rem_u32(i, 4u32) {
+                        0u32 | 1u32 => {
+                            'switch4: {
+                                match wgsl::rem_u32(i, 2u32) {
+                                    0u32 => {
+                                        if i > 4u32 {
+                                            break 'switch4;
+                                        }
+                                        sum = sum.wrapping_add(1u32);
+                                        break 'next2;
+                                    }
+                                    _ => {
+                                        sum = sum.wrapping_add(10u32);
+                                        break 'switch4;
+                                    }
+                                }
+                            }
+                            sum = sum.wrapping_add(100u32);
+                        }
+                        2u32 => {
+                            break 'next2;
+                        }
+                        _ => {
+                            if i == 7u32 {
+                                break 'switch3;
+                            }
+                            sum = sum.wrapping_add(1000u32);
+                        }
+                    }
+                }
+                sum = sum.wrapping_add(10000u32);
+            }
+            k = 0u32;
+            'repeat5: loop {
+                if !(k < step) {
+                    break 'repeat5;
+                }
+                {
+                    if k == 2u32 {
+                        break 'repeat5;
+                    }
+                    if (e15 as usize) < 4 {
+                        seen[e15 as usize] = seen[(e15 as usize).min(3)].wrapping_add(1u32);
+                    }
+                }
+                k = k.wrapping_add(1u32);
+            }
+            i = step;
+        }
+        return sum.wrapping_add(1000000u32.wrapping_mul(seen[0].wrapping_add(seen[1]).wrapping_add(seen[2]).wrapping_add(seen[3])));
+    }
+
+    /// WGSL line 218.
+    #[inline]
+    pub fn loops_and_returns(&mut self, n: u32) -> u32 {
+        let mut a: u32 = 0u32;
+        let mut b: u32 = 0u32;
+        let mut c: u32 = 0u32;
+        a = n;
+        'repeat1: loop {
+            'next2: {
+                if !(a > 0u32) {
+                    break 'repeat1;
+                }
+                {
+                    c = a;
+                    'repeat3: loop {
+                        if c < 3u32 {
+                            break 'repeat3;
+                        }
+                        c = c.wrapping_sub(3u32);
+                        b = b.wrapping_add(1u32);
+                        if b > 50u32 {
+                            return 1000u32.wrapping_add(a);
+                        }
+                    }
+                    if c == 1u32 {
+                        break 'next2;
+                    }
+                    b = b.wrapping_add(100u32.wrapping_mul(c));
+                }
+            }
+            a = wgsl::div_u32(a, 2u32);
+        }
+        return b;
+    }
 }
 
 mod wgsl {

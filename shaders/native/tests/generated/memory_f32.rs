@@ -78,6 +78,10 @@ pub struct Bindings<'a> {
     pub total: &'a mut Leaf,
     pub setting: &'a Tree2,
     pub points: &'a [Vec2],
+    pub transforms: &'a [Mat4],
+    pub grid: &'a mut [[Vec2; 2]],
+    pub records: &'a mut [Leaf],
+    pub scale: &'a Real,
 }
 
 /// The resources and the private variables of one invocation after another.
@@ -94,6 +98,11 @@ pub struct Kernel<'a> {
     pub stack: [u32; 8],
     pub top: u32,
     pub rng: UVec4,
+    pub transforms: &'a [Mat4],
+    pub grid: &'a mut [[Vec2; 2]],
+    pub records: &'a mut [Leaf],
+    pub scale: &'a Real,
+    pub table: [[u32; 3]; 2],
 }
 
 impl<'a> Kernel<'a> {
@@ -112,6 +121,11 @@ impl<'a> Kernel<'a> {
             stack: [0u32; 8],
             top: 3u32,
             rng: UVec4::new(1u32, 2u32, 3u32, 4u32),
+            transforms: bindings.transforms,
+            grid: bindings.grid,
+            records: bindings.records,
+            scale: bindings.scale,
+            table: [[0u32; 3]; 2],
         }
     }
 
@@ -119,6 +133,7 @@ impl<'a> Kernel<'a> {
         self.stack = [0u32; 8];
         self.top = 3u32;
         self.rng = UVec4::new(1u32, 2u32, 3u32, 4u32);
+        self.table = [[0u32; 3]; 2];
         let e2 = gid.x;
         if (e2 as usize) < self.film_words.len() {
             self.film_words[e2 as usize] = UVec4::new(self.top, self.stack[0], self.rng.w, gid.y);
@@ -492,6 +507,53 @@ impl<'a> Kernel<'a> {
         self.rng = self.rng.wrapping_mul(UVec4::splat(1664525u32)).wrapping_add(UVec4::splat(1013904223u32));
         self.rng.x = self.rng.x.wrapping_add(self.rng.y.wrapping_mul(self.rng.w));
         return self.rng.x;
+    }
+
+    /// WGSL line 223.
+    #[inline]
+    pub fn transform(&mut self, i: u32, p: Vec4) -> Vec4 {
+        let transforms = self.transforms;
+        let scale = self.scale;
+        let e4 = *wgsl::at(transforms, i as u32, &Mat4::ZERO);
+        return (e4.w_axis * p.w + e4.z_axis * p.z + e4.y_axis * p.y + e4.x_axis * p.x) * (*scale);
+    }
+
+    /// WGSL line 224.
+    #[inline]
+    pub fn transform_column(&mut self, i: u32, c: u32) -> Vec4 {
+        let transforms = self.transforms;
+        return wgsl::at(transforms, i as u32, &Mat4::ZERO).col((c as usize).min(3));
+    }
+
+    /// WGSL line 225.
+    #[inline]
+    pub fn grid_set(&mut self, i: u32, j: u32, x: Real) -> Real {
+        if (i as usize) < self.grid.len() && (j as usize) < 2 {
+            self.grid[i as usize][j as usize].y = x;
+        }
+        if (i as usize) < self.grid.len() && (j as usize) < 2 {
+            self.grid[i as usize][j as usize] = wgsl::at(&*self.grid, i as u32, &[Vec2::ZERO; 2])[(j as usize).min(1)] + Vec2::new(0.5f32, 0.0f32);
+        }
+        return wgsl::at(&*self.grid, i as u32, &[Vec2::ZERO; 2])[(j as usize).min(1)].x + wgsl::at(&*self.grid, i as u32, &[Vec2::ZERO; 2])[(j as usize).min(1)].y;
+    }
+
+    /// WGSL line 230.
+    #[inline]
+    pub fn record_set(&mut self, i: u32, weight: Real) -> Real {
+        let before = *wgsl::at(&*self.records, i as u32, &Leaf::ZERO);
+        if (i as usize) < self.records.len() {
+            self.records[i as usize] = Leaf { weight: before.weight + weight, count: before.count.wrapping_add(1u32) };
+        }
+        return wgsl::at(&*self.records, i as u32, &Leaf::ZERO).weight;
+    }
+
+    /// WGSL line 235.
+    #[inline]
+    pub fn table_set(&mut self, i: u32, j: u32) -> u32 {
+        if (i as usize) < 2 && (j as usize) < 3 {
+            self.table[i as usize][j as usize] = self.table[(i as usize).min(1)][(j as usize).min(2)].wrapping_add(3u32);
+        }
+        return self.table[(i as usize).min(1)][(j as usize).min(2)].wrapping_add(self.table[1][2]);
     }
 }
 

@@ -182,3 +182,53 @@ fn shadowed(x: u32) -> u32 {
     { let z = 9u; y += z; }
     return y + z;
 }
+
+// Switches in switches, `continue` from the innermost, a loop in the continuing block.
+fn deep(n: u32) -> u32 {
+    var sum = 0u;
+    var i = 0u;
+    var seen = array<u32, 4>(0u, 0u, 0u, 0u);
+    loop {
+        if i >= n { break; }
+        let slot = &seen[i % 4u];
+        let step = i + 1u;
+        switch i % 4u {
+            case 0u, 1u: {
+                switch i % 2u {
+                    case 0u: { if i > 4u { break; } sum += 1u; continue; }
+                    default: { sum += 10u; break; }
+                }
+                sum += 100u;
+            }
+            case 2u: { continue; }
+            default: { if i == 7u { break; } sum += 1000u; }
+        }
+        sum += 10000u;
+        continuing {
+            for (var k = 0u; k < step; k++) {
+                if k == 2u { break; }
+                *slot += 1u;
+            }
+            i = step;
+        }
+    }
+    return sum + 1000000u * (seen[0] + seen[1] + seen[2] + seen[3]);
+}
+
+fn loops_and_returns(n: u32) -> u32 {
+    // Two loops that leave through each other's values.
+    var a = n;
+    var b = 0u;
+    for (; a > 0u; a /= 2u) {
+        var c = a;
+        loop {
+            if c < 3u { break; }
+            c -= 3u;
+            b += 1u;
+            if b > 50u { return 1000u + a; }
+        }
+        if c == 1u { continue; }
+        b += 100u * c;
+    }
+    return b;
+}

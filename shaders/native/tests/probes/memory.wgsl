@@ -212,3 +212,27 @@ fn next_random() -> u32 {
     rng.x += rng.y * rng.w;
     return rng.x;
 }
+
+@group(0) @binding(9) var<storage, read> transforms: array<mat4x4<f32>>;
+@group(0) @binding(10) var<storage, read_write> grid: array<array<vec2<f32>, 2>, 3>;
+@group(0) @binding(11) var<storage, read_write> records: array<Leaf>;
+@group(0) @binding(12) var<uniform> scale: f32;
+
+var<private> table: array<array<u32, 3>, 2>;
+
+fn transform(i: u32, p: vec4<f32>) -> vec4<f32> { return transforms[i] * p * scale; }
+fn transform_column(i: u32, c: u32) -> vec4<f32> { return transforms[i][c]; }
+fn grid_set(i: u32, j: u32, x: f32) -> f32 {
+    grid[i][j].y = x;
+    grid[i][j] += vec2<f32>(0.5, 0.0);
+    return grid[i][j].x + grid[i][j].y;
+}
+fn record_set(i: u32, weight: f32) -> f32 {
+    let before = records[i];
+    records[i] = Leaf(before.weight + weight, before.count + 1u);
+    return records[i].weight;
+}
+fn table_set(i: u32, j: u32) -> u32 {
+    table[i][j] += 3u;
+    return table[i][j] + table[1][2];
+}
