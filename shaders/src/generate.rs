@@ -9,8 +9,8 @@ mod traversal;
 use crate::{FeatureSet, ShaderError};
 pub use bindings::WINDOW_WORDS;
 
-/// The generated modules, name and text, sorted by name.
-pub(crate) fn generate(features: &FeatureSet) -> Result<Vec<(&'static str, String)>, ShaderError> {
+/// The generated modules of a scene: name and text, sorted by name.
+pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, String)>, ShaderError> {
     Ok(vec![
         ("scene/bindings.wgsl", bindings::text(&features.bindings()?)),
         ("scene/candidate.wgsl", traversal::candidate(features)),
@@ -25,8 +25,9 @@ pub(crate) fn generate(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
     ])
 }
 
-/// The module at whose `render` a kernel begins.
-pub(crate) fn root(features: &FeatureSet) -> &'static str {
+/// Name of the module whose `render` is the entry point of the scene's kernel.
+#[must_use]
+pub fn root_module(features: &FeatureSet) -> &'static str {
     if features.geometry() { "kernel/render.wgsl" } else { "kernel/backdrop.wgsl" }
 }
 

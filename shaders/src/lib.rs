@@ -19,7 +19,7 @@ mod validate;
 
 pub use error::{Location, ShaderError};
 pub use features::{Binding, FeatureSet, Windows};
-pub use generate::WINDOW_WORDS;
+pub use generate::{WINDOW_WORDS, generated_texts, root_module};
 pub use layout::{LayoutError, abi_module, check_layouts};
 pub use link::{Linked, link, link_modules};
 pub use modules::module_texts;

@@ -4,7 +4,6 @@
 use crate::declaration::{self, Declaration, Parts, location};
 use crate::error::{Location, ShaderError};
 use crate::{FeatureSet, generate, modules};
-use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Name of the entry point.
@@ -53,31 +52,21 @@ impl Linked {
 
 /// The kernel for `features`.
 pub fn link(features: &FeatureSet) -> Result<Linked, ShaderError> {
-    let generated = generate::generate(features)?;
-    let mut texts: BTreeMap<Cow<'_, str>, Cow<'_, str>> = BTreeMap::new();
-    for (name, text) in modules::module_texts() {
-        texts.insert(Cow::Borrowed(*name), Cow::Borrowed(*text));
-    }
-    for (name, text) in generated {
-        texts.insert(Cow::Borrowed(name), Cow::Owned(text));
-    }
-    link_texts(&texts, generate::root(features))
+    let generated = generate::generated_texts(features)?;
+    let written = modules::module_texts().iter().copied();
+    let all: Vec<(&str, &str)> =
+        written.chain(generated.iter().map(|(name, text)| (*name, text.as_str()))).collect();
+    link_modules(&all, generate::root_module(features))
 }
 
 /// The kernel that begins in module `root` of `modules`, each a name and a text: what [`link`] does, for
 /// any set of modules.
 pub fn link_modules(modules: &[(&str, &str)], root: &str) -> Result<Linked, ShaderError> {
-    let texts = modules.iter().map(|(n, t)| (Cow::Borrowed(*n), Cow::Borrowed(*t))).collect();
-    link_texts(&texts, root)
-}
-
-fn link_texts(
-    texts: &BTreeMap<Cow<'_, str>, Cow<'_, str>>,
-    root: &str,
-) -> Result<Linked, ShaderError> {
+    let texts: BTreeMap<&str, &str> = modules.iter().copied().collect();
     let mut walk = Walk { texts, open: Vec::new(), done: BTreeSet::new(), modules: Vec::new() };
     let unknown = || ShaderError::NoEntry { file: root.to_owned() };
-    walk.visit(texts.get_key_value(root).map(|(name, _)| name.as_ref()).ok_or_else(unknown)?)?;
+    let (name, text) = walk.texts.get_key_value(root).ok_or_else(unknown)?;
+    walk.visit(name, text)?;
     let modules = walk.modules;
     let names = declared(&modules)?;
     if !names.contains_key(ENTRY) {
@@ -95,23 +84,21 @@ struct Module<'t> {
 
 /// Depth-first walk over imports.
 struct Walk<'t> {
-    texts: &'t BTreeMap<Cow<'t, str>, Cow<'t, str>>,
+    texts: BTreeMap<&'t str, &'t str>,
     open: Vec<&'t str>,
     done: BTreeSet<&'t str>,
     modules: Vec<Module<'t>>,
 }
 
 impl<'t> Walk<'t> {
-    fn visit(&mut self, name: &'t str) -> Result<(), ShaderError> {
-        let text = self.texts[name].as_ref();
+    fn visit(&mut self, name: &'t str, text: &'t str) -> Result<(), ShaderError> {
         let parts = declaration::split(name, text)?;
         self.open.push(name);
         for import in &parts.imports {
             let at = || location(name, text, import.start);
-            let Some((next, _)) = self.texts.get_key_value(import.name.as_str()) else {
+            let Some((&next, &next_text)) = self.texts.get_key_value(import.name.as_str()) else {
                 return Err(ShaderError::UnknownImport { at: at(), name: import.name.clone() });
             };
-            let next = next.as_ref();
             if let Some(begin) = self.open.iter().position(|open| *open == next) {
                 let mut chain: Vec<String> =
                     self.open[begin..].iter().map(|&module| module.to_owned()).collect();
@@ -119,7 +106,7 @@ impl<'t> Walk<'t> {
                 return Err(ShaderError::ImportCycle { at: at(), chain });
             }
             if !self.done.contains(next) {
-                self.visit(next)?;
+                self.visit(next, next_text)?;
             }
         }
         self.open.pop();
@@ -195,4 +182,41 @@ fn paste(modules: &[Module<'_>], wanted: &BTreeSet<(usize, usize)>) -> Linked {
         }
     }
     linked
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A module of the full kernel imports exactly the modules whose names it uses.
+    #[test]
+    fn modules_import_what_they_use_and_nothing_else() {
+        let generated = generate::generated_texts(&FeatureSet::full()).expect("full links");
+        let mut parts: BTreeMap<&str, Parts> = BTreeMap::new();
+        for (name, text) in modules::module_texts() {
+            parts.insert(name, declaration::split(name, text).expect("modules are well formed"));
+        }
+        for (name, text) in &generated {
+            parts.insert(name, declaration::split(name, text).expect("modules are well formed"));
+        }
+        let mut owners: BTreeMap<&str, &str> = BTreeMap::new();
+        for (module, parts) in &parts {
+            for declaration in parts.declarations.iter().filter(|d| d.name != ENTRY) {
+                owners.insert(&declaration.name, module);
+            }
+        }
+        let mut wrong = Vec::new();
+        for (module, _) in modules::module_texts() {
+            let parts = &parts[module];
+            let words = parts.declarations.iter().flat_map(|d| &d.words);
+            let used: BTreeSet<&str> = words
+                .filter_map(|word| owners.get(word.as_str()).copied())
+                .filter(|owner| owner != module)
+                .collect();
+            let imported: BTreeSet<&str> = parts.imports.iter().map(|i| i.name.as_str()).collect();
+            wrong.extend(used.difference(&imported).map(|other| format!("{module}: add {other}")));
+            wrong.extend(imported.difference(&used).map(|other| format!("{module}: drop {other}")));
+        }
+        assert_eq!(wrong, Vec::<String>::new());
+    }
 }

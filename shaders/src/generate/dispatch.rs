@@ -66,8 +66,13 @@ fn sky(features: &FeatureSet) -> String {
             SkyKind::Gradient => ("SKY_GRADIENT", "gradient_radiance(dir)".to_owned()),
         })
         .collect();
+    let none = if cases.is_empty() {
+        ""
+    } else {
+        "    if (load_frame_sky_at() == NONE) {\n        return vec3f(0.0);\n    }\n"
+    };
     format!(
-        "\n// Radiance of the sky along `dir`.\nfn dispatch_sky(dir: vec3f) -> vec3f {{\n{}}}\n",
+        "\n// Radiance of the sky along `dir`.\nfn dispatch_sky(dir: vec3f) -> vec3f {{\n{none}{}}}\n",
         switch("load_sky_kind()", &cases, "vec3f(0.0)")
     )
 }

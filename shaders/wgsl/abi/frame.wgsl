@@ -20,7 +20,7 @@ struct Frame {
     n_lights: u32,
     // First heap word (16 bytes each) of the `Camera`.
     camera_at: u32,
-    // First heap word of the `Sky`; unused without a sky.
+    // First heap word of the `Sky`; `NONE` without a sky.
     sky_at: u32,
     // First heap word of the `Material` table.
     material_at: u32,

@@ -2,7 +2,6 @@
 
 #import "abi/material.wgsl"
 #import "math/vector.wgsl"
-#import "scene/constants.wgsl"
 #import "scene/texture.wgsl"
 #import "surface/surface.wgsl"
 

@@ -1,7 +1,5 @@
 // The kernel of a scene without geometry: every camera ray sees the sky.
 
-#import "abi/film.wgsl"
-#import "camera/film_plane.wgsl"
 #import "kernel/film.wgsl"
 #import "sampler/pcg.wgsl"
 #import "scene/dispatch.wgsl"

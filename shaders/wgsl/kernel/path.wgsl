@@ -2,7 +2,6 @@
 // A vertex may leave two rays to trace: the shadow ray to the sampled light, then the next segment. Both
 // go through the same call of `trace`, one a turn of the kernel's loop.
 
-#import "camera/film_plane.wgsl"
 #import "kernel/vertex.wgsl"
 #import "kernel/state.wgsl"
 #import "sampler/pcg.wgsl"
@@ -20,7 +19,8 @@ fn path_begin(key: SampleKey, pixel: vec2u) -> Path {
 fn path_ray(path: Path) -> Ray {
     let shadow = path.shadow_light != NONE;
     let dir = select(path.dir, path.shadow_dir, shadow);
-    return Ray(state_origin(path.point, path.gap, dir), select(RAY_FAR, path.shadow_t, shadow), dir, path.skip, path.shadow_light);
+    let t_max = select(RAY_FAR, path.shadow_t, shadow);
+    return Ray(state_origin(path.point, path.gap, dir), t_max, dir, path.skip, path.shadow_light);
 }
 
 // Whether there is no ray left.

@@ -1,10 +1,8 @@
 // The path tracer: one thread renders one pixel of a tile, sample after sample. When a path ends its
 // thread begins the next one at once, so that lanes do not wait for the longest path.
 
-#import "abi/film.wgsl"
 #import "kernel/film.wgsl"
 #import "kernel/path.wgsl"
-#import "kernel/state.wgsl"
 #import "sampler/pcg.wgsl"
 #import "scene/records.wgsl"
 #import "trace/bvh.wgsl"

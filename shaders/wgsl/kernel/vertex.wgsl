@@ -6,7 +6,6 @@
 #import "light/emission.wgsl"
 #import "math/vector.wgsl"
 #import "sampler/pcg.wgsl"
-#import "scene/constants.wgsl"
 #import "scene/dispatch.wgsl"
 #import "scene/dispatch_bsdf.wgsl"
 #import "scene/records.wgsl"

@@ -1,7 +1,6 @@
 // The radiance that a material sends out, seen directly or through a light sample.
 
 #import "scene/constants.wgsl"
-#import "scene/records.wgsl"
 #import "scene/texture.wgsl"
 
 // Radiance of a surface with emission `emission`, material flags `flags` and emission texture `image` at

@@ -1,6 +1,5 @@
 // Three bands of colour by elevation, and a glow and a disc around one direction.
 
-#import "abi/sky.wgsl"
 #import "math/exp_log.wgsl"
 #import "scene/records.wgsl"
 

@@ -1,7 +1,6 @@
 // Bilinear lookup of an image. Row 0 of the texels is the top of the image, v = 1; texel centres are at
 // half integers.
 
-#import "abi/texture.wgsl"
 #import "scene/constants.wgsl"
 #import "scene/records.wgsl"
 #import "scene/texel.wgsl"

@@ -2,7 +2,6 @@
 // The stack is private and exactly as long as the scene's deepest walk needs; nothing bounds the number
 // of steps, because a tree is finite and a cap would open holes where geometry is hard.
 
-#import "abi/node.wgsl"
 #import "scene/constants.wgsl"
 #import "scene/leaf.wgsl"
 #import "scene/records.wgsl"

@@ -31,6 +31,7 @@ struct Hit {
     b: vec2f,
 }
 
+// Nothing hit before `t_max`.
 fn ray_miss(t_max: f32) -> Hit {
     return Hit(t_max, NONE, vec2f(0.0));
 }

@@ -1,6 +1,5 @@
 // A leaf of spheres.
 
-#import "abi/sphere.wgsl"
 #import "scene/candidate.wgsl"
 #import "scene/records.wgsl"
 #import "shape/sphere.wgsl"

@@ -1,6 +1,5 @@
 // A leaf of triangles.
 
-#import "abi/triangle.wgsl"
 #import "scene/candidate.wgsl"
 #import "scene/records.wgsl"
 #import "shape/triangle.wgsl"

@@ -1,0 +1,61 @@
+//! The feature sets that the tests run over.
+
+use pack::abi::{LightKind, MaterialKind, SkyKind, TextureFormat};
+use shaders::FeatureSet;
+use std::collections::BTreeMap;
+
+type Switch = fn(&mut FeatureSet);
+
+/// Every feature, as a name and the change that switches it on.
+const FEATURES: &[(&str, Switch)] = &[
+    ("triangles", |f| f.triangles = true),
+    ("spheres", |f| f.spheres = true),
+    ("smooth_normals", |f| f.smooth_normals = true),
+    ("diffuse", |f| _ = f.materials.insert(MaterialKind::Diffuse)),
+    ("metal", |f| _ = f.materials.insert(MaterialKind::Metal)),
+    ("dielectric", |f| _ = f.materials.insert(MaterialKind::Dielectric)),
+    ("emissive", |f| _ = f.materials.insert(MaterialKind::Emissive)),
+    ("principled", |f| _ = f.materials.insert(MaterialKind::Principled)),
+    ("sphere light", |f| _ = f.lights.insert(LightKind::Sphere)),
+    ("rectangle light", |f| _ = f.lights.insert(LightKind::Rectangle)),
+    ("triangle light", |f| _ = f.lights.insert(LightKind::Triangle)),
+    ("constant sky", |f| _ = f.skies.insert(SkyKind::Constant)),
+    ("gradient sky", |f| _ = f.skies.insert(SkyKind::Gradient)),
+    ("lens", |f| f.lens = true),
+    ("srgb textures", |f| _ = f.textures.insert(TextureFormat::Rgba8Srgb)),
+    ("linear textures", |f| _ = f.textures.insert(TextureFormat::Rgba8Linear)),
+    ("half textures", |f| _ = f.textures.insert(TextureFormat::Rgba16Float)),
+    ("alpha clip", |f| f.alpha_clip = true),
+];
+
+/// Nothing, everything, every single feature and every pair, each alone and on top of each way to have
+/// geometry. Sets whose kernels are the same text are there once.
+pub(crate) fn feature_sets() -> Vec<(String, FeatureSet)> {
+    let triangles = FeatureSet { triangles: true, ..FeatureSet::empty() };
+    let spheres = FeatureSet { spheres: true, ..FeatureSet::empty() };
+    let both = FeatureSet { spheres: true, ..triangles.clone() };
+    let bases = [
+        ("", FeatureSet::empty()),
+        ("triangles: ", triangles),
+        ("spheres: ", spheres),
+        ("both: ", both),
+    ];
+    let mut sets = vec![("full".to_owned(), FeatureSet::full())];
+    for (base_name, base) in bases {
+        sets.push((base_name.to_owned(), base.clone()));
+        for (i, (first, switch_first)) in FEATURES.iter().enumerate() {
+            for (second, switch_second) in &FEATURES[i..] {
+                let mut set = base.clone();
+                switch_first(&mut set);
+                switch_second(&mut set);
+                sets.push((format!("{base_name}{first} + {second}"), set));
+            }
+        }
+    }
+    let mut seen = BTreeMap::new();
+    for (name, set) in sets {
+        let text = shaders::link(&set).unwrap_or_else(|e| panic!("{name}: {e}")).text;
+        seen.entry(text).or_insert((name, set));
+    }
+    seen.into_values().collect()
+}
