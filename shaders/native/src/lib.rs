@@ -22,7 +22,7 @@
 //!
 //! # Where WGSL leaves a choice
 //! - A read outside an array gives its last element (of an empty array zero); a write is dropped.
-//! - `min`, `max`, `clamp` compare once and say nothing about NaN.
+//! - `min` and `max` compare once: of a NaN on the left they give NaN, of one on the right the other.
 //! - Sums of products (`dot`, matrices) have one written order; nothing is fused.
 //! - An `override` takes its default; without one it is refused.
 //! - A resource shorter than its fixed-size array reads as zeros.
@@ -33,6 +33,11 @@
 //! Each operation and built-in of IEEE arithmetic was compared on 16 384 random operands with
 //! Mesa 22.3's llvmpipe and has its bits. Not so `sin`, `exp`, `log`, `pow` and their kin, `acos`
 //! and theirs, `determinant` of four columns, and NaN, which every driver rounds as it likes.
+//!
+//! Nor can bits agree where a driver rewrites what stands in the WGSL. Mesa does: `x * c1 * c2` and
+//! `x + c1 + c2` (constants are folded first), `a*b + a*c`, `(a + b) - a`, `1 - (1 - a)`,
+//! `sqrt(a) * sqrt(a)`, `1 / (1 / a)`, `a * 0.0`, `a - a`, and `a != a`, which is false to it even
+//! for NaN. A kernel that wants the same bits everywhere does not write these.
 //!
 //! This crate knows nothing of the scene, of the pack, or of what the kernel computes.
 

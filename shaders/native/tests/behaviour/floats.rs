@@ -28,6 +28,7 @@ fn limits_compare_directly() {
     let larger = k.larger(Vec3::new(1.0, 5.0, -1.0), Vec3::new(2.0, 4.0, -2.0));
     assert_eq!(larger.to_array(), [2.0, 5.0, -1.0]);
     assert_eq!([-9.0, 0.5, 9.0].map(|x| k.clamped(x)), [-1.5, 0.5, 2.5]);
+    assert_eq!(k.clamped(Real::NAN), -1.5);
     assert_eq!(k.saturated(Vec2::new(-1.0, 1.5)).to_array(), [0.0, 1.0]);
     assert_eq!(k.absolute(Vec4::new(-1.0, 2.0, -0.0, 3.0)).to_array(), [1.0, 2.0, 0.0, 3.0]);
 }

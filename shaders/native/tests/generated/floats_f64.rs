@@ -338,10 +338,11 @@ pub fn max(a: Real, b: Real) -> Real {
     if a < b { b } else { a }
 }
 
-/// `x` between `low` and `high`; `high` wins where they cross.
+/// `x` between `low` and `high`; `high` wins where they cross; NaN is `low`.
 #[inline(always)]
 pub fn clamp(x: Real, low: Real, high: Real) -> Real {
-    min(max(x, low), high)
+    let x = if low < x { x } else { low };
+    if x < high { x } else { high }
 }
 
 /// -1, 0 or 1; 0 for both zeros and for NaN.
