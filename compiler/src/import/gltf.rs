@@ -1,10 +1,152 @@
-//! glTF and GLB files become a [`MeshFile`].
+//! glTF 2.0, text or binary, becomes a [`MeshFile`].
+//!
+//! The `gltf` crate's JSON model is the parser. Its wrappers are not used, because they trust
+//! indices (its own validator reads accessor tables unchecked): everything that refers to something
+//! is looked up here, and every byte range is computed with checked arithmetic.
+//!
+//! The scene graph is flattened: each node's mesh is baked into the frame of the file. Mirroring
+//! transforms turn triangles round, so that outside stays outside. `v` is flipped, because glTF
+//! counts it downwards. Cameras, lights, skins, morph targets and animations are not read.
+
+mod accessor;
+mod bake;
+mod container;
+mod material;
+mod node;
+mod primitive;
+
+use self::accessor::Buffers;
 use super::error::{ErrorKind, ImportError};
-use super::file::Limits;
+use super::file::{Limits, Reader};
+use super::image_set::ImageSet;
 use super::mesh::MeshFile;
+use super::report::ImportReport;
+use ::gltf::json::{Root, Value, deserialize};
 use std::path::Path;
 
-/// Reads a glTF or GLB file.
-pub fn load_gltf(path: &Path, _limits: &Limits) -> Result<MeshFile, ImportError> {
-    Err(ImportError::new(ErrorKind::Format, path.display().to_string(), "glTF is not read yet"))
+/// Extensions that are understood.
+const SUPPORTED: [&str; 6] = [
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+];
+
+/// A parsed file with its name for messages.
+struct Document<'a> {
+    root: &'a Root,
+    file: &'a str,
+}
+
+impl Document<'_> {
+    /// An error about something inside the file: `file: accessor 3: message`.
+    fn error(&self, kind: ErrorKind, what: &str, message: impl Into<String>) -> ImportError {
+        ImportError::new(kind, format!("{}: {what}", self.file), message)
+    }
+}
+
+/// Reads a `.gltf` or `.glb` file with the buffers and images that it refers to.
+pub fn load_gltf(path: &Path, limits: &Limits) -> Result<MeshFile, ImportError> {
+    let mut reader = Reader::new(limits);
+    let bytes = reader.read(path)?;
+    let file = path.display().to_string();
+    let (json, chunk) = container::split(&bytes, &file)?;
+    let root = parse(json, &file)?;
+    let document = Document { root: &root, file: &file };
+    let mut report = ImportReport::default();
+    warn_about(&document, &mut report);
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let buffers = container::buffers(&document, chunk, folder, &mut reader)?;
+    let placed = node::placed_meshes(&document)?;
+    let table = primitive::Table::new(&document, &placed, limits, &mut report)?;
+    let mut images = ImageSet::default();
+    let mut source = container::Images { document: &document, buffers: &buffers, folder, reader };
+    let materials = material::convert(&table.used, &mut source, &mut images, &mut report)?;
+    let Images { reader, .. } = source;
+    let parts = bake::parts(&placed, &table, &materials, &buffers, &mut report)?;
+    let images = images.decode(limits, &mut report)?;
+    report.files = reader.files;
+    report.n_triangles = parts.iter().map(|part| part.triangles.len() as u64).sum();
+    if report.n_triangles == 0 {
+        let message = match report.zero_area.count {
+            0 => "the scene of this file has no triangles".to_owned(),
+            n => format!("none of its {n} triangles has an area"),
+        };
+        return Err(ImportError::new(ErrorKind::Empty, file, message));
+    }
+    let materials = materials.into_iter().map(|material| material.imported).collect();
+    Ok(MeshFile { parts, materials, images, report })
+}
+
+use self::container::Images;
+
+fn parse(json: &[u8], file: &str) -> Result<Root, ImportError> {
+    let parsed: Result<Root, _> = deserialize::from_slice(json);
+    // A file that needs an extension may lack what plain glTF demands: say the extension first.
+    let required = match &parsed {
+        Ok(root) => root.extensions_required.clone(),
+        Err(_) => required_extensions(json),
+    };
+    let unknown: Vec<&str> =
+        required.iter().map(String::as_str).filter(|name| !SUPPORTED.contains(name)).collect();
+    if !unknown.is_empty() {
+        let list = unknown.join(", ");
+        let message = format!("the file requires {list}, which is not supported");
+        return Err(ImportError::new(ErrorKind::Extension, file, message).with_help(remedy(&list)));
+    }
+    let root = parsed.map_err(|error| {
+        let kind = if error.is_eof() { "the JSON is cut off" } else { "the JSON is not glTF" };
+        ImportError::new(ErrorKind::Format, file, format!("{kind}: {error}"))
+    })?;
+    if !root.asset.version.starts_with("2.") {
+        let version = super::error::excerpt(root.asset.version.as_bytes());
+        let message = format!("this is glTF {version}, only 2.x is read");
+        return Err(ImportError::new(ErrorKind::Format, file, message)
+            .with_help("convert it to glTF 2.0, for example with Blender"));
+    }
+    Ok(root)
+}
+
+fn remedy(extensions: &str) -> String {
+    let compressed = ["meshopt", "draco", "basisu", "webp"];
+    if compressed.iter().any(|word| extensions.contains(word)) {
+        "store it without compression, for example with `gltf-transform copy in.glb out.glb` or by \
+         exporting it again"
+            .to_owned()
+    } else {
+        "export it again without this extension".to_owned()
+    }
+}
+
+/// `extensionsRequired` of a JSON text that is otherwise not understood.
+fn required_extensions(json: &[u8]) -> Vec<String> {
+    let value: Value = deserialize::from_slice(json).unwrap_or_default();
+    let list = value.get("extensionsRequired").and_then(Value::as_array);
+    let names = list.into_iter().flatten().filter_map(Value::as_str);
+    names.map(str::to_owned).collect()
+}
+
+/// Says what of the file is left out.
+fn warn_about(document: &Document<'_>, report: &mut ImportReport) {
+    let root = document.root;
+    let used = root.extensions_used.iter().map(String::as_str);
+    let unknown: Vec<&str> = used.filter(|name| !SUPPORTED.contains(name)).collect();
+    if !unknown.is_empty() {
+        let message = format!("these extensions are left out: {}", unknown.join(", "));
+        report.warn(document.file, message);
+    }
+    let n_skinned = root.nodes.iter().filter(|node| node.skin.is_some()).count();
+    let n_cameras = root.nodes.iter().filter(|node| node.camera.is_some()).count();
+    let left_out = [
+        (root.animations.len(), "animations are left out: the mesh is as it is stored"),
+        (n_skinned, "skinned nodes are taken in the pose in which they are stored"),
+        (n_cameras, "cameras are left out: the scene declares its own"),
+    ];
+    for (count, what) in left_out {
+        if count > 0 {
+            report.warn(document.file, format!("{count} {what}"));
+        }
+    }
 }
