@@ -147,7 +147,8 @@ impl Reader<'_> {
 
     fn missing_edition(&mut self, chunks: &[Chunk]) {
         let first = chunks.first().map(|chunk| self.token_span(self.tokens[chunk.tokens.start]));
-        let top = self.bytes(0..0);
+        let top = self.text.len() - self.text.trim_start_matches('\u{feff}').len();
+        let top = self.bytes(top..top);
         let diagnostic = Diagnostic::error(Code("E0103"), "this file does not say its edition")
             .at(first.unwrap_or(top), "expected `rts 1` before anything else")
             .with_note("the edition fixes what every default means, for ever")

@@ -149,7 +149,7 @@ impl SourceSet {
         while !source.text.is_char_boundary(end) {
             end -= 1;
         }
-        let before = source.text.get(start..end).unwrap_or("");
+        let before = source.text.get(start..end).unwrap_or("").trim_start_matches('\u{feff}');
         let units: usize = before.chars().map(char::len_utf16).sum();
         Place {
             line: byte_offset(line),
@@ -173,14 +173,15 @@ impl SourceSet {
         })
     }
 
-    /// The text of a line, counted from 1, without its line break.
+    /// The text of a line, counted from 1, without its line break and a byte order mark.
     #[must_use]
     pub fn line(&self, file: FileId, line: u32) -> &str {
         let Some(source) = self.source(file) else { return "" };
         let index = (line as usize).wrapping_sub(1);
         let Some(&start) = source.line_starts.get(index) else { return "" };
         let end = source.line_starts.get(index + 1).map_or(source.text.len(), |&e| e as usize);
-        source.text.get(start as usize..end).unwrap_or("").trim_end_matches(['\n', '\r'])
+        let line = source.text.get(start as usize..end).unwrap_or("");
+        line.trim_start_matches('\u{feff}').trim_end_matches(['\n', '\r'])
     }
 
     fn source(&self, file: FileId) -> Option<&Source> {
@@ -212,4 +213,34 @@ pub enum LoadError {
     NotText(u64),
     /// Anything else, in words.
     Unreadable(String),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{FileId, SourceSet};
+
+    #[test]
+    fn places_count_characters_and_utf16_units() {
+        let mut sources = SourceSet::new();
+        let file = sources.add("a", "\u{feff}ab\r\n\u{1f600}é = 1\n");
+        let at = |byte| {
+            let place = sources.place(file, byte);
+            (place.line, place.column, place.column_utf16)
+        };
+        assert_eq!(at(4), (1, 2, 2));
+        assert_eq!(at(7), (2, 1, 1));
+        assert_eq!(at(11), (2, 2, 3));
+        assert_eq!(at(12), (2, 2, 3), "inside a character is at its start");
+        assert_eq!(at(13), (2, 3, 4));
+        assert_eq!(at(1000), (3, 1, 1));
+        assert_eq!((sources.n_lines(file), sources.line(file, 1)), (2, "ab"));
+        assert_eq!(sources.line(file, 3), "");
+    }
+
+    #[test]
+    fn an_unknown_file_is_no_guess() {
+        let sources = SourceSet::new();
+        assert_eq!((sources.name(FileId(3)), sources.text(FileId(3))), ("<unknown>", ""));
+        assert_eq!(sources.place(FileId(3), 9).line, 1);
+    }
 }

@@ -183,7 +183,7 @@ fn monstrous_texts_take_little_time() {
     }
     check(format!("rts 1\nlet a = [{}]", "1 + 1, ".repeat(n)).as_bytes());
     check("let a = 1\nmaterial b: c {\n".repeat(10_000).as_bytes());
-    assert!(start.elapsed() < Duration::from_secs(120), "{:?}", start.elapsed());
+    assert!(start.elapsed() < Duration::from_mins(2), "{:?}", start.elapsed());
 }
 
 #[test]

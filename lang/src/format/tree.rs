@@ -55,7 +55,7 @@ pub(super) enum Piece {
 /// Collects pieces and decides to which of them a comment or an empty line belongs.
 #[derive(Default)]
 pub(super) struct Pieces {
-    pieces: Vec<Piece>,
+    done: Vec<Piece>,
     entry: Vec<Node>,
     /// Line breaks since the last thing.
     n_newlines: usize,
@@ -81,7 +81,7 @@ impl Pieces {
     pub(super) fn end(&mut self) {
         if !self.entry.is_empty() {
             let nodes = std::mem::take(&mut self.entry);
-            self.pieces.push(Piece::Entry { nodes, trailing: None });
+            self.done.push(Piece::Entry { nodes, trailing: None });
         }
     }
 
@@ -92,26 +92,26 @@ impl Pieces {
     pub(super) fn comment(&mut self, comment: Token) {
         self.end();
         if self.n_newlines == 0
-            && let Some(Piece::Entry { trailing: trailing @ None, .. }) = self.pieces.last_mut()
+            && let Some(Piece::Entry { trailing: trailing @ None, .. }) = self.done.last_mut()
         {
             *trailing = Some(comment);
             return;
         }
         self.blank();
         self.n_newlines = 0;
-        self.pieces.push(Piece::Comment(comment));
+        self.done.push(Piece::Comment(comment));
     }
 
     /// Keeps one of any number of empty lines, none at the start.
     fn blank(&mut self) {
-        if self.n_newlines > 1 && !self.pieces.is_empty() {
-            self.pieces.push(Piece::Blank);
+        if self.n_newlines > 1 && !self.done.is_empty() {
+            self.done.push(Piece::Blank);
         }
     }
 
     pub(super) fn finish(mut self) -> Vec<Piece> {
         self.end();
-        self.pieces
+        self.done
     }
 }
 
