@@ -1,6 +1,7 @@
 //! Builds the tree of a triangle soup and writes it in the form that other builders are compared in.
 //!
-//! Usage: `bvh_dump SCENE TREE [THREADS]`. All files little-endian. Scene: `u64` count, then nine
+//! Usage: `bvh_dump SCENE TREE [THREADS [SIZES]]`, where `SIZES` is how many triangles each mesh has
+//! (`1000x12` stands for twelve meshes of a thousand). Without it there is one mesh. All files little-endian. Scene: `u64` count, then nine
 //! `f32` per triangle. Tree: `u64` nodes, `u64` indices, nodes of 32 bytes (lower corner, first,
 //! upper corner, count: a leaf over `indices[first ..]`, or with count 0 the children `first` and
 //! `first + 1`), then `u32` indices.
@@ -8,7 +9,8 @@
 
 use std::{env, error::Error, fs, time::Instant};
 
-use compiler::bvh::{self, Fragment, Tree};
+use compiler::bvh::{self, Joined, Primitives};
+use compiler::cache::Cache;
 use pack::abi::ChildRef;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -23,21 +25,35 @@ fn main() -> Result<(), Box<dyn Error>> {
     let floats: Vec<f32> = words.iter().copied().map(f32::from_le_bytes).collect();
     drop(bytes);
     let triangles: &[[[f32; 3]; 3]] = bytemuck::cast_slice(&floats);
+    let mesh_sizes = match rest.get(1) {
+        Some(text) => sizes(text)?,
+        None => vec![triangles.len()],
+    };
     let before = (cpu_and_peak().0, resident());
     let start = Instant::now();
-    let fragments = (0..).zip(triangles).map(|(i, t)| Fragment::of_triangle(t, i)).collect();
-    let tree = bvh::build(fragments)?;
+    let primitives = Primitives { triangles, mesh_sizes: &mesh_sizes, spheres: &[] };
+    let (tree, _) = bvh::build_scene(&primitives, &Cache::disabled())?;
     let wall = start.elapsed().as_secs_f64();
     let after = cpu_and_peak();
     println!(
-        "BUILD rtc th{threads} wall {wall:.3} cpu {:.3} peak B/tri {:.1} nodes {} depth {}",
+        "BUILD rtc th{threads} wall {wall:.3} cpu {:.3} peak B/tri {:.1} nodes {} stack {}",
         after.0 - before.0,
         (after.1 - before.1) / triangles.len() as f64,
         tree.nodes.len(),
-        tree.depth
+        tree.stack_need
     );
     fs::write(out, dump(&tree))?;
     Ok(())
+}
+
+/// `1000x12,40` as a list.
+fn sizes(text: &str) -> Result<Vec<usize>, Box<dyn Error>> {
+    let mut sizes = Vec::new();
+    for part in text.split(',') {
+        let (size, times) = part.split_once('x').unwrap_or((part, "1"));
+        sizes.extend(std::iter::repeat_n(size.parse::<usize>()?, times.parse()?));
+    }
+    Ok(sizes)
 }
 
 /// CPU seconds of this process and its peak resident bytes, where the system tells (0 elsewhere).
@@ -58,7 +74,7 @@ fn resident() -> f64 {
     4096.0 * pages.split(' ').nth(1).and_then(|s| s.parse().ok()).unwrap_or(0.0)
 }
 
-fn dump(tree: &Tree) -> Vec<u8> {
+fn dump(tree: &Joined) -> Vec<u8> {
     let mut nodes = vec![([0.0; 3], [0.0; 3], 0_u32, 0_u32)];
     nodes[0] = (tree.bounds.lo3(), tree.bounds.hi3(), 0, 0);
     let mut stack = vec![(tree.root, 0)];
@@ -79,13 +95,13 @@ fn dump(tree: &Tree) -> Vec<u8> {
     }
     let mut out = Vec::new();
     out.extend((nodes.len() as u64).to_le_bytes());
-    out.extend((tree.order.len() as u64).to_le_bytes());
+    out.extend((tree.triangle_order.len() as u64).to_le_bytes());
     for (lo, hi, first, count) in nodes {
         out.extend(lo.into_iter().flat_map(f32::to_le_bytes));
         out.extend(first.to_le_bytes());
         out.extend(hi.into_iter().flat_map(f32::to_le_bytes));
         out.extend(count.to_le_bytes());
     }
-    out.extend(tree.order.iter().flat_map(|i| i.to_le_bytes()));
+    out.extend(tree.triangle_order.iter().flat_map(|i| i.to_le_bytes()));
     out
 }

@@ -22,8 +22,8 @@ use crate::bvh::{self, BvhError, Fragment, Tree};
 
 pub use entry::EntryFault;
 
-/// Smaller trees are built quicker than files are opened.
-const MIN_PRIMITIVES: usize = 20_000;
+/// Trees of fewer primitives are not kept: building them is quicker than reading them.
+pub const MIN_PRIMITIVES: usize = 20_000;
 /// Default limit of all files together, bytes.
 const CAP: u64 = 4 << 30;
 

@@ -123,6 +123,7 @@ mod tests {
     }
 
     #[test]
+    #[expect(clippy::float_cmp, reason = "exact results are the point")]
     fn empty_and_single_point_scenes_have_a_frame() {
         assert_eq!(Normalization::of_points([]), Normalization::IDENTITY);
         let bad = [[f64::NAN, 0.0, 0.0], [0.0, f64::INFINITY, 0.0]];
@@ -154,6 +155,7 @@ mod tests {
     }
 
     #[test]
+    #[expect(clippy::float_cmp, reason = "exact results are the point")]
     fn a_representable_shift_changes_no_bit() {
         let points = [[0.5, 0.25, 0.75], [3.5, -1.75, 0.0], [1.125, 1.0, -1.5]];
         let base = Normalization::of_points(points);
@@ -165,6 +167,7 @@ mod tests {
     }
 
     #[test]
+    #[expect(clippy::float_cmp, reason = "exact results are the point")]
     fn there_and_back_is_exact_for_normalised_numbers() {
         let n = Normalization { center: [0.0; 3], exponent: -7 };
         for x in [0.1_f32, -0.9, 1e-30, 0.0] {

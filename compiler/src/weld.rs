@@ -78,6 +78,7 @@ mod tests {
     }
 
     #[test]
+    #[expect(clippy::float_cmp, reason = "exact results are the point")]
     fn ids_do_not_depend_on_order_or_threads() {
         let point = |i: u32| [(i % 7) as f32 - 3.0, (i % 11) as f32, (i % 5) as f32 * 0.1];
         let mesh: Vec<_> =

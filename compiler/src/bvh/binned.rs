@@ -77,8 +77,8 @@ impl Bins {
         for f in frags {
             let at = mapping.bins(f.centroid2());
             let b = f.bounds();
-            for axis in 0..3 {
-                let bin = at[axis] as usize % N_BINS;
+            for (axis, &bin) in at.iter().enumerate().take(3) {
+                let bin = bin as usize % N_BINS;
                 let slot = &mut bins.bounds[axis][bin];
                 *slot = slot.union(b);
                 bins.counts[axis][bin] += 1;
@@ -92,10 +92,10 @@ impl Bins {
         frags
             .par_chunks(CHUNK)
             .map(|chunk| Self::fill(chunk, mapping))
-            .reduce(|| Self::EMPTY, Self::merge)
+            .reduce(|| Self::EMPTY, |a, b| a.merge(&b))
     }
 
-    fn merge(mut self, other: Self) -> Self {
+    fn merge(mut self, other: &Self) -> Self {
         for axis in 0..3 {
             for bin in 0..N_BINS {
                 let slot = &mut self.bounds[axis][bin];

@@ -126,28 +126,28 @@ fn node_of(left: &Bounds, right: &Bounds) -> Node {
     }
 }
 
-fn fork(range: Range) -> Part {
+fn fork(mut range: Range) -> Part {
     if range.frags.len() <= PARALLEL_MIN {
         // Two primitives per leaf is typical; growing is rare.
         let mut nodes = Vec::with_capacity(range.frags.len() / 2);
         let root = grow(range, &mut nodes);
         return Part::Chunk { nodes, root };
     }
-    let [left, right] = split(range);
+    let [left, right] = split(&mut range);
     let node = node_of(&left.bounds, &right.bounds);
     let (left, right) = rayon::join(|| fork(left), || fork(right));
     Part::Fork { node, sides: Box::new([left, right]) }
 }
 
 /// Appends the subtree's nodes and returns the word of its root.
-fn grow(range: Range, out: &mut Vec<Node>) -> u32 {
+fn grow(mut range: Range, out: &mut Vec<Node>) -> u32 {
     if range.frags.len() <= SWEEP_MAX {
         range.frags.sort_unstable_by_key(Fragment::index);
         return grow_small(range.frags, range.first, range.levels, &range.bounds, out);
     }
     let at = out.len();
     let word = CHILD_INNER | index_of(out);
-    let [left, right] = split(range);
+    let [left, right] = split(&mut range);
     out.push(node_of(&left.bounds, &right.bounds));
     let left = grow(left, out);
     let right = grow(right, out);
@@ -156,7 +156,7 @@ fn grow(range: Range, out: &mut Vec<Node>) -> u32 {
 }
 
 /// Divides a range of more than `SWEEP_MAX` fragments in two.
-fn split(range: Range) -> [Range; 2] {
+fn split<'a>(range: &'a mut Range) -> [Range<'a>; 2] {
     let n = range.frags.len();
     let levels = range.levels - 1;
     let mapping = Mapping::new(&range.centroids);

@@ -180,6 +180,7 @@ mod tests {
     use super::*;
 
     #[test]
+    #[expect(clippy::float_cmp, reason = "exact results are the point")]
     fn bad_coordinates_are_made_finite() {
         let f = Fragment::new([f32::NAN, f32::NEG_INFINITY, -0.0], [1.0, f32::INFINITY, 1e30], 7);
         let b = f.bounds();

@@ -3,10 +3,12 @@
 //! Turns the trees of meshes and of the spheres into one flat node array in depth-first order, with
 //! primitives numbered as the pack stores them. Any number of groups of any size is fine: none
 //! gives an empty tree, few primitives a root that is a leaf.
+//!
+//! Boxes are made a little larger than their contents, see [`pad_lo`].
 
 use std::ops::Range;
 
-use pack::abi::{CHILD_INNER, NONE, Node};
+use pack::abi::{CHILD_INNER, ChildRef, NONE, Node};
 
 use super::fragment::{Bounds, MAX_PRIMITIVES};
 use super::top::{self, MAX_TOP_LEVELS, Top};
@@ -53,6 +55,11 @@ pub struct Joined {
 
 /// Joins groups. Every primitive of the scene must be a member of exactly one group.
 pub fn join(groups: &[Group]) -> Result<Joined, BvhError> {
+    join_groups(groups).map(|(joined, _)| joined)
+}
+
+/// Joins groups; also tells whether some of them overlap in more places than could be separated.
+pub(super) fn join_groups(groups: &[Group]) -> Result<(Joined, bool), BvhError> {
     let count = |kind| {
         let of_kind = groups.iter().filter(|g| g.kind == kind);
         of_kind.map(|g| g.tree.order.len()).sum::<usize>()
@@ -62,7 +69,7 @@ pub fn join(groups: &[Group]) -> Result<Joined, BvhError> {
         return Err(BvhError::TooMany { count });
     }
     let trees: Vec<&Tree> = groups.iter().map(|g| &g.tree).collect();
-    let mut pieces = top::pieces(&trees);
+    let (mut pieces, tangled) = top::pieces(&trees);
     let n_nodes: usize = trees.iter().map(|t| t.nodes.len()).sum();
     let mut out = Joined {
         nodes: Vec::with_capacity(n_nodes + groups.len()),
@@ -73,13 +80,34 @@ pub fn join(groups: &[Group]) -> Result<Joined, BvhError> {
         bounds: trees.iter().fold(Bounds::EMPTY, |b, t| b.union(t.bounds)),
     };
     if pieces.is_empty() {
-        return Ok(out);
+        return Ok((out, tangled));
     }
     let members: Vec<Members> = groups.iter().map(Members::new).collect();
     out.root = write(&top::build(&mut pieces, MAX_TOP_LEVELS), groups, &members, &mut out);
     out.stack_need = pack::bvh::stack_need(&out.nodes, out.root);
     debug_assert_eq!([out.triangle_order.len(), out.sphere_order.len()], counts);
-    Ok(out)
+    Ok((out, tangled))
+}
+
+impl Joined {
+    /// Expected cost of a ray by the surface-area heuristic, up to a factor that depends on the scene
+    /// alone: the sum over all children of half-area times 1 (node) or the number of primitives.
+    #[must_use]
+    pub fn cost(&self) -> f64 {
+        let half_area = |lo: [f32; 3], hi: [f32; 3]| {
+            let [x, y, z] = [0, 1, 2].map(|k| f64::from(hi[k]) - f64::from(lo[k]));
+            x * y + y * z + z * x
+        };
+        let tests = |word| match ChildRef::decode(word) {
+            ChildRef::Triangles { count, .. } | ChildRef::Spheres { count, .. } => count,
+            ChildRef::Inner(_) | ChildRef::Empty => 1,
+        };
+        let cost = |n: &Node| {
+            half_area(n.left_lo, n.left_hi) * f64::from(tests(n.left))
+                + half_area(n.right_lo, n.right_hi) * f64::from(tests(n.right))
+        };
+        self.nodes.iter().map(cost).sum()
+    }
 }
 
 /// Local index to scene index.
@@ -108,16 +136,37 @@ fn word_of(len: usize) -> u32 {
     u32::try_from(len).expect("at most 2^28 primitives have fewer than 2^31 nodes")
 }
 
+/// Widens a box downwards, so that no face of it contains a vertex.
+///
+/// A ray that runs exactly in a face, parallel to an axis, has `0 * (1 / tiny)` = 0 for the distance
+/// to that face: the slab test would say that it leaves the box at its origin. With a face that is
+/// 2^-32 away or more, the distance is beyond any hit for any `tiny` below 1e-10. Two units in the
+/// last place also cover the rounding of the slab test itself. In the normalised frame, where
+/// coordinates near 1 are 6e-8 apart, this costs no measurable step.
+fn pad_lo(lo: [f32; 3]) -> [f32; 3] {
+    lo.map(|x| x - margin(x))
+}
+
+/// Widens a box upwards, see [`pad_lo`].
+fn pad_hi(hi: [f32; 3]) -> [f32; 3] {
+    hi.map(|x| x + margin(x))
+}
+
+/// 2^-22 relative plus 2^-32; both functions above stay monotone, so boxes stay nested.
+fn margin(x: f32) -> f32 {
+    x.abs() * (1.0 / 4_194_304.0) + 1.0 / 4_294_967_296.0
+}
+
 /// Appends a subtree to the output and returns its reference there.
 fn write(top: &Top, groups: &[Group], members: &[Members], out: &mut Joined) -> u32 {
     match top {
         Top::Fork { sides, bounds } => {
             let at = out.nodes.len();
             out.nodes.push(Node {
-                left_lo: bounds[0].lo3(),
-                left_hi: bounds[0].hi3(),
-                right_lo: bounds[1].lo3(),
-                right_hi: bounds[1].hi3(),
+                left_lo: pad_lo(bounds[0].lo3()),
+                left_hi: pad_hi(bounds[0].hi3()),
+                right_lo: pad_lo(bounds[1].lo3()),
+                right_hi: pad_hi(bounds[1].hi3()),
                 ..Node::default()
             });
             let left = write(&sides[0], groups, members, out);
@@ -143,9 +192,13 @@ fn write(top: &Top, groups: &[Group], members: &[Members], out: &mut Joined) -> 
             };
             let copies = group.tree.nodes[span.nodes].iter();
             out.nodes.extend(copies.map(|n| Node {
+                left_lo: pad_lo(n.left_lo),
                 left: word(n.left),
+                left_hi: pad_hi(n.left_hi),
                 right: word(n.right),
-                ..*n
+                right_lo: pad_lo(n.right_lo),
+                right_hi: pad_hi(n.right_hi),
+                ..Node::default()
             }));
             word(piece.word)
         }

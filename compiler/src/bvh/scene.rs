@@ -8,12 +8,15 @@ use std::time::Duration;
 
 use rayon::prelude::*;
 
-use super::join::{Group, GroupKind, Joined, join};
-use super::{BvhError, Fragment};
-use crate::cache::{Cache, CacheWarning, Source};
+use super::join::{Group, GroupKind, Joined, join_groups};
+use super::{BvhError, Fragment, MAX_PRIMITIVES};
+use crate::cache::{Cache, CacheWarning, Cached, Source};
 
-/// Meshes of fewer triangles share a group.
-pub const SMALL_MESH: usize = 64;
+/// Meshes of fewer triangles share a group: the cache would not keep their trees anyway.
+pub const SMALL_MESH: usize = crate::cache::MIN_PRIMITIVES;
+
+/// One tree over all triangles replaces the joined trees when its cost is below this part of theirs.
+const MERGE_BELOW: f64 = 0.9;
 
 /// The primitives of a scene, in the frame in which the kernel sees them.
 #[derive(Clone, Copy, Debug)]
@@ -29,8 +32,10 @@ pub struct Primitives<'a> {
 /// What building cost and what the cache did.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BuildReport {
-    /// Groups in total.
+    /// Trees that were built or loaded.
     pub groups: usize,
+    /// Whether the meshes were so tangled that one tree over all triangles was taken.
+    pub merged: bool,
     /// Groups whose trees are large enough for the cache and were built and stored.
     pub stored: usize,
     /// Groups whose trees came from the cache.
@@ -46,7 +51,7 @@ pub struct BuildReport {
 /// Which meshes share a tree, as ranges of triangles of the scene. A mesh of at least [`SMALL_MESH`]
 /// triangles has its own tree, so that it is found in the cache whatever else the scene holds. All
 /// smaller ones are one group, the last: a tree over their triangles is better than a tree over
-/// their trees, and building it costs next to nothing.
+/// their trees, and takes no longer to build.
 #[must_use]
 pub fn plan(mesh_sizes: &[usize]) -> Vec<Vec<Range<u32>>> {
     let mut groups = Vec::new();
@@ -58,7 +63,7 @@ pub fn plan(mesh_sizes: &[usize]) -> Vec<Vec<Range<u32>>> {
         match size {
             0 => {}
             _ if size < SMALL_MESH => small.push(bound(first)..bound(end)),
-            _ => groups.push(vec![bound(first)..bound(end)]),
+            _ => groups.push(std::iter::once(bound(first)..bound(end)).collect()),
         }
         first = end;
     }
@@ -67,58 +72,90 @@ pub fn plan(mesh_sizes: &[usize]) -> Vec<Vec<Range<u32>>> {
 }
 
 /// Builds the tree of a scene.
+///
+/// Meshes that fill the same space all over (leaves and twigs, halves of one shell) remain tangled
+/// after joining: every ray visits both trees. Where joining could not separate the meshes, one tree
+/// over all triangles is made as well, and the cheaper of the two is taken.
 pub fn build_scene(
     primitives: &Primitives,
     cache: &Cache,
 ) -> Result<(Joined, BuildReport), BvhError> {
-    let Primitives { triangles, mesh_sizes, spheres } = *primitives;
-    let listed = mesh_sizes.iter().try_fold(0_usize, |sum, &n| sum.checked_add(n));
-    if listed != Some(triangles.len()) {
-        return Err(BvhError::Sizes { count: triangles.len() });
+    check_counts(primitives)?;
+    let mut report = BuildReport::default();
+    let by_mesh = plan(primitives.mesh_sizes);
+    let n_groups = by_mesh.len();
+    let groups = build_groups(primitives, by_mesh, cache, &mut report)?;
+    let (mut joined, tangled) = join_groups(&groups)?;
+    drop(groups);
+    if tangled && n_groups > 1 {
+        let end = u32::try_from(primitives.triangles.len()).expect("counts were checked");
+        let all = vec![std::iter::once(0..end).collect()];
+        let groups = build_groups(primitives, all, cache, &mut report)?;
+        let (merged, _) = join_groups(&groups)?;
+        if merged.cost() < MERGE_BELOW * joined.cost() {
+            joined = merged;
+            report.merged = true;
+        }
     }
-    if let Some(&count) =
-        [triangles.len(), spheres.len()].iter().find(|&&n| n > super::MAX_PRIMITIVES)
-    {
-        return Err(BvhError::TooMany { count });
+    if report.stored > 0 {
+        // A cache that stays too large harms nobody; the next run tries again.
+        let _ = cache.prune();
     }
+    Ok((joined, report))
+}
+
+fn check_counts(primitives: &Primitives) -> Result<(), BvhError> {
+    let count = primitives.triangles.len();
+    let listed = primitives.mesh_sizes.iter().try_fold(0_usize, |sum, &n| sum.checked_add(n));
+    if listed != Some(count) {
+        return Err(BvhError::Sizes { count });
+    }
+    let counts = [count, primitives.spheres.len()];
+    match counts.iter().find(|&&n| n > MAX_PRIMITIVES) {
+        Some(&count) => Err(BvhError::TooMany { count }),
+        None => Ok(()),
+    }
+}
+
+/// The trees of groups of triangles, side by side, and of the spheres.
+fn build_groups(
+    primitives: &Primitives,
+    groups: Vec<Vec<Range<u32>>>,
+    cache: &Cache,
+    report: &mut BuildReport,
+) -> Result<Vec<Group>, BvhError> {
     let mut todo: Vec<_> =
-        plan(mesh_sizes).into_iter().map(|members| (GroupKind::Triangles, members)).collect();
-    if !spheres.is_empty() {
-        let end = u32::try_from(spheres.len()).expect("checked above");
+        groups.into_iter().map(|members| (GroupKind::Triangles, members)).collect();
+    if !primitives.spheres.is_empty() {
+        let end = u32::try_from(primitives.spheres.len()).expect("counts were checked");
         todo.push((GroupKind::Spheres, std::iter::once(0..end).collect()));
     }
     let results: Vec<_> = todo
         .into_par_iter()
         .map(|(kind, members)| {
-            let scene = members.iter().flat_map(Clone::clone);
             let fragments = match kind {
                 GroupKind::Triangles => (0..)
-                    .zip(scene)
-                    .map(|(i, t)| Fragment::of_triangle(&triangles[t as usize], i))
+                    .zip(members.iter().flat_map(Clone::clone))
+                    .map(|(i, t)| Fragment::of_triangle(&primitives.triangles[t as usize], i))
                     .collect(),
                 GroupKind::Spheres => (0..)
-                    .zip(spheres)
+                    .zip(primitives.spheres)
                     .map(|(i, &(center, radius))| Fragment::of_sphere(center, radius, i))
                     .collect(),
             };
             cache.tree(fragments).map(|cached| (kind, members, cached))
         })
         .collect::<Result<_, _>>()?;
-    let mut report = BuildReport { groups: results.len(), ..BuildReport::default() };
-    let mut groups = Vec::with_capacity(results.len());
-    for (kind, members, cached) in results {
+    let finish = |(kind, members, cached): (GroupKind, Vec<Range<u32>>, Cached)| {
         report.add(cached.source, cached.warning);
-        groups.push(Group { kind, tree: cached.tree, members });
-    }
-    if report.stored > 0 {
-        // A cache that stays too large harms nobody; the next run tries again.
-        let _ = cache.prune();
-    }
-    Ok((join(&groups)?, report))
+        Group { kind, tree: cached.tree, members }
+    };
+    Ok(results.into_iter().map(finish).collect())
 }
 
 impl BuildReport {
     fn add(&mut self, source: Source, warning: Option<CacheWarning>) {
+        self.groups += 1;
         match source {
             Source::Built { took } => self.build_time += took,
             Source::Stored { took } => {

@@ -55,11 +55,10 @@ pub(super) fn best(frags: &[Fragment]) -> Option<SweepSplit> {
             above[k] = (acc, acc.half_area() * (n - k) as f32);
         }
         let (mut acc, mut mask) = (Bounds::EMPTY, 0);
-        for k in 1..n {
+        for (k, &(right, cost_right)) in above.iter().enumerate().take(n).skip(1) {
             let position = at(k - 1);
             acc = acc.union(frags[position].bounds());
             mask |= 1_u32 << position;
-            let (right, cost_right) = above[k];
             let cost = acc.half_area() * k as f32 + cost_right;
             let this = (cost, k.abs_diff(n - k));
             if cost > 0.0 && cost.is_finite() && this < key {

@@ -101,8 +101,9 @@ fn children(node: &Node) -> [(Bounds, u32); 2] {
     ]
 }
 
-/// Whole groups first, then opened while that separates groups. Empty groups give no piece.
-pub(super) fn pieces(trees: &[&Tree]) -> Vec<Piece> {
+/// Whole groups first, then opened while that separates groups. Empty groups give no piece. Also tells
+/// whether the budget ended that, so that groups are still tangled.
+pub(super) fn pieces(trees: &[&Tree]) -> (Vec<Piece>, bool) {
     let roots = trees.iter().enumerate().filter(|(_, t)| t.root != NONE);
     let mut pieces: Vec<Piece> =
         roots.map(|(group, t)| Piece::new(trees, group, t.root, t.bounds)).collect();
@@ -125,13 +126,15 @@ pub(super) fn pieces(trees: &[&Tree]) -> Vec<Piece> {
         pieces[at] = left;
         pieces.push(right);
     }
-    pieces
+    let tangled = !queue.is_empty();
+    (pieces, tangled)
 }
 
 /// Whether the boxes have a common inside or touch.
 fn overlap(a: &Bounds, b: &Bounds) -> bool {
     let apart = a.lo.cmpgt(b.hi) | b.lo.cmpgt(a.hi);
-    apart.bitmask() & 7 == 0
+    // The three lowest bits are x, y and z.
+    apart.bitmask().trailing_zeros() >= 3
 }
 
 /// A binary tree over pieces.

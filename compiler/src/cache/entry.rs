@@ -244,9 +244,8 @@ mod tests {
         check_forged(|b| put(b, 12, pack::abi::CHILD_SPHERES), &tree(TreeFault::Kind));
         check_forged(|b| put(b, 12, 0), &tree(TreeFault::Unreachable));
         // The last leaf: another beginning, one more, one less.
-        let last = |b: &[u8]| {
-            (HEADER..order).step_by(4).filter(|&at| get(b, at) & root == 0).last().unwrap()
-        };
+        let last =
+            |b: &[u8]| (HEADER..order).step_by(4).rfind(|&at| get(b, at) & root == 0).unwrap();
         let change = |by: u32| {
             move |b: &mut Vec<u8>| {
                 let at = last(b);
