@@ -8,6 +8,10 @@ pub struct Control {
     total: AtomicU64,
     done: AtomicU64,
     rays: AtomicU64,
+    /// See `break_block`; 0 is never.
+    broken_block: AtomicU64,
+    /// See `lose_device`; 0 is never.
+    lost_after: AtomicU64,
     note: Box<dyn Fn(&str) + Send + Sync>,
 }
 
@@ -37,6 +41,8 @@ impl Control {
             total: AtomicU64::new(0),
             done: AtomicU64::new(0),
             rays: AtomicU64::new(0),
+            broken_block: AtomicU64::new(0),
+            lost_after: AtomicU64::new(0),
             note: Box::new(note),
         }
     }
@@ -57,6 +63,31 @@ impl Control {
     pub fn progress(&self) -> Progress {
         let load = |counter: &AtomicU64| counter.load(Ordering::Relaxed);
         Progress { total: load(&self.total), done: load(&self.done), rays: load(&self.rays) }
+    }
+
+    /// For tests: the CPU kernel panics in its `n`th block from now, counted from 1.
+    #[doc(hidden)]
+    pub fn break_block(&self, n: u64) {
+        self.broken_block.store(n, Ordering::Relaxed);
+    }
+
+    /// For tests: each GPU device is lost after `n` tiles.
+    #[doc(hidden)]
+    pub fn lose_device(&self, n: u64) {
+        self.lost_after.store(n, Ordering::Relaxed);
+    }
+
+    /// Whether the block that begins now is to break.
+    pub(crate) fn breaks_now(&self) -> bool {
+        let left = |n: u64| n.checked_sub(1);
+        self.broken_block.fetch_update(Ordering::Relaxed, Ordering::Relaxed, left) == Ok(1)
+    }
+
+    /// Whether a device that has rendered `n` tiles is to be lost.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn loses_device_after(&self, n: u64) -> bool {
+        let lost_after = self.lost_after.load(Ordering::Relaxed);
+        lost_after > 0 && n >= lost_after
     }
 
     pub(crate) fn note(&self, text: &str) {

@@ -17,10 +17,21 @@ use thiserror::Error;
 /// Pixels of a block: 32 × 32.
 const BLOCK: u64 = 32 * 32;
 
-/// The CPU kernel cannot start.
+/// The CPU kernel cannot render.
 #[derive(Debug, Error)]
-#[error("cannot start the threads of the CPU kernel")]
-pub(crate) struct CpuError(#[from] rayon::ThreadPoolBuildError);
+pub(crate) enum CpuError {
+    /// No threads.
+    #[error("cannot start the threads of the CPU kernel: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+    /// The tree of the scene is too deep.
+    #[error("the scene needs a traversal stack of {need} entries, the CPU kernel has {available}")]
+    Stack {
+        /// Entries that are needed.
+        need: u32,
+        /// Entries that there are.
+        available: u32,
+    },
+}
 
 /// What the kernel reads: one slice for each binding, empty where the scene has nothing.
 #[derive(Clone, Copy)]
@@ -90,6 +101,10 @@ fn render_with(
     job: &Job,
     run: &Run<'_>,
 ) -> Result<(), CpuError> {
+    let (need, available) = (setup.stack_need(), kernel::f32::STACK_SIZE);
+    if need > available {
+        return Err(CpuError::Stack { need, available });
+    }
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(job.threads.unwrap_or(0))
         .thread_name(|i| format!("rtr-{i}"))
@@ -109,8 +124,12 @@ fn worker(tile: RenderTile, setup: &Setup<'_>, run: &Run<'_>) {
         let inputs = Inputs::new(setup, &frame);
         let film = bytemuck::cast_slice_mut(&mut pixels);
         let size = [item.tile.w, item.tile.h];
+        let render = || {
+            assert!(!run.control().breaks_now(), "broken for a test");
+            tile(inputs, size, film);
+        };
         // Only `pixels` is written, and a failed block is not read.
-        match catch_unwind(AssertUnwindSafe(|| tile(inputs, size, film))) {
+        match catch_unwind(AssertUnwindSafe(render)) {
             Ok(()) => run.deposit(&item, &pixels),
             Err(panic) => run.fail(&item, panic_text(panic.as_ref())),
         }

@@ -7,6 +7,7 @@
 use crate::region::{Rect, SampleRange, insert_range};
 use pack::abi::FilmPixel;
 use std::collections::BTreeMap;
+use std::fmt;
 
 /// A sample whose radiance was not finite; enough to render it again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,7 +44,7 @@ impl Counters {
 }
 
 /// The accumulated picture of `region`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Film {
     /// Whole image in pixels; `region` lies inside it.
     pub image_size: [u32; 2],
@@ -57,6 +58,19 @@ pub struct Film {
     pub counts: Vec<u32>,
     /// Rays, bad samples, longest path.
     pub counters: Counters,
+}
+
+/// Without the pixels, which nobody could read.
+impl fmt::Debug for Film {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Film")
+            .field("image_size", &self.image_size)
+            .field("region", &self.region)
+            .field("ranges", &self.ranges)
+            .field("samples", &self.samples())
+            .field("counters", &self.counters)
+            .finish_non_exhaustive()
+    }
 }
 
 impl Film {

@@ -164,10 +164,11 @@ impl Tiler {
         }
         let eights = |n: u64| u32::try_from(n / 8 * 8).unwrap_or(u32::MAX - 7).max(8);
         if self.x == 0 {
-            self.band = eights(pixels.isqrt()).min(h - self.y);
+            self.band = eights(pixels.isqrt()).min(h);
         }
         let width = eights(pixels / u64::from(self.band)).min(w - self.x);
-        let tile = Rect { x: x + self.x, y: y + self.y, w: width, h: self.band };
+        let height = self.band.min(h - self.y);
+        let tile = Rect { x: x + self.x, y: y + self.y, w: width, h: height };
         self.x += width;
         if self.x >= w {
             self.x = 0;
@@ -230,6 +231,17 @@ mod tests {
             }
             assert!(seen.iter().all(|&count| count == 1), "{sizes:?}");
         }
+    }
+
+    #[test]
+    fn tiles_of_1024_pixels_are_32_by_32_up_to_the_edges() {
+        let mut tiler = Tiler::new(Rect { x: 0, y: 0, w: 72, h: 40 });
+        let sizes: Vec<_> =
+            std::iter::from_fn(|| tiler.next(1024)).map(|tile| (tile.w, tile.h)).collect();
+        assert_eq!(sizes, [(32, 32), (32, 32), (8, 32), (32, 8), (32, 8), (8, 8)]);
+        // A thin region gets long tiles instead of small ones.
+        let thin = Tiler::new(Rect { x: 0, y: 0, w: 4096, h: 4 }).next(1024);
+        assert_eq!(thin.map(|tile| (tile.w, tile.h)), Some((256, 4)));
     }
 
     #[test]

@@ -146,6 +146,11 @@ impl<'a> Run<'a> {
         self.control.note(text);
     }
 
+    /// What the owner says.
+    pub(crate) fn control(&self) -> &Control {
+        self.control
+    }
+
     /// Whether anything has been deposited.
     #[cfg(feature = "gpu")]
     pub(crate) fn done(&self) -> u64 {

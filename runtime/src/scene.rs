@@ -156,7 +156,6 @@ impl Setup<'_> {
     }
 
     /// Entries that the traversal stack needs, as the checks of the pack computed them.
-    #[cfg(feature = "gpu")]
     pub(crate) fn stack_need(&self) -> u32 {
         self.scene.settings().stack_need
     }

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{SIZE, SPP, scene};
+use common::{SIZE, SPP, assert_same, scene};
 use runtime::output::merge;
 use runtime::{
     Control, DeviceChoice, Film, Job, Outcome, Precision, Rect, SampleRange, Scene, Stop, render,
@@ -40,7 +40,7 @@ fn threads_do_not_change_a_bit() {
     let scene = scene();
     let job = |threads| Job { threads: Some(threads), ..Job::of_scene(&scene) };
     let one = run(&scene, &job(1));
-    assert_eq!(one.film(), run(&scene, &job(3)).film());
+    assert_same(one.film(), run(&scene, &job(3)).film());
 }
 
 #[test]
@@ -131,7 +131,7 @@ fn a_time_limit_gives_the_picture_of_a_sample_range() {
     assert!(timed.film().is_even() && !timed.picture.meta.complete);
     let end = timed.film().samples().0;
     let exact = run(&scene, &Job { samples: range(0, end), ..Job::of_scene(&scene) });
-    assert_eq!(timed.film(), exact.film());
+    assert_same(timed.film(), exact.film());
 }
 
 #[test]
@@ -172,10 +172,30 @@ fn impossible_jobs_are_refused() {
     let big = [1 << 16, 1 << 16];
     for (job, expected) in [
         (Job { crop, ..job.clone() }, "crop 70,0,3,1 is empty or leaves the image of 72x40 pixels"),
-        (Job { image_size: big, crop: Rect::whole(big), ..job.clone() }, "an image of 65536x65536 pixels"),
+        (
+            Job { image_size: big, crop: Rect::whole(big), ..job.clone() },
+            "an image of 65536x65536 pixels",
+        ),
     ] {
         let error = render(&scene, &job, &DeviceChoice::Cpu, &Control::default());
         let text = error.expect_err("it is impossible").to_string();
         assert!(text.starts_with(expected), "{text}");
     }
+}
+
+#[test]
+fn a_broken_block_is_reported_and_everything_else_is_kept() {
+    let scene = scene();
+    let job = Job { samples: range(0, 1 << 20), ..Job::of_scene(&scene) };
+    let control = Control::default();
+    // The second block of the second batch: the image has 3 x 2 blocks.
+    control.break_block(8);
+    let outcome = render(&scene, &Job { threads: Some(1), ..job }, &DeviceChoice::Cpu, &control);
+    let outcome = outcome.expect("a picture in spite of it");
+    let [failure] = outcome.failures.as_slice() else { panic!("{:?}", outcome.failures) };
+    assert_eq!(failure.tile, Rect { x: 32, y: 0, w: 32, h: 32 });
+    assert_eq!((failure.sample, failure.message.as_str()), (16, "broken for a test"));
+    assert_eq!((outcome.stop, outcome.film().samples()), (Stop::Failed, (16, 32)));
+    let n_short = outcome.film().counts.iter().filter(|n| **n == 16).count();
+    assert_eq!(n_short, 32 * 32);
 }

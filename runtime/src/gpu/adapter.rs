@@ -9,6 +9,12 @@ pub struct Adapter {
 }
 
 impl Adapter {
+    /// Its name alone.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.info.name
+    }
+
     /// Name, kind, interface and driver in one line.
     #[must_use]
     pub fn describe(&self) -> String {

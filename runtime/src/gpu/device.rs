@@ -88,7 +88,8 @@ impl Device {
             fault.set(error.to_string());
         }));
         let windows = upload_all(&device, &queue, &buffers)?;
-        let (layout, pipeline) = compile(&device, setup.kernel(), &windows, module)?;
+        let checks = checks(module, adapter.is_software());
+        let (layout, pipeline) = compile(&device, setup.kernel(), &windows, checks)?;
         let mut ready = Self { device, queue, pipeline, layout, windows, lost, uncaptured };
         ready.try_one_workgroup(setup)?;
         Ok(ready)
@@ -184,13 +185,13 @@ fn compile(
     device: &wgpu::Device,
     kernel: &str,
     windows: &[Window],
-    module: Module,
+    checks: Option<ShaderRuntimeChecks>,
 ) -> Result<(BindGroupLayout, ComputePipeline), GpuError> {
     std::thread::scope(|scope| {
         std::thread::Builder::new()
             .name("rtr-compile".to_owned())
             .stack_size(COMPILER_STACK)
-            .spawn_scoped(scope, || compile_here(device, kernel, windows, module))
+            .spawn_scoped(scope, || compile_here(device, kernel, windows, checks))
             .map_err(|error| GpuError::Device(error.to_string()))?
             .join()
             .unwrap_or_else(|panic| Err(GpuError::Kernel(panic_text(panic.as_ref()))))
@@ -201,13 +202,13 @@ fn compile_here(
     device: &wgpu::Device,
     kernel: &str,
     windows: &[Window],
-    module: Module,
+    checks: Option<ShaderRuntimeChecks>,
 ) -> Result<(BindGroupLayout, ComputePipeline), GpuError> {
     let internal = device.push_error_scope(ErrorFilter::Internal);
     let (memory, validation) = scopes(device);
     let source = ShaderSource::Wgsl(kernel.into());
-    let module =
-        create_module(device, ShaderModuleDescriptor { label: Some("kernel"), source }, module);
+    let descriptor = ShaderModuleDescriptor { label: Some("kernel"), source };
+    let module = create_module(device, descriptor, checks);
     let layout = device.create_bind_group_layout(&BindGroupLayoutDescriptor {
         label: Some("scene"),
         entries: &layout_entries(windows),
@@ -232,25 +233,34 @@ fn compile_here(
     }
 }
 
+/// Checks to leave in a trusted module; `None`: the module is not trusted.
+fn checks(module: Module, software: bool) -> Option<ShaderRuntimeChecks> {
+    // Mesa's llvmpipe (seen in 22.3.6) gives wrong pictures for correct loops whose first statement is
+    // no exit, unless each turn is counted. On a software adapter that costs nothing that matters.
+    (module == Module::Trusted).then_some(ShaderRuntimeChecks {
+        force_loop_bounding: software,
+        ..ShaderRuntimeChecks::unchecked()
+    })
+}
+
 fn create_module(
     device: &wgpu::Device,
     descriptor: ShaderModuleDescriptor<'_>,
-    module: Module,
+    checks: Option<ShaderRuntimeChecks>,
 ) -> wgpu::ShaderModule {
-    match module {
-        Module::Checked => device.create_shader_module(descriptor),
+    match checks {
+        None => device.create_shader_module(descriptor),
         // SAFETY: without the checks a shader must not index outside of its buffers and arrays, loop
-        // for ever or divide integers by zero. `Trusted` is chosen only for a text whose every line
-        // `trust::judge` found in the kernel that this program was built with (so it is our code,
-        // with constants that are numbers), and only for a `Pack<Checked>`, whose rules are what
-        // that code relies on: every index of every table lies inside the table it points into,
-        // children come after their parents (traversal ends), leaf ranges lie inside, and the
-        // traversal stack is as long as the checked tree needs. The sizes in `Frame` come from the
-        // same pack, and the film buffer has two words for each pixel of the dispatched tile.
+        // for ever or divide integers by zero. A module is trusted only when `trust::judge` found
+        // that every declaration in it is our own and the one made for the features of this pack, so
+        // the code is what was reviewed and tested here; and only for a `Pack<Checked>`, whose rules
+        // are what that code relies on: every index of every table lies inside the table it points
+        // into, children come after their parents (traversal ends), leaf ranges lie inside, and the
+        // traversal stack is at least as long as the checked tree needs. The table offsets in `Frame`
+        // come from the same pack, readers expect as many windows as are bound, and the film buffer
+        // has two words for each pixel of the dispatched tile.
         #[expect(unsafe_code, reason = "checks cost up to half of the speed; see the proof above")]
-        Module::Trusted => unsafe {
-            device.create_shader_module_trusted(descriptor, ShaderRuntimeChecks::unchecked())
-        },
+        Some(checks) => unsafe { device.create_shader_module_trusted(descriptor, checks) },
     }
 }
 

@@ -223,17 +223,22 @@ impl Device {
     ) -> Result<(), GpuError> {
         let mut free = Slots::default();
         let mut last_end = Instant::now();
+        let mut n_tiles = 0;
         loop {
             while under_way.len() < IN_FLIGHT {
                 let items = claim(run, pace);
                 if items.is_empty() {
                     break;
                 }
+                n_tiles += items.len() as u64;
                 under_way.push_back(self.start(setup, &mut free, &items));
             }
             // With nothing under way there is nothing to wait for: the run is over.
             if under_way.is_empty() {
                 return Ok(());
+            }
+            if run.control().loses_device_after(n_tiles) {
+                self.device.destroy();
             }
             self.collect(run, pace, under_way, &mut free, &mut last_end)?;
         }

@@ -8,7 +8,7 @@ use pack::abi::{
     SkyKind, Sphere, TriShade, Triangle,
 };
 use pack::{Manifest, Pack, PackWriter};
-use runtime::Scene;
+use runtime::{Film, Scene};
 use shaders::FeatureSet;
 
 /// Size of the scene's image.
@@ -56,6 +56,16 @@ pub(crate) fn pack_bytes(features: &FeatureSet) -> Vec<u8> {
 
 /// The bytes of the pack with any kernel.
 pub(crate) fn pack_with_kernel(kernel: &str) -> Vec<u8> {
+    pack(kernel, None)
+}
+
+/// The bytes of the pack that asks for an output.
+pub(crate) fn pack_with_output(output: &str) -> Vec<u8> {
+    let kernel = shaders::link(&features()).expect("the modules link").text;
+    pack(&kernel, Some(output.to_owned()))
+}
+
+fn pack(kernel: &str, output: Option<String>) -> Vec<u8> {
     let materials = [
         material(MaterialKind::Diffuse, [0.7, 0.3, 0.2]),
         Material { fuzz: 0.1, ..material(MaterialKind::Metal, [0.8, 0.8, 0.9]) },
@@ -114,7 +124,7 @@ pub(crate) fn pack_with_kernel(kernel: &str) -> Vec<u8> {
         ..Sky::default()
     };
     let (settings, camera) = view();
-    let manifest = Manifest { scene: "marbles".to_owned(), ..Manifest::default() };
+    let manifest = Manifest { scene: "marbles".to_owned(), output, ..Manifest::default() };
     let mut writer = PackWriter::new();
     writer
         .record(&settings)
@@ -162,4 +172,17 @@ fn view() -> (RenderSettings, Camera) {
 /// The scene.
 pub(crate) fn scene() -> Scene {
     Scene::new(Pack::from_bytes(pack_bytes(&features())).expect("the scene keeps the rules"))
+}
+
+/// Panics, with the first difference, unless both films are the same bit for bit.
+pub(crate) fn assert_same(a: &Film, b: &Film) {
+    assert_eq!((a.image_size, a.region, &a.ranges), (b.image_size, b.region, &b.ranges));
+    assert_eq!(a.counts, b.counts);
+    let differ = |i: &usize| a.sums[*i] != b.sums[*i];
+    let different: Vec<usize> = (0..a.sums.len()).filter(differ).collect();
+    if let Some(&i) = different.first() {
+        let (n, all) = (different.len(), a.sums.len());
+        panic!("{n} of {all} pixels differ, pixel {i} first: {:?} {:?}", a.sums[i], b.sums[i]);
+    }
+    assert_eq!(a.counters, b.counters);
 }
