@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use lang::diagnostic::{Applicability, Diagnostic, Severity};
+use lang::diagnostic::{Applicability, Diagnostic, Edit, Severity};
 use lang::parse::parse;
 use lang::source::{FileId, SourceSet, Span};
 use lang::syntax::{File, ItemKind};
@@ -95,4 +95,39 @@ fn the_whole_language_reads_without_complaint() {
     assert_eq!(tree.items.len(), 38);
     assert!(!tree.items.iter().any(|item| matches!(item.kind, ItemKind::Poisoned(_))));
     assert_eq!(tree.items[0].span.file, FileId(0));
+}
+
+/// The text with the edits made.
+fn apply(text: &str, edits: &[Edit]) -> String {
+    let mut edits: Vec<&Edit> = edits.iter().collect();
+    edits.sort_by_key(|edit| edit.span);
+    let mut text = text.to_owned();
+    for edit in edits.iter().rev() {
+        text.replace_range(edit.span.start as usize..edit.span.end as usize, &edit.replacement);
+    }
+    text
+}
+
+#[test]
+fn every_sure_fix_cures_its_fault_and_brings_no_other() {
+    let mut n_fixes = 0;
+    for case in read("faults.rts").split("--- ").skip(1) {
+        let (title, body) = case.split_once('\n').expect("a line with the name");
+        let (_, _, diagnostics) = parse_text(body);
+        for fix in diagnostics.iter().flat_map(|d| &d.fixes) {
+            if fix.applicability != Applicability::MachineApplicable {
+                continue;
+            }
+            let (sources, _, after) = parse_text(&apply(body, &fix.edits));
+            let left = describe(&sources, &after);
+            assert_eq!(
+                after.len(),
+                diagnostics.len() - 1,
+                "{title}: {} leaves\n{left}",
+                fix.message
+            );
+            n_fixes += 1;
+        }
+    }
+    assert!(n_fixes >= 8, "only {n_fixes}");
 }
