@@ -78,7 +78,8 @@ pub fn analyze(
 ) -> Analysis {
     let mut sources = SourceSet::new();
     let (program, mut diagnostics) = resolve::load(&mut sources, root_name, root_text, loader);
-    let files = sources.ids().map(|id| sources.name(id).to_owned()).collect();
+    let files: Vec<String> = sources.ids().map(|id| sources.name(id).to_owned()).collect();
+    let n_files = files.len();
     let defines = define::read(&mut sources, options, &mut diagnostics);
     let (models, faults) = resolve::like::models(&program);
     diagnostics.extend(faults);
@@ -89,6 +90,7 @@ pub fn analyze(
     let scene = Checker::new().run(&mut ev);
     let params = params(&ev);
     let mut diagnostics = ev.diagnostics;
+    diagnostics.iter_mut().for_each(|d| define::keep_editable(d, n_files));
     diagnostic::sort(&mut diagnostics);
     diagnostics.dedup_by(|a, b| a.code == b.code && a.message == b.message && a.span() == b.span());
     let scene = scene.filter(|_| !diagnostics.iter().any(Diagnostic::is_error));
@@ -167,12 +169,7 @@ impl Checker {
     }
 
     fn check_decl(&mut self, ev: &mut Evaluator<'_>, kind: Kind, id: ItemId) {
-        if let Some(decl) = ev.program.decl(id)
-            && let Some(index) = &decl.index
-        {
-            let text = format!("{} cannot have an index", kind.with_article());
-            let error = Diagnostic::error(diagnostic::Code("E0802"), text);
-            ev.fault(error.at(index.span, "only instances have one"));
+        if refuse_index(ev, kind, id) {
             return;
         }
         let Some(fields) = ev.fields_of(id) else { return };
@@ -199,6 +196,17 @@ impl Checker {
             }
         }
     }
+}
+
+/// Reports an index on anything but an instance.
+fn refuse_index(ev: &mut Evaluator<'_>, kind: Kind, id: ItemId) -> bool {
+    let Some(index) = ev.program.decl(id).and_then(|decl| decl.index.as_ref()) else {
+        return false;
+    };
+    let text = format!("{} cannot have an index", kind.with_article());
+    let error = Diagnostic::error(diagnostic::Code("E0802"), text);
+    ev.fault(error.at(index.span, "only instances have one"));
+    true
 }
 
 /// Declarations of one kind, in order.

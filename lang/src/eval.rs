@@ -23,6 +23,7 @@ mod operator;
 mod path;
 pub(crate) mod value;
 
+pub(crate) use binding::param_words;
 use value::Value;
 
 /// Nested evaluations: one expression (at most `syntax::MAX_HEIGHT`) and the fields it refers to.
@@ -486,9 +487,7 @@ fn takes_unit(expr: &Expr) -> bool {
 /// Proposes a unit of `dim` behind a literal, or a factor behind anything else.
 pub(crate) fn with_unit_fix(error: Diagnostic, expr: &Expr, dim: Dim, unit: &str) -> Diagnostic {
     let unit = match unit {
-        "" => {
-            units::UNITS.iter().find(|u| u.dim == dim && u.factor == 1.0).map_or("", |u| u.symbol)
-        }
+        "" => units::si_symbol(dim).unwrap_or_default(),
         known => known,
     };
     if unit.is_empty() {

@@ -3,10 +3,13 @@
 mod check;
 pub mod diagnostic;
 mod eval;
+mod explain;
 pub mod format;
 mod lex;
 pub mod parse;
+mod reference;
 mod resolve;
+mod resolved;
 pub mod scene;
 pub mod schema;
 pub mod source;
@@ -16,3 +19,6 @@ pub mod syntax;
 pub mod units;
 
 pub use check::{Analysis, Options, ParamInfo, analyze};
+pub use explain::{codes, explain, explained_names};
+pub use reference::reference_markdown;
+pub use resolved::resolved;

@@ -244,6 +244,27 @@ impl Program {
         names.iter().filter(|(_, e)| is_public(e)).map(|(name, _)| name.clone()).collect()
     }
 
+    /// Says where an imported file has the name that is not known here.
+    fn in_imports(&self, error: Diagnostic, module: u32, name: &Ident) -> Diagnostic {
+        let this = &self.modules[module as usize];
+        for (imported, span) in &this.imports {
+            let names = &self.modules[*imported as usize].names;
+            let Some(Target::Item(id)) = names.get(&name.text).map(|entry| entry.target) else {
+                continue;
+            };
+            if !self.item(id).public {
+                let text = format!("`{}` is private in its file", name.text);
+                return error.because(self.name_span(id), text).because(*span, "imported here");
+            }
+            let alias = this.names.iter().find(|(_, e)| e.target == Target::Module(*imported));
+            if let Some((alias, _)) = alias {
+                let text = format!("{alias}.{}", name.text);
+                return error.with_fix(Fix::sure(format!("write `{text}`"), name.span, text));
+            }
+        }
+        error
+    }
+
     fn unknown_name(&self, module: u32, name: &Ident, kind: Option<Kind>) -> Diagnostic {
         let what = kind.map_or("nothing", Kind::name);
         let text = match kind {
@@ -257,6 +278,9 @@ impl Program {
         };
         let valid = names.iter().filter(|(_, entry)| fits(entry)).map(|(name, _)| name.as_str());
         let mut error = did_you_mean(Diagnostic::error(Code("E0202"), text), name, valid);
+        if error.fixes.is_empty() {
+            error = self.in_imports(error, module, name);
+        }
         let similar = error.fixes.first().and_then(|fix| fix.edits.first());
         if let Some(entry) = similar.and_then(|edit| names.get(&edit.replacement)) {
             error = error.because(entry.span, "similar name, declared here");
@@ -271,7 +295,11 @@ pub(crate) fn did_you_mean<'a>(
     name: &Ident,
     valid: impl IntoIterator<Item = &'a str>,
 ) -> Diagnostic {
-    let close = suggest(&name.text, valid);
+    let mut close = suggest(&name.text, valid);
+    if name.text.chars().count() < 3 {
+        // Every name of one letter is near every other one.
+        close.retain(|other| other.eq_ignore_ascii_case(&name.text));
+    }
     match close.as_slice() {
         [] => error.at(name.span, "not known here"),
         [one] => error.at(name.span, format!("did you mean `{one}`?")).with_fix(Fix::sure(

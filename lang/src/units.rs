@@ -62,6 +62,28 @@ impl Dim {
         self == Self::NONE
     }
 
+    /// A count of values: `three lengths`, `two plain numbers`, `three values in m/s`.
+    #[must_use]
+    pub fn several(self, n: usize) -> String {
+        let count = match n {
+            2 => "two".to_owned(),
+            3 => "three".to_owned(),
+            4 => "four".to_owned(),
+            n => n.to_string(),
+        };
+        let noun = match self {
+            Self::NONE => "plain numbers",
+            Self::LENGTH => "lengths",
+            Self::ANGLE => "angles",
+            Self::TIME => "times",
+            Self::TEMPERATURE => "temperatures",
+            Self::PIXEL => "numbers of pixels",
+            Self::EV => "exposures",
+            _ => return format!("{count} values in {}", self.si_unit()),
+        };
+        format!("{count} {noun}")
+    }
+
     fn zip(self, other: Self, f: impl Fn(i8, i8) -> Option<i8>) -> Option<Self> {
         let mut out = [0; N_BASE];
         for ((o, a), b) in out.iter_mut().zip(self.0).zip(other.0) {
@@ -232,6 +254,12 @@ const NOT_METRIC: &[(&str, &str)] = &[
 #[must_use]
 pub fn find(symbol: &str) -> Option<&'static Unit> {
     UNITS.iter().find(|u| u.symbol == symbol)
+}
+
+/// The unit of a dimension that needs no factor, where it has a symbol.
+#[must_use]
+pub fn si_symbol(dim: Dim) -> Option<&'static str> {
+    UNITS.iter().find(|unit| unit.dim == dim && unit.factor == 1.0).map(|unit| unit.symbol)
 }
 
 /// Reads the whole text after a number: `mm`, `%`, `/m`, `m/s`, `m2`.

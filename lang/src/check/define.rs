@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::Options;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::eval::Define;
 use crate::parse;
 use crate::source::{SourceSet, Span};
@@ -34,6 +34,19 @@ pub(super) fn read(
         }
     }
     defines
+}
+
+/// Fixes of the command line become advice: only the first `n_files` files can be edited.
+pub(super) fn keep_editable(diagnostic: &mut Diagnostic, n_files: usize) {
+    let (keep, advice): (Vec<Fix>, Vec<Fix>) = std::mem::take(&mut diagnostic.fixes)
+        .into_iter()
+        .partition(|fix| fix.edits.iter().all(|edit| (edit.span.file.0 as usize) < n_files));
+    diagnostic.fixes = keep;
+    for fix in advice {
+        let text: Vec<String> =
+            fix.edits.iter().map(|edit| format!("`{}`", edit.replacement)).collect();
+        diagnostic.helps.push(format!("{}: {}", fix.message, text.join(", ")));
+    }
 }
 
 fn malformed(

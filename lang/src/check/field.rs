@@ -212,7 +212,7 @@ impl Evaluator<'_> {
         if !slot.field.typical.is_empty() {
             error = error.with_note(format!("typical: {}", slot.field.typical));
         }
-        let looks_like_percent = bounds.max == 1.0 && number > 1.0 && number <= 100.0;
+        let looks_like_percent = bounds.max == 1.0 && (2.0..=100.0).contains(&number);
         if looks_like_percent && matches!(&slot.expr.kind, ExprKind::Number(n) if n.unit.is_none())
         {
             error = error.with_fix(Fix::guess("write percent", slot.span().after(), "%"));
@@ -279,14 +279,7 @@ impl Evaluator<'_> {
                 )
             }
             _ => {
-                let noun = dim.to_string();
-                let noun = noun.trim_start_matches("an ").trim_start_matches("a ");
-                let words = ["", "one", "two", "three"];
-                let needs = match dim {
-                    Dim::NONE => format!("{} plain numbers", words[n.min(3)]),
-                    Dim::PIXEL => format!("{} numbers of pixels", words[n.min(3)]),
-                    _ => format!("{} {noun}s", words[n.min(3)]),
-                };
+                let needs = dim.several(n);
                 if matches!(value, Value::Number(_, own) if own == dim) {
                     let text = format!("{} needs {needs}, found one", slot.name());
                     let error =
@@ -495,7 +488,7 @@ impl Evaluator<'_> {
                 )
             }
             other => {
-                let needs = format!("an interval between two values, each {}", bounds.dim);
+                let needs = format!("an interval between {}", bounds.dim.several(2));
                 self.wrong_dimension(slot, &other, (bounds.dim, bounds.unit), &needs)
             }
         }

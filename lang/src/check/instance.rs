@@ -8,6 +8,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::value::{ShapeValue, Value};
 use crate::eval::{Evaluator, Scope};
 use crate::resolve::ItemId;
+use crate::schema::Kind;
 use crate::source::Span;
 use crate::syntax::Index;
 use crate::units::Dim;
@@ -64,6 +65,10 @@ impl World {
     /// Checks every object, then which objects hold which.
     pub(super) fn check_objects(&mut self, ev: &mut Evaluator<'_>, ids: &[ItemId]) {
         for &id in ids {
+            if super::refuse_index(ev, Kind::Object, id) {
+                self.objects.insert(id, None);
+                continue;
+            }
             let fields = ev.fields_of(id);
             let thing = fields.filter(|fields| fields.ok).and_then(|fields| thing(&fields));
             self.objects.insert(id, thing);
@@ -333,7 +338,10 @@ fn index_range(ev: &mut Evaluator<'_>, index: &Index, module: u32) -> Option<(i6
         Value::Poison => return None,
         Value::Range(low, high, Dim::NONE) => (low, high),
         other => {
-            let text = format!("an index runs through plain numbers, not {}", other.described());
+            let text = format!(
+                "an index runs from one plain number to another, not {}",
+                other.described()
+            );
             ev.fault(error(text).at(span, "write `0..6`"));
             return None;
         }

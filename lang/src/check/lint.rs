@@ -5,7 +5,7 @@ use crate::eval::Evaluator;
 use crate::schema::{Field, FieldType};
 use crate::source::Span;
 use crate::syntax::{Expr, ExprKind, Number, Unit};
-use crate::units::Dim;
+use crate::units::{self, Dim};
 
 /// Looks at a literal as it is written.
 pub(super) fn literal(ev: &mut Evaluator<'_>, field: &Field, expr: &Expr) {
@@ -26,7 +26,10 @@ pub(super) fn literal(ev: &mut Evaluator<'_>, field: &Field, expr: &Expr) {
         ) if unit.text == "%" && bounds.max == 1.0 && *value > 0.0 && *value < 1.0 => {
             let text = format!("`{}` is less than one percent", field.name);
             let warning = Diagnostic::warning(Code("W0302"), "percent", text)
-                .at(expr.span, format!("this is {}", value * 0.01))
+                .at(
+                    expr.span,
+                    format!("this is {}", units::show_number((value * 1e4).round() * 1e-6)),
+                )
                 .with_fix(Fix::guess("write a ratio", unit.span, ""));
             ev.diagnostics.push(warning);
         }

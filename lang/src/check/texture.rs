@@ -4,7 +4,7 @@ use super::fields::Fields;
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::eval::value::Value;
 use crate::eval::{Evaluator, Scope};
-use crate::resolve::{ItemId, did_you_mean, quoted_list};
+use crate::resolve::{ItemId, did_you_mean};
 use crate::scene::{AssetFormat, Axis, ColorSpace, Wrap};
 use crate::schema::{self, Kind};
 use crate::source::Span;
@@ -101,11 +101,11 @@ fn file_call(ev: &mut Evaluator<'_>, id: ItemId, kind: Kind, expr: &Expr) -> Opt
             let value = ev.eval(expr, scope);
             if value != Value::Poison {
                 let examples: Vec<String> =
-                    kind.types().iter().map(|schema| format!("{}(...)", schema.name)).collect();
+                    kind.types().iter().map(|schema| format!("`{}(...)`", schema.name)).collect();
                 let text = format!(
                     "{} is {}, not {}",
                     kind.with_article(),
-                    quoted_list(&examples),
+                    examples.join(" or "),
                     value.described()
                 );
                 let error = Diagnostic::error(Code("E0305"), text).at(expr.span, value.described());

@@ -230,11 +230,7 @@ impl Evaluator<'_> {
         value: &Value,
         expr: &Expr,
     ) -> Value {
-        let needs = match (vector, wanted) {
-            (true, Dim::NONE) => "three numbers".to_owned(),
-            (true, dim) => format!("three values, each {dim}"),
-            (false, dim) => dim.to_string(),
-        };
+        let needs = if vector { wanted.several(3) } else { wanted.to_string() };
         let text = format!("{what} needs {needs}, found {}", value.described());
         let error = |code| Diagnostic::error(Code(code), text);
         match value.dim() {

@@ -3,9 +3,10 @@
 use super::value::Value;
 use super::{Evaluator, Scope, literal_unit, takes_unit, with_unit_fix};
 use crate::diagnostic::{Code, Diagnostic, Fix};
+use crate::resolve::Found;
 use crate::scene::Axis;
 use crate::source::Span;
-use crate::syntax::{BinaryOp, CompareOp, Expr};
+use crate::syntax::{BinaryOp, CompareOp, Expr, ExprKind, ItemKind};
 use crate::units::{self, Dim};
 
 impl Evaluator<'_> {
@@ -44,6 +45,7 @@ impl Evaluator<'_> {
             Ok(value) => value,
             Err(Trouble::Dimensions) => {
                 let error = mismatch(op, op_span, (&a, left), (&b, right));
+                let error = self.unit_of_other_side(error, (&a, left), (&b, right), scope);
                 let error = self.explain_names(error, left, scope);
                 let error = self.explain_names(error, right, scope);
                 self.fault(error)
@@ -118,7 +120,7 @@ impl Evaluator<'_> {
                     .at(op_span, "")
                     .because(left.span, a.described())
                     .because(right.span, b.described());
-                let error = unit_of_other_side(error, (&a, left), (&b, right));
+                let error = self.unit_of_other_side(error, (&a, left), (&b, right), scope);
                 let error = self.explain_names(error, left, scope);
                 let error = self.explain_names(error, right, scope);
                 self.fault(error)
@@ -198,50 +200,61 @@ fn mismatch(
         BinaryOp::Sub => format!("cannot subtract {y} from {x}"),
         _ => format!("cannot add {x} and {y}"),
     };
-    let error = Diagnostic::error(Code("E0302"), text)
+    Diagnostic::error(Code("E0302"), text)
         .at(op_span, "")
         .because(left.span, x)
-        .because(right.span, y);
-    unit_of_other_side(error, (a, left), (b, right))
+        .because(right.span, y)
 }
 
 fn dim_text(value: &Value) -> String {
     value.dim().map_or_else(|| value.described(), |dim| dim.to_string())
 }
 
-/// Where a literal stands on one side: proposes the unit of the other side.
-fn unit_of_other_side(
-    error: Diagnostic,
-    (a, left): (&Value, &Expr),
-    (b, right): (&Value, &Expr),
-) -> Diagnostic {
-    let (Some(x), Some(y)) = (a.dim(), b.dim()) else { return error };
-    let sides = [(right, y, left, x), (left, x, right, y)];
-    for (literal, own, other, wanted) in sides {
-        if wanted.is_none() {
-            continue;
+impl Evaluator<'_> {
+    /// Where a literal stands on one side: proposes the unit of the other side.
+    fn unit_of_other_side(
+        &self,
+        error: Diagnostic,
+        (a, left): (&Value, &Expr),
+        (b, right): (&Value, &Expr),
+        scope: Scope<'_>,
+    ) -> Diagnostic {
+        let (Some(x), Some(y)) = (a.dim(), b.dim()) else { return error };
+        let sides = [(right, y, left, x), (left, x, right, y)];
+        for (literal, own, other, wanted) in sides {
+            if wanted.is_none() {
+                continue;
+            }
+            let of_dimension = |unit: &&str| units::parse(unit).is_ok_and(|(dim, _)| dim == wanted);
+            let unit = self.written_unit(other, scope).filter(of_dimension);
+            if own.is_none() && takes_unit(literal) {
+                let error = with_unit_fix(error, literal, wanted, unit.unwrap_or_default());
+                return as_guess(error);
+            }
+            let usual = if wanted == Dim::ANGLE { Some("deg") } else { units::si_symbol(wanted) };
+            let written = match &literal.kind {
+                ExprKind::Number(number) => number.unit.as_ref(),
+                _ => None,
+            };
+            if let (Some(unit), Some(written)) = (unit.or(usual), written) {
+                return error.with_fix(Fix::guess(format!("write {wanted}"), written.span, unit));
+            }
         }
-        let unit = literal_unit(other)
-            .filter(|unit| units::parse(unit).is_ok_and(|(dim, _)| dim == wanted));
-        if own.is_none() && takes_unit(literal) {
-            let error = with_unit_fix(error, literal, wanted, unit.unwrap_or_default());
-            return as_guess(error);
-        }
-        let common = unit.or_else(|| {
-            let si = units::UNITS.iter().find(|u| u.dim == wanted);
-            let degrees = (wanted == Dim::ANGLE).then_some("deg");
-            degrees.or(si.map(|unit| unit.symbol))
-        });
-        let written = match &literal.kind {
-            crate::syntax::ExprKind::Number(number) => number.unit.as_ref(),
-            _ => None,
+        error
+    }
+
+    /// The unit that a literal is written with, or the value of a name.
+    fn written_unit<'e>(&'e self, expr: &'e Expr, scope: Scope<'_>) -> Option<&'e str> {
+        let ExprKind::Path(path) = &expr.kind else { return literal_unit(expr) };
+        let Ok(Found::Item(id, _)) = self.program.find(scope.module, path, None) else {
+            return None;
         };
-        if let (Some(unit), Some(written)) = (common, written) {
-            let text = format!("write {wanted}");
-            return error.with_fix(Fix::guess(text, written.span, unit));
+        match &self.program.item(id).kind {
+            ItemKind::Let(binding) => literal_unit(&binding.value),
+            ItemKind::Param(param) => literal_unit(&param.value),
+            _ => None,
         }
     }
-    error
 }
 
 /// The unit of the other side is likely, not certain.

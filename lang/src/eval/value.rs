@@ -76,18 +76,13 @@ impl Value {
         match self {
             Self::Poison => "an unknown value".to_owned(),
             Self::Number(_, dim) => dim.to_string(),
-            Self::Vector(items, Dim::NONE) => format!("a tuple of {} plain numbers", items.len()),
-            Self::Vector(items, dim) => {
-                format!("a tuple of {} values in {}", items.len(), dim.si_unit())
-            }
+            Self::Vector(items, dim) => dim.several(items.len()),
             Self::Bool(_) => "`true` or `false`".to_owned(),
             Self::Text(_) => "a text".to_owned(),
             Self::Color(_) => "a colour".to_owned(),
             Self::Hex(_) => "a colour without a space".to_owned(),
             Self::Axis(_) => "an axis".to_owned(),
-            Self::Range(_, _, dim) => {
-                format!("an interval of {}", dim.to_string().trim_start_matches("a "))
-            }
+            Self::Range(_, _, dim) => format!("an interval between {}", dim.several(2)),
             Self::Word(word) => format!("the word `{word}`"),
             Self::Integer(_) => "a whole number".to_owned(),
             Self::Item(kind, _) => kind.with_article().to_owned(),

@@ -1,0 +1,127 @@
+//! The schema as Markdown: `docs/reference.md`, and the pages of `rtc explain`.
+
+use std::fmt::Write as _;
+
+use crate::eval::function::FUNCTIONS;
+use crate::eval::param_words;
+use crate::explain;
+use crate::schema::{self, Field, FieldType, Kind, TypeSchema};
+use crate::units::{self, UNITS};
+
+/// The whole reference. `docs/reference.md` holds exactly this text.
+#[must_use]
+pub fn reference_markdown() -> String {
+    let mut out = String::from(HEAD);
+    for kind in Kind::ALL {
+        let _ = writeln!(out, "\n## {}\n", kind.name());
+        for (i, schema) in kind.types().iter().enumerate() {
+            if i > 0 {
+                out.push('\n');
+            }
+            if !schema.name.is_empty() {
+                let _ = writeln!(out, "### {}\n", schema.path());
+            }
+            body(&mut out, schema);
+        }
+    }
+    out.push_str("\n## Functions\n\n| function | value |\n|---|---|\n");
+    for function in FUNCTIONS {
+        let _ = writeln!(out, "| `{}` | {} |", function.signature(), function.doc);
+    }
+    out.push_str("\n## Units\n\n| unit | name | in SI |\n|---|---|---|\n");
+    for unit in UNITS {
+        let factor = units::show_number(unit.factor);
+        let _ =
+            writeln!(out, "| `{}` | {} | {factor} {} |", unit.symbol, unit.doc, unit.dim.si_unit());
+    }
+    out.push_str("\nA unit may have a power (`m2`), stand under a stroke (`m/s`), or alone under one (`/m`).\n");
+    out.push_str("\n## Types of parameters\n\n");
+    let words: Vec<String> = param_words().iter().map(|word| format!("`{word}`")).collect();
+    let _ = writeln!(out, "{}.", words.join(", "));
+    out.push_str("\n## Codes\n\n`rtc explain CODE` prints a page with an example.\n\n");
+    for code in explain::codes() {
+        let page = explain::explain(code).unwrap_or_default();
+        let title = page.lines().next().unwrap_or_default().trim_start_matches("# ");
+        let title = title.trim_start_matches(code).trim_start_matches(": ");
+        let _ = writeln!(out, "- `{code}` {title}");
+    }
+    out
+}
+
+const HEAD: &str = "# Reference of the scene language
+
+<!-- Made from the schema in `lang/src/schema`; `UPDATE=1 cargo test -p lang` rewrites it. -->
+
+Every kind, type and field of `rts 1`. A field that is not listed here is an error. `rtc explain NAME`
+prints any of these tables, for example `rtc explain material.metal`.
+";
+
+/// The page of one type.
+pub(crate) fn type_page(schema: &TypeSchema) -> String {
+    let mut out = format!("# {}\n\n", schema.path());
+    body(&mut out, schema);
+    out
+}
+
+fn body(out: &mut String, schema: &TypeSchema) {
+    let _ = writeln!(out, "{}\n\n```rts\n{}\n```\n", schema.doc, schema.example);
+    out.push_str("| field | value | default | |\n|---|---|---|---|\n");
+    for field in schema.fields {
+        let _ = writeln!(
+            out,
+            "| `{}` | {} | {} | {} |",
+            field.name,
+            escape(&value_text(field)),
+            escape(&schema::default_text(field)),
+            escape(&doc_text(field))
+        );
+    }
+    let foreign: Vec<String> = schema
+        .fields
+        .iter()
+        .filter(|field| !field.foreign.is_empty())
+        .map(|field| {
+            let names: Vec<String> =
+                field.foreign.iter().map(|(name, _)| format!("`{name}`")).collect();
+            format!("`{}` ({})", field.name, names.join(", "))
+        })
+        .collect();
+    if !foreign.is_empty() {
+        let _ = writeln!(out, "\nNames elsewhere: {}.", foreign.join("; "));
+    }
+}
+
+/// Type and range of a field.
+fn value_text(field: &Field) -> String {
+    let (ty, range) = (schema::type_text(field.ty), schema::range_text(field.ty));
+    if range.is_empty() { ty } else { format!("{ty}, {range}") }
+}
+
+fn doc_text(field: &Field) -> String {
+    let mut text = field.doc.to_owned();
+    if let FieldType::Word(words) = field.ty {
+        let list: Vec<String> =
+            words.iter().map(|(word, doc)| format!("`{word}`: {doc}")).collect();
+        let _ = write!(text, " {}.", list.join("; "));
+    }
+    if !field.typical.is_empty() {
+        let _ = write!(text, " Typical: {}.", field.typical);
+    }
+    text
+}
+
+fn escape(text: &str) -> String {
+    text.replace('|', "\\|")
+}
+
+/// The page of one field.
+pub(crate) fn field_page(schema: &TypeSchema, field: &Field) -> String {
+    let owner = if schema.name.is_empty() { schema.kind.name() } else { schema.name };
+    let mut out = format!("# {owner}.{}\n\n{}\n\n", field.name, doc_text(field));
+    let _ = writeln!(out, "- value: {}", value_text(field));
+    let _ = writeln!(out, "- default: {}", schema::default_text(field));
+    for (name, from) in field.foreign {
+        let _ = writeln!(out, "- called `{name}` in {from}");
+    }
+    out
+}

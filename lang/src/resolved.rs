@@ -1,0 +1,279 @@
+//! A scene as text in which nothing is left to be worked out: `rtc show --resolved`.
+//!
+//! The text reads like `.rts`, with every default written out, every `like` and index expanded and
+//! every value in a unit that shows it exactly. It is for people and for comparing; the names of
+//! expanded instances and their axes are not part of the language.
+
+use std::fmt::{self, Write as _};
+
+use crate::scene::{
+    AssetFormat, Axis, Camera, Color, ColorSpace, Instance, MaterialModel, Rgb, Scalar, Scene,
+    Shape, Sky, SkyModel, ToneMap, Wrap,
+};
+use crate::schema::color_text;
+use crate::units::{self, Dim};
+
+/// Every declaration of the scene, sorted by kind and name.
+#[must_use]
+pub fn resolved(scene: &Scene) -> String {
+    let mut out = String::from("rts 1\n");
+    write_all(&mut out, scene).expect("a string takes all text");
+    out
+}
+
+fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
+    for asset in &scene.assets {
+        let (name, path) = (&asset.name.text, &asset.path);
+        match asset.format {
+            AssetFormat::Gltf => writeln!(out, "asset {name} = gltf(\"{path}\")")?,
+            AssetFormat::Obj { metres_per_unit, up } => {
+                let (unit, up) = (length(metres_per_unit), axis(up));
+                writeln!(out, "asset {name} = obj(\"{path}\", unit: {unit}, up: {up})")?;
+            }
+        }
+    }
+    for texture in &scene.textures {
+        let (name, path, space) = (&texture.name.text, &texture.path, space(texture.space));
+        let [u, v] = texture.wrap.map(wrap);
+        writeln!(
+            out,
+            "texture {name} = image(\"{path}\", space: {space}, wrap_u: {u}, wrap_v: {v})"
+        )?;
+    }
+    for material in &scene.materials {
+        let (kind, fields) = model(scene, &material.model);
+        block(out, &format!("material {}: {kind}", material.name.text), &fields)?;
+    }
+    for instance in &scene.instances {
+        let fields = instance_fields(scene, instance);
+        block(out, &format!("instance {}", instance.name.text), &fields)?;
+    }
+    for light in &scene.lights {
+        let fields = [
+            ("center", vector(light.center, "m")),
+            ("radius", length(light.radius)),
+            ("color", color_text(light.radiance)),
+            ("strength", "1".to_owned()),
+        ];
+        block(out, &format!("light {}: sphere", light.name.text), &fields)?;
+    }
+    if let Some(sky) = &scene.sky {
+        write_sky(out, sky)?;
+    }
+    write_view(out, scene)
+}
+
+/// A declaration with its fields, one on each line.
+fn block(out: &mut String, head: &str, fields: &[(&str, String)]) -> fmt::Result {
+    writeln!(out, "{head} {{")?;
+    for (name, value) in fields {
+        writeln!(out, "  {name} = {value}")?;
+    }
+    writeln!(out, "}}")
+}
+
+fn model(scene: &Scene, model: &MaterialModel) -> (&'static str, Vec<(&'static str, String)>) {
+    let color = |color: &Color| match color {
+        Color::Constant(rgb) => color_text(*rgb),
+        Color::Texture(texture) => format!("{}.rgb", texture_name(scene, *texture)),
+    };
+    let scalar = |scalar: &Scalar| match scalar {
+        Scalar::Constant(value) => number(*value),
+        Scalar::Texture { texture, channel } => {
+            let channel = ["r", "g", "b", "a"][usize::from(*channel).min(3)];
+            format!("{}.{channel}", texture_name(scene, *texture))
+        }
+    };
+    match model {
+        MaterialModel::Diffuse { color: c } => ("diffuse", vec![("color", color(c))]),
+        MaterialModel::Metal { color: c, fuzz } => {
+            ("metal", vec![("color", color(c)), ("fuzz", number(*fuzz))])
+        }
+        MaterialModel::Dielectric { ior } => ("dielectric", vec![("ior", number(*ior))]),
+        MaterialModel::Emissive { color: c, strength, both_sides } => {
+            let sides = if *both_sides { "both" } else { "front" };
+            let fields = vec![
+                ("color", color(c)),
+                ("strength", number(*strength)),
+                ("sides", sides.to_owned()),
+            ];
+            ("emissive", fields)
+        }
+        MaterialModel::Principled(p) => {
+            let clip = p.alpha_clip.map_or("none".to_owned(), number);
+            let fields = vec![
+                ("color", color(&p.color)),
+                ("metallic", scalar(&p.metallic)),
+                ("roughness", scalar(&p.roughness)),
+                ("ior", number(p.ior)),
+                ("emission.color", color(&p.emission)),
+                ("emission.strength", number(p.emission_strength)),
+                ("alpha", scalar(&p.alpha)),
+                ("alpha.clip", clip),
+            ];
+            ("principled", fields)
+        }
+    }
+}
+
+fn instance_fields(scene: &Scene, instance: &Instance) -> Vec<(&'static str, String)> {
+    let shape = match &instance.shape {
+        Shape::Sphere { radius } => format!("sphere(radius: {})", length(*radius)),
+        Shape::Rectangle { size: [x, z] } => {
+            format!("rectangle(size: ({}, {})m)", number(*x), number(*z))
+        }
+        Shape::Box { size } => format!("box(size: {})", vector(*size, "m")),
+        Shape::Mesh { asset, part } => {
+            let asset = scene.assets.get(*asset).map_or("", |asset| asset.name.text.as_str());
+            match part {
+                Some(part) => format!("{asset}.part(\"{part}\")"),
+                None => asset.to_owned(),
+            }
+        }
+    };
+    let material = instance.material.and_then(|material| scene.materials.get(material));
+    let material = material.map_or("none", |material| material.name.text.as_str());
+    let mut fields = vec![("shape", shape), ("material", material.to_owned())];
+    let m = &instance.world_from_object;
+    let column = |i: usize| [m[0][i], m[1][i], m[2][i]];
+    fields.push(("at", vector(column(3), "m")));
+    let diagonal = (0..3).all(|row| (0..3).all(|i| row == i || m[row][i] == 0.0));
+    if diagonal {
+        fields.push(("scale", vector([m[0][0], m[1][1], m[2][2]], "")));
+    } else {
+        fields.push(("x_axis", vector(column(0), "")));
+        fields.push(("y_axis", vector(column(1), "")));
+        fields.push(("z_axis", vector(column(2), "")));
+    }
+    fields
+}
+
+fn write_sky(out: &mut String, sky: &Sky) -> fmt::Result {
+    let one = ("strength", "1".to_owned());
+    let (kind, fields) = match &sky.model {
+        SkyModel::Constant(rgb) => ("constant", vec![("color", color_text(*rgb)), one]),
+        SkyModel::Gradient {
+            zenith,
+            middle,
+            horizon,
+            ground,
+            blend_high,
+            blend_low,
+            sun_direction,
+            glow,
+            glow_power,
+            disc,
+            disc_power,
+        } => {
+            let rgb = |rgb: &Rgb| color_text(*rgb);
+            let fields = vec![
+                ("zenith", rgb(zenith)),
+                ("middle", rgb(middle)),
+                ("horizon", rgb(horizon)),
+                ("ground", rgb(ground)),
+                ("blend.high", number(*blend_high)),
+                ("blend.low", number(*blend_low)),
+                one,
+                ("sun.direction", vector(*sun_direction, "")),
+                ("glow.color", rgb(glow)),
+                ("glow.power", number(*glow_power)),
+                ("disc.color", rgb(disc)),
+                ("disc.power", number(*disc_power)),
+            ];
+            ("gradient", fields)
+        }
+    };
+    block(out, &format!("sky {}: {kind}", sky.name.text), &fields)
+}
+
+fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {
+    let (camera, film, render) = (&scene.camera, &scene.film, &scene.render);
+    block(out, &format!("camera {}: perspective", camera.name.text), &camera_fields(camera))?;
+    let [width, height] = film.size;
+    let tone_map = match film.tone_map {
+        ToneMap::None => "none",
+        ToneMap::Reinhard => "reinhard",
+        ToneMap::Aces => "aces",
+    };
+    let fields = [
+        ("size", format!("({width}, {height})px")),
+        ("exposure", units::show(film.exposure, Dim::EV)),
+        ("tone_map", tone_map.to_owned()),
+    ];
+    block(out, &format!("film {}", film.name.text), &fields)?;
+    let sky = scene.sky.as_ref().map_or("none", |sky| sky.name.text.as_str());
+    let mut output = String::from("none");
+    if let Some(path) = &render.output {
+        output.clear();
+        write!(output, "\"{path}\"")?;
+    }
+    let fields = [
+        ("camera", camera.name.text.clone()),
+        ("film", film.name.text.clone()),
+        ("sky", sky.to_owned()),
+        ("samples", render.samples.to_string()),
+        ("depth", render.max_depth.to_string()),
+        ("roulette", render.roulette_depth.to_string()),
+        ("seed", render.seed.to_string()),
+        ("output", output),
+    ];
+    block(out, &format!("render {}: path", render.name.text), &fields)
+}
+
+fn camera_fields(camera: &Camera) -> [(&'static str, String); 8] {
+    let [open, close] = camera.shutter;
+    let shutter = format!("{}..{}", units::show(open, Dim::TIME), units::show(close, Dim::TIME));
+    [
+        ("from", vector(camera.from, "m")),
+        ("to", vector(camera.to, "m")),
+        ("up", vector(camera.up, "")),
+        ("fov.horizontal", units::show(camera.fov_horizontal, Dim::ANGLE)),
+        ("fov.vertical", units::show(camera.fov_vertical, Dim::ANGLE)),
+        ("aperture", length(2.0 * camera.lens_radius)),
+        ("focus", length(camera.focus_distance)),
+        ("shutter", shutter),
+    ]
+}
+
+fn texture_name(scene: &Scene, texture: usize) -> &str {
+    scene.textures.get(texture).map_or("", |texture| texture.name.text.as_str())
+}
+
+fn number(value: f64) -> String {
+    units::show_number(value)
+}
+
+fn length(metres: f64) -> String {
+    units::show(metres, Dim::LENGTH)
+}
+
+fn vector([x, y, z]: [f64; 3], unit: &str) -> String {
+    format!("({}, {}, {}){unit}", number(x), number(y), number(z))
+}
+
+fn axis(axis: Axis) -> &'static str {
+    match axis {
+        Axis::PlusX => "+x",
+        Axis::MinusX => "-x",
+        Axis::PlusY => "+y",
+        Axis::MinusY => "-y",
+        Axis::PlusZ => "+z",
+        Axis::MinusZ => "-z",
+    }
+}
+
+fn space(space: ColorSpace) -> &'static str {
+    match space {
+        ColorSpace::Srgb => "srgb",
+        ColorSpace::Linear => "linear",
+        ColorSpace::Data => "data",
+    }
+}
+
+fn wrap(wrap: Wrap) -> &'static str {
+    match wrap {
+        Wrap::Repeat => "repeat",
+        Wrap::Clamp => "clamp",
+        Wrap::Mirror => "mirror",
+    }
+}

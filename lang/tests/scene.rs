@@ -1,0 +1,250 @@
+//! Right scenes: what they become, and that the order in which they are written does not matter.
+
+mod common;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use common::{ROOT, check_files, check_text, describe};
+use lang::scene::{Color, MaterialModel, Scene, Shape, SkyModel};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests")
+}
+
+/// The scene that has everything, with its imports.
+fn files() -> BTreeMap<String, String> {
+    let root = std::fs::read_to_string(folder().join("good.rts")).expect("the test's own file");
+    let parts = [
+        (
+            "parts/lantern.rts",
+            "rts 1\npub let size = 20cm\nmaterial paper: diffuse { color = linear(0.8) }\n\
+             pub object body { shape = sphere(radius: size), material = paper }\n\
+             pub instance wall: body { at = (9, 0, 0)m }\n\
+             instance preview: body { }\n\
+             camera preview_eye: perspective { from = (0, 0, 1)m, to = (0, 0, 0)m }\n\
+             render preview_picture: path { }\n",
+        ),
+        (
+            "parts/named.rts",
+            "rts 1\npub material brass: metal { color = linear(0.9, 0.7, 0.3) }\npub let twice = 2\n",
+        ),
+        ("parts/all.rts", "rts 1\npub let plain_size = 30cm\n"),
+    ];
+    let mut files = BTreeMap::from([(ROOT.to_owned(), root)]);
+    files.extend(parts.map(|(name, text)| (name.to_owned(), text.to_owned())));
+    files
+}
+
+fn scene_of(files: &BTreeMap<String, String>, defines: &[(&str, &str)]) -> Scene {
+    let defines: Vec<(String, String)> =
+        defines.iter().map(|(a, b)| ((*a).to_owned(), (*b).to_owned())).collect();
+    let analysis = check_files(files, &defines);
+    assert_eq!(describe(&analysis), "");
+    analysis.scene.expect("a scene without diagnostics")
+}
+
+fn scene_of_text(text: &str) -> Scene {
+    let analysis = check_text(text);
+    assert!(analysis.scene.is_some(), "{}", describe(&analysis));
+    analysis.scene.expect("asserted")
+}
+
+/// A whole scene around some declarations.
+fn with_view(declarations: &str) -> String {
+    format!(
+        "rts 1\n{declarations}\nsky dome: constant {{ }}\n\
+         camera c: perspective {{ from = (0, 1, 5)m, to = (0, 1, 0)m }}\nrender r: path {{ }}\n"
+    )
+}
+
+#[test]
+fn everything_is_resolved() {
+    let found = lang::resolved(&scene_of(&files(), &[]));
+    let path = folder().join("good.resolved");
+    if std::env::var_os("UPDATE").is_some() {
+        std::fs::write(&path, &found).expect("the test's own file");
+    }
+    let expected = std::fs::read_to_string(&path).expect("the test's own file");
+    assert_eq!(found, expected, "run with UPDATE=1 and review the difference");
+}
+
+#[test]
+fn definitions_change_what_they_name() {
+    let scene = scene_of(&files(), &[("final", "true"), ("hour", "7h + 30min")]);
+    assert_eq!(scene.render.samples, 4096);
+    let base = scene_of(&files(), &[]);
+    assert_ne!(base.lights[1].center, scene.lights[1].center);
+    let analysis = check_files(&files(), &[("hour".to_owned(), "7.5h".to_owned())]);
+    let hour = &analysis.params[0];
+    assert_eq!((hour.name.as_str(), hour.value.as_str(), hour.overridden), ("hour", "7.5h", true));
+    assert_eq!(hour.docs, ["Hour of the day."]);
+    assert_eq!(
+        analysis.files,
+        ["scene.rts", "parts/lantern.rts", "parts/all.rts", "parts/named.rts"]
+    );
+}
+
+/// Splits a file at lines in column 1 that are neither doc comments nor closing braces.
+fn declarations(text: &str) -> Vec<String> {
+    let mut parts: Vec<String> = Vec::new();
+    let mut comment = String::new();
+    for line in text.split_inclusive('\n').skip(1) {
+        let inside = line.starts_with([' ', '}', '\n']);
+        if line.starts_with("///") {
+            comment.push_str(line);
+        } else if inside && !parts.is_empty() {
+            parts.last_mut().expect("not empty").push_str(line);
+        } else {
+            parts.push(std::mem::take(&mut comment) + line);
+        }
+    }
+    parts
+}
+
+#[test]
+fn the_order_of_declarations_does_not_matter() {
+    let files = files();
+    let expected = lang::resolved(&scene_of(&files, &[]));
+    let parts = declarations(&files[ROOT]);
+    let mut state = 1_u64;
+    for _ in 0..20 {
+        let mut shuffled = parts.clone();
+        for i in (1..shuffled.len()).rev() {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            shuffled.swap(i, (state >> 33) as usize % (i + 1));
+        }
+        let mut files = files.clone();
+        files.insert(ROOT.to_owned(), format!("rts 1\n{}", shuffled.concat()));
+        assert_eq!(lang::resolved(&scene_of(&files, &[])), expected);
+    }
+}
+
+#[test]
+fn a_long_chain_of_values_needs_no_stack_in_either_order() {
+    for reversed in [false, true] {
+        let mut lines: Vec<String> =
+            (1..20_000).map(|i| format!("let v{i} = v{} + 1m\n", i - 1)).collect();
+        lines.push("let v0 = 1m\n".to_owned());
+        if reversed {
+            lines.reverse();
+        }
+        let body = lines.concat()
+            + "material m: diffuse { color = linear(0.5) }\n\
+               instance s { shape = sphere(radius: v19999), material = m }";
+        let scene = scene_of_text(&with_view(&body));
+        assert_eq!(scene.instances[0].shape, Shape::Sphere { radius: 20_000.0 });
+    }
+}
+
+#[test]
+fn a_rotation_turns_about_x_then_y_then_z() {
+    let scene = scene_of_text(&with_view(
+        "material m: diffuse { color = linear(0.5) }\n\
+         instance a { shape = sphere(radius: 1m), material = m, rotate = (90, 90, 0)deg, scale = 2, at = (1, 2, 3)m }",
+    ));
+    // y goes to z about x, then z goes to x about y.
+    let m = scene.instances[0].world_from_object;
+    assert_eq!(m, [[0.0, 2.0, 0.0, 1.0], [0.0, 0.0, -2.0, 2.0], [-2.0, 0.0, 0.0, 3.0]]);
+}
+
+#[test]
+fn objects_come_after_what_they_hold() {
+    let scene = scene_of_text(&with_view(
+        "material m: diffuse { color = linear(0.5) }\n\
+         object inner { shape = sphere(radius: 1m), material = m, at = (1, 0, 0)m }\n\
+         object outer { shape = [inner], rotate = (0, 0, 90)deg }\n\
+         instance a: outer { at = (0, 0, 5)m }",
+    ));
+    assert_eq!(scene.instances[0].name.text, "a.inner");
+    let m = scene.instances[0].world_from_object;
+    assert_eq!([m[0][3], m[1][3], m[2][3]], [0.0, 1.0, 5.0]);
+}
+
+#[test]
+fn the_lens_and_the_field_of_view_agree() {
+    let camera = |fields: &str| {
+        let text = format!(
+            "rts 1\nsky s: constant {{ }}\nfilm f {{ size = (1600, 900)px }}\n\
+             camera c: perspective {{ from = (0, 0, 3)m, to = (0, 0, 0)m, {fields} }}\n\
+             render r: path {{ }}\n"
+        );
+        scene_of_text(&text).camera
+    };
+    let lens = camera("lens = 50mm, f_stop = 2");
+    assert!((lens.fov_horizontal.to_degrees() - 39.597_752).abs() < 1e-5);
+    assert!((lens.fov_vertical.to_degrees() - 22.895_192).abs() < 1e-5);
+    assert!((lens.lens_radius - 0.0125).abs() < 1e-15);
+    assert_eq!(lens.focus_distance, 3.0);
+    let default = camera("");
+    assert_eq!((default.fov_horizontal, default.lens_radius), (lens.fov_horizontal, 0.0));
+    let vertical = camera("fov.vertical = 22.8951922deg");
+    assert!((vertical.fov_horizontal - lens.fov_horizontal).abs() < 1e-8);
+    let horizontal = camera("fov.horizontal = 39.597752deg, f_stop = 2");
+    assert!((horizontal.lens_radius - 0.0125).abs() < 1e-9);
+}
+
+#[test]
+fn power_is_spread_over_the_sphere() {
+    let scene = scene_of_text(&with_view(
+        "light l: sphere { center = (0, 0, 0)m, radius = 50cm, power = 10 }",
+    ));
+    let expected = 10.0 / (4.0 * std::f64::consts::PI.powi(2) * 0.25);
+    assert!((scene.lights[0].radiance[0] - expected).abs() < 1e-12);
+}
+
+#[test]
+fn an_absent_sun_adds_nothing() {
+    let text = with_view("").replace("constant", "gradient");
+    match scene_of_text(&text).sky.map(|sky| sky.model) {
+        Some(SkyModel::Gradient { glow, disc, horizon, .. }) => {
+            assert_eq!((glow, disc, horizon), ([0.0; 3], [0.0; 3], [0.245, 0.105, 0.03]));
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn names_point_at_their_text() {
+    let files = files();
+    let analysis = check_files(&files, &[]);
+    let scene = analysis.scene.expect("a scene");
+    for material in &scene.materials {
+        let text = analysis.sources.slice(material.name.span);
+        assert!(material.name.text.ends_with(text) && !text.is_empty());
+    }
+    for instance in &scene.instances {
+        let text = analysis.sources.slice(instance.name.span);
+        assert!(instance.name.text.contains(text) && !text.is_empty());
+        assert!(!analysis.sources.slice(instance.shape_span).is_empty());
+    }
+    for asset in &scene.assets {
+        assert_eq!(analysis.sources.slice(asset.path_span), format!("\"{}\"", asset.path));
+    }
+    let wall = scene.instances.iter().find(|i| i.name.text == "lantern.wall").expect("is public");
+    assert_eq!(analysis.sources.name(wall.name.span.file), "parts/lantern.rts");
+}
+
+#[test]
+fn only_what_is_used_is_in_the_scene() {
+    let scene = scene_of_text(&with_view(
+        "texture t = image(\"t.png\", space: srgb)\n\
+         material used: diffuse { color = t.rgb }\n\
+         material unused: diffuse { color = linear(0.5) }\n\
+         asset a = gltf(\"a.glb\")\n\
+         instance s { shape = sphere(radius: 1m), material = used }",
+    ));
+    assert_eq!((scene.materials.len(), scene.textures.len(), scene.assets.len()), (1, 1, 0));
+    assert_eq!(scene.materials[0].model, MaterialModel::Diffuse { color: Color::Texture(0) });
+}
+
+#[test]
+fn expanded_instances_are_in_order_of_their_index() {
+    let scene = scene_of_text(&with_view(
+        "material m: diffuse { color = linear(0.5) }\n\
+         instance s[i in -1..11] { shape = sphere(radius: 1m), material = m, at = (1m * i, 0m, 0m) }",
+    ));
+    let names: Vec<&str> = scene.instances.iter().map(|i| i.name.text.as_str()).collect();
+    assert_eq!(names[..4], ["s[-1]", "s[0]", "s[1]", "s[2]"]);
+    assert_eq!((names.len(), names[11]), (12, "s[10]"));
+}
