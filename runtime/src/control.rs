@@ -10,8 +10,9 @@ pub struct Control {
     rays: AtomicU64,
     /// See `break_block`; 0 is never.
     broken_block: AtomicU64,
-    /// See `lose_device`; 0 is never.
+    /// See `lose_device`.
     lost_after: AtomicU64,
+    losses: AtomicU64,
     note: Box<dyn Fn(&str) + Send + Sync>,
 }
 
@@ -43,6 +44,7 @@ impl Control {
             rays: AtomicU64::new(0),
             broken_block: AtomicU64::new(0),
             lost_after: AtomicU64::new(0),
+            losses: AtomicU64::new(0),
             note: Box::new(note),
         }
     }
@@ -71,10 +73,11 @@ impl Control {
         self.broken_block.store(n, Ordering::Relaxed);
     }
 
-    /// For tests: each GPU device is lost after `n` tiles.
+    /// For tests: the next `times` GPU devices are lost after `n` tiles each.
     #[doc(hidden)]
-    pub fn lose_device(&self, n: u64) {
+    pub fn lose_device(&self, n: u64, times: u64) {
         self.lost_after.store(n, Ordering::Relaxed);
+        self.losses.store(times, Ordering::Relaxed);
     }
 
     /// Whether the block that begins now is to break.
@@ -83,11 +86,12 @@ impl Control {
         self.broken_block.fetch_update(Ordering::Relaxed, Ordering::Relaxed, left) == Ok(1)
     }
 
-    /// Whether a device that has rendered `n` tiles is to be lost.
+    /// Whether a device that has rendered `n` tiles is to be lost now.
     #[cfg(feature = "gpu")]
     pub(crate) fn loses_device_after(&self, n: u64) -> bool {
-        let lost_after = self.lost_after.load(Ordering::Relaxed);
-        lost_after > 0 && n >= lost_after
+        let left = |times: u64| times.checked_sub(1);
+        n >= self.lost_after.load(Ordering::Relaxed)
+            && self.losses.fetch_update(Ordering::Relaxed, Ordering::Relaxed, left).is_ok()
     }
 
     pub(crate) fn note(&self, text: &str) {

@@ -87,8 +87,8 @@ pub(crate) fn render(
         };
         losses = if run.done() > before { 1 } else { losses + 1 };
         let again = match &error {
-            GpuError::Lost(_) | GpuError::Wrong(_) => losses < MAX_LOSSES,
-            GpuError::Kernel(_) | GpuError::Api(_) => module == Module::Trusted,
+            GpuError::Lost(_) | GpuError::Wrong(_) | GpuError::Api(_) => losses < MAX_LOSSES,
+            GpuError::Kernel(_) => module == Module::Trusted,
             GpuError::Device(_) | GpuError::Limit { .. } | GpuError::Memory(_) => false,
         };
         if !again {

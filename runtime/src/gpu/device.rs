@@ -97,10 +97,16 @@ impl Device {
 
     /// What became of the device, if anything.
     pub(super) fn fault(&self) -> Result<(), GpuError> {
+        let uncaptured = self.uncaptured.get();
+        if uncaptured.is_some() {
+            // Whatever fails on a lost device says that something is invalid; the loss itself is told
+            // by a callback, which needs a poll.
+            let _ = self.device.poll(wgpu::PollType::Poll);
+        }
         if let Some(text) = self.lost.get() {
             return Err(GpuError::Lost(text));
         }
-        self.uncaptured.get().map_or(Ok(()), |text| Err(GpuError::Api(text)))
+        uncaptured.map_or(Ok(()), |text| Err(GpuError::Api(text)))
     }
 
     /// Renders 8 × 8 pixels once: drivers compile at the first dispatch, and one that renders

@@ -225,6 +225,9 @@ impl Device {
         let mut last_end = Instant::now();
         let mut n_tiles = 0;
         loop {
+            if run.control().loses_device_after(n_tiles) {
+                self.device.destroy();
+            }
             while under_way.len() < IN_FLIGHT {
                 let items = claim(run, pace);
                 if items.is_empty() {
@@ -236,9 +239,6 @@ impl Device {
             // With nothing under way there is nothing to wait for: the run is over.
             if under_way.is_empty() {
                 return Ok(());
-            }
-            if run.control().loses_device_after(n_tiles) {
-                self.device.destroy();
             }
             self.collect(run, pace, under_way, &mut free, &mut last_end)?;
         }
