@@ -63,9 +63,9 @@ pub(crate) fn split(file: &str, text: &str) -> Result<Parts, ShaderError> {
 
 /// The place of byte `at` of module `file`.
 pub(crate) fn location(file: &str, text: &str, at: usize) -> Location {
-    let at = at.min(text.len());
+    let at = text.floor_char_boundary(at);
     let before = &text.as_bytes()[..at];
-    let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
+    let line = text[..at].matches('\n').count() + 1;
     let column = at - before.iter().rposition(|byte| *byte == b'\n').map_or(0, |i| i + 1) + 1;
     let narrow = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
     Location { file: file.to_owned(), line: narrow(line), column: narrow(column) }

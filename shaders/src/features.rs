@@ -9,6 +9,7 @@ const MAX_STORAGE: usize = 7;
 
 /// The features of a kernel. Whatever is absent brings neither code nor a binding.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[expect(clippy::struct_excessive_bools, reason = "each is an independent switch with a name")]
 pub struct FeatureSet {
     /// There are triangles.
     pub triangles: bool,

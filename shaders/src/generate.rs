@@ -8,6 +8,7 @@ mod traversal;
 
 use crate::{FeatureSet, ShaderError};
 pub use bindings::WINDOW_WORDS;
+use std::fmt::Write as _;
 
 /// The generated modules of a scene: name and text, sorted by name.
 pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, String)>, ShaderError> {
@@ -33,7 +34,7 @@ pub fn root_module(features: &FeatureSet) -> &'static str {
 
 /// `#import` lines for `modules`.
 fn imports<'m>(modules: impl IntoIterator<Item = &'m str>) -> String {
-    modules.into_iter().map(|module| format!("#import \"{module}\"\n")).collect()
+    modules.into_iter().flat_map(|module| ["#import \"", module, "\"\n"]).collect()
 }
 
 /// A `switch` over tags whose cases return; one case needs no switch, none only `otherwise`.
@@ -42,13 +43,12 @@ fn switch(selector: &str, cases: &[(&str, String)], otherwise: &str) -> String {
         [] => format!("    return {otherwise};\n"),
         [(_, only)] => format!("    return {only};\n"),
         _ => {
-            let arms: String = cases
-                .iter()
-                .map(|(tag, value)| format!("        case {tag}: {{ return {value}; }}\n"))
-                .collect();
-            format!(
-                "    switch ({selector}) {{\n{arms}        default: {{ return {otherwise}; }}\n    }}\n"
-            )
+            let mut text = format!("    switch ({selector}) {{\n");
+            for (tag, value) in cases {
+                let _ = writeln!(text, "        case {tag}: {{ return {value}; }}");
+            }
+            let _ = writeln!(text, "        default: {{ return {otherwise}; }}\n    }}");
+            text
         }
     }
 }

@@ -5,6 +5,7 @@ use crate::declaration::{self, Declaration, Parts, location};
 use crate::error::{Location, ShaderError};
 use crate::{FeatureSet, generate, modules};
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
 
 /// Name of the entry point.
 const ENTRY: &str = "render";
@@ -168,7 +169,7 @@ fn paste(modules: &[Module<'_>], wanted: &BTreeSet<(usize, usize)>) -> Linked {
         }
         let source = linked.sources.len();
         linked.sources.push((module.name.to_owned(), module.text.to_owned()));
-        linked.text += &format!("// ---- {}\n", module.name);
+        let _ = writeln!(linked.text, "// ---- {}", module.name);
         for declaration in kept {
             let range = declaration.range.clone();
             linked.pieces.push(Piece {

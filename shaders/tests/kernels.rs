@@ -47,12 +47,17 @@ fn translate(name: &str, module: &Module, info: &ModuleInfo) {
         .unwrap_or_else(|e| panic!("{name}: SPIR-V: {e}"));
     assert_eq!(words[0], 0x0723_0203, "{name}: SPIR-V magic number");
     let msl = naga::back::msl::Options { fake_missing_bindings: true, ..Default::default() };
-    let (text, _) = naga::back::msl::write_string(module, info, &msl, &Default::default())
-        .unwrap_or_else(|e| panic!("{name}: MSL: {e}"));
+    let (text, _) = naga::back::msl::write_string(
+        module,
+        info,
+        &msl,
+        &naga::back::msl::PipelineOptions::default(),
+    )
+    .unwrap_or_else(|e| panic!("{name}: MSL: {e}"));
     assert!(text.contains("kernel void render"), "{name}: MSL entry point");
     let hlsl = naga::back::hlsl::Options { fake_missing_bindings: true, ..Default::default() };
     let mut text = String::new();
-    naga::back::hlsl::Writer::new(&mut text, &hlsl, &Default::default())
+    naga::back::hlsl::Writer::new(&mut text, &hlsl, &naga::back::hlsl::PipelineOptions::default())
         .write(module, info, None)
         .unwrap_or_else(|e| panic!("{name}: HLSL: {e}"));
     assert!(text.contains("numthreads(8, 8, 1)"), "{name}: HLSL entry point");
@@ -104,7 +109,9 @@ fn calls(function: &Function) -> Vec<Handle<Function>> {
                     walk(reject, found);
                 }
                 Statement::Switch { cases, .. } => {
-                    cases.iter().for_each(|case| walk(&case.body, found));
+                    for case in cases {
+                        walk(&case.body, found);
+                    }
                 }
                 Statement::Loop { body, continuing, .. } => {
                     walk(body, found);

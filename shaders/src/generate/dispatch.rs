@@ -5,6 +5,7 @@
 use super::{imports, switch};
 use crate::FeatureSet;
 use pack::abi::{LightKind, MaterialKind, SkyKind, TextureFormat};
+use std::fmt::Write as _;
 
 /// Camera, sky, surfaces and direct light.
 pub(crate) fn path(features: &FeatureSet) -> String {
@@ -89,7 +90,7 @@ fn surface(features: &FeatureSet) -> String {
         sphere += "    return s;\n";
         if features.triangles {
             let inner = sphere.replace("    ", "        ");
-            body += &format!("    if ((hit.prim & PRIM_SPHERE) != 0u) {{\n{inner}    }}\n");
+            let _ = write!(body, "    if ((hit.prim & PRIM_SPHERE) != 0u) {{\n{inner}    }}\n");
         } else {
             body += &sphere;
         }
@@ -97,7 +98,7 @@ fn surface(features: &FeatureSet) -> String {
     if features.triangles {
         let function =
             if features.smooth_normals { "triangle_surface" } else { "triangle_flat_surface" };
-        body += &format!("    return {function}(hit.prim, hit.b, dir);\n");
+        let _ = writeln!(body, "    return {function}(hit.prim, hit.b, dir);");
     }
     format!(
         "\n// The surface that the ray from `origin` along `dir` has hit.\n\
@@ -176,7 +177,8 @@ pub(crate) fn bsdf(features: &FeatureSet) -> String {
             .iter()
             .map(|(tag, stem, arguments)| (*tag, format!("{stem}_{name}({})", arguments[i])))
             .collect();
-        text += &format!(
+        let _ = write!(
+            text,
             "\n// {comment}\nfn dispatch_{name}(s: Scatter, {parameters}) -> {result} {{\n{}}}\n",
             switch("s.kind", &cases, absent)
         );
@@ -216,7 +218,8 @@ pub(crate) fn light(features: &FeatureSet) -> String {
         "sphere" => "sphere_light_pdf(light, p)".to_owned(),
         _ => format!("{stem}_light_pdf(light, p, x, cos_l)"),
     });
-    text += &format!(
+    let _ = write!(
+        text,
         "\n// A direction from `p` to the light.\n\
          fn dispatch_light_sample(light: Light, p: vec3f, u: vec2f) -> LightSample {{\n{}}}\n\
          \n// Density of `dispatch_light_sample` towards the light's point `x`, where the cosine to the\n\
@@ -270,7 +273,8 @@ pub(crate) fn texture(features: &FeatureSet) -> String {
         text += &imports(["scene/constants.wgsl", "texture/bilinear.wgsl"]);
         "    if (i == NONE) {\n        return vec4f(1.0);\n    }\n    return bilinear_fetch(i, uv);\n"
     };
-    text += &format!(
+    let _ = write!(
+        text,
         "\n// Texture `i` at `uv`, linear; 1 in every channel where `i` is `NONE`.\n\
          fn texture_fetch(i: u32, uv: vec2f) -> vec4f {{\n{body}}}\n"
     );
@@ -297,7 +301,8 @@ pub(crate) fn texel(features: &FeatureSet) -> String {
         .iter()
         .map(|(tag, _, function)| (*tag, format!("{function}(image.offset, i)")))
         .collect();
-    text += &format!(
+    let _ = write!(
+        text,
         "\n// Texel `i` of `image`, linear.\n\
          fn texel_decode(image: Texture, i: u32) -> vec4f {{\n{}}}\n",
         switch("image.format", &cases, "vec4f(1.0)")

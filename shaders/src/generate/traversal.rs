@@ -71,13 +71,17 @@ pub(crate) fn leaf(features: &FeatureSet) -> String {
     );
     let spheres = "spheres_trace(first, count, ray, best)";
     let triangles = "triangles_trace(first, count, ray, leaf, best)";
-    text += &match (features.triangles, features.spheres) {
-        (true, true) => format!(
-            "    if ((child & CHILD_SPHERES) != 0u) {{\n        return {spheres};\n    }}\n    return {triangles};\n"
-        ),
-        (true, false) => format!("    return {triangles};\n"),
-        (false, true) => format!("    return {spheres};\n"),
-        (false, false) => "    return best;\n".to_owned(),
+    if features.triangles && features.spheres {
+        let _ = write!(
+            text,
+            "    if ((child & CHILD_SPHERES) != 0u) {{\n        return {spheres};\n    }}\n"
+        );
+    }
+    let otherwise = match (features.triangles, features.spheres) {
+        (true, _) => triangles,
+        (false, true) => spheres,
+        (false, false) => "best",
     };
+    let _ = writeln!(text, "    return {otherwise};");
     text + "}\n"
 }

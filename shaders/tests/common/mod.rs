@@ -40,22 +40,23 @@ pub(crate) fn feature_sets() -> Vec<(String, FeatureSet)> {
         ("spheres: ", spheres),
         ("both: ", both),
     ];
-    let mut sets = vec![("full".to_owned(), FeatureSet::full())];
+    // Sets that are equal have equal kernels; so do sets that differ only in what needs geometry, without it.
+    let mut sets = BTreeMap::from([(FeatureSet::full(), "full".to_owned())]);
     for (base_name, base) in bases {
-        sets.push((base_name.to_owned(), base.clone()));
+        sets.insert(base.clone(), base_name.to_owned());
         for (i, (first, switch_first)) in FEATURES.iter().enumerate() {
             for (second, switch_second) in &FEATURES[i..] {
                 let mut set = base.clone();
                 switch_first(&mut set);
                 switch_second(&mut set);
-                sets.push((format!("{base_name}{first} + {second}"), set));
+                sets.entry(set).or_insert_with(|| format!("{base_name}{first} + {second}"));
             }
         }
     }
-    let mut seen = BTreeMap::new();
-    for (name, set) in sets {
+    let mut kernels = BTreeMap::new();
+    for (set, name) in sets {
         let text = shaders::link(&set).unwrap_or_else(|e| panic!("{name}: {e}")).text;
-        seen.entry(text).or_insert((name, set));
+        kernels.entry(text).or_insert((name, set));
     }
-    seen.into_values().collect()
+    kernels.into_values().collect()
 }

@@ -9,7 +9,8 @@ fn alpha_exists(i: u32, uv: vec2f) -> bool {
     if ((load_material_flags(i) & FLAG_ALPHA_CLIP) == 0u) {
         return true;
     }
-    return load_material_alpha(i) * texture_fetch(load_material_alpha_texture(i), uv).w >= load_material_alpha_cutoff(i);
+    let alpha = load_material_alpha(i) * texture_fetch(load_material_alpha_texture(i), uv).w;
+    return alpha >= load_material_alpha_cutoff(i);
 }
 
 // Whether a surface of material `i` is the same everywhere, so that texture coordinates are not needed.
