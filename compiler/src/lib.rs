@@ -6,8 +6,10 @@
 
 pub mod bvh;
 pub mod cache;
+pub mod cli;
 pub mod import;
 pub mod lower;
 pub mod normalize;
+pub mod pipeline;
 pub mod report;
 pub mod weld;

@@ -11,7 +11,6 @@
 
 mod assemble;
 mod camera;
-mod forest;
 mod geometry;
 mod light;
 mod material;

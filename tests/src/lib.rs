@@ -1,1 +1,7 @@
 //! Everything that crosses crates: see `tests/tests`.
+//!
+//! This library is what those tests share: a scene text becomes a checked pack in memory, a pack
+//! becomes a film, a film becomes a mean with its standard error.
+
+pub mod picture;
+pub mod scene;

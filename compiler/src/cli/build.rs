@@ -81,11 +81,8 @@ fn build_here(args: &BuildArgs, reporter: &Reporter) -> u8 {
         return IO;
     }
     phases.push(Phase { name: "write the pack", time: writing.elapsed() });
-    for warning in &compiled.lowered.cache_warnings {
+    for warning in &compiled.lowered.trees.warnings {
         reporter.warning(&warning.to_string());
-    }
-    if let Err(error) = cache.prune() {
-        reporter.warning(&error.to_string());
     }
     if args.timings {
         reporter.status(&timings(&phases, &compiled));
@@ -181,8 +178,9 @@ fn done(output: &Path, compiled: &Compiled, time: Duration) -> String {
             things.push(format!("{} {what}", grouped(count)));
         }
     }
-    if counters.trees_cached > 0 {
-        things.push(format!("bvh {}/{} cached", counters.trees_cached, counters.trees));
+    let trees = &compiled.lowered.trees;
+    if trees.loaded > 0 {
+        things.push(format!("bvh {}/{} cached", trees.loaded, trees.groups));
     }
     format!(
         "{}: {:.1} MB, {} in {:.2} s",
@@ -198,11 +196,15 @@ fn timings(phases: &[Phase], compiled: &Compiled) -> String {
     for Phase { name, time } in phases {
         text += &format!("{name:<30} {:>7.1}\n", time.as_secs_f64() * 1e3);
     }
-    let counters = &compiled.lowered.counters;
-    let saved = compiled.lowered.times.bvh_saved.as_secs_f64() * 1e3;
+    let trees = &compiled.lowered.trees;
+    let ms = |time: Duration| time.as_secs_f64() * 1e3;
     text + &format!(
-        "bvh {}/{} cached, saved {saved:.1} ms of building",
-        counters.trees_cached, counters.trees
+        "bvh: {} of {} trees cached, {:.1} ms of building saved; {} stored, {:.1} ms spent building",
+        trees.loaded,
+        trees.groups,
+        ms(trees.saved),
+        trees.stored,
+        ms(trees.build_time),
     )
 }
 

@@ -36,7 +36,7 @@ fn one(path: &Path, check: bool, reporter: &Reporter) -> u8 {
             return IO;
         }
     };
-    let tidy = match lang::format(&text) {
+    let tidy = match lang::format::format(&text) {
         Ok(tidy) => tidy,
         Err(diagnostics) => {
             let mut sources = SourceSet::new();

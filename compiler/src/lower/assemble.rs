@@ -12,13 +12,12 @@ use lang::scene::{Name, Scene, ToneMap};
 use lang::source::Span;
 use pack::abi;
 
-use super::forest::Forest;
 use super::geometry::{self, Placement};
 use super::material::{MaterialRef, MaterialTable};
 use super::order::{Declared, order};
 use super::{Loaded, camera, sky};
-use crate::bvh::{self, BvhError, Joined};
-use crate::cache::{Cache, CacheWarning};
+use crate::bvh::{self, BuildReport, BvhError, Joined, Primitives};
+use crate::cache::Cache;
 use crate::normalize::Normalization;
 use crate::weld::weld;
 
@@ -35,10 +34,6 @@ pub struct Counters {
     pub spheres: u64,
     /// Entries of the light table.
     pub lights: u64,
-    /// Trees that came from the cache, and trees in all.
-    pub trees_cached: u64,
-    /// Trees of meshes and of the spheres.
-    pub trees: u64,
 }
 
 /// Time spent.
@@ -48,8 +43,6 @@ pub struct Times {
     pub geometry: Duration,
     /// Building, fetching and joining trees.
     pub bvh: Duration,
-    /// What building the cached trees once took.
-    pub bvh_saved: Duration,
     /// Putting primitives in order, lights.
     pub order: Duration,
 }
@@ -85,8 +78,8 @@ pub struct Lowered {
     pub counters: Counters,
     /// What took how long.
     pub times: Times,
-    /// What went wrong with the cache, without harm.
-    pub cache_warnings: Vec<CacheWarning>,
+    /// What building the trees cost, and what the cache did.
+    pub trees: BuildReport,
 }
 
 /// Why a scene could not be lowered, apart from faults in its text.
@@ -131,12 +124,10 @@ pub fn lower(
         (frame.point(center.to_array()), frame.length(*radius).max(f32::MIN_POSITIVE))
     };
     let balls: Vec<([f32; 3], f32)> = placement.spheres.iter().map(sphere).collect();
-    let forest = Forest::grow(cache, &corners, &placement.groups, &balls)?;
-    let joined = bvh::join(&forest.groups)?;
-    (counters.trees, counters.trees_cached) = (forest.groups.len() as u64, forest.n_cached);
-    (times.bvh, times.bvh_saved) = (start.elapsed(), forest.saved);
-    let cache_warnings = forest.warnings;
-    drop(forest.groups);
+    let sizes = placement.mesh_sizes();
+    let primitives = Primitives { triangles: &corners, mesh_sizes: &sizes, spheres: &balls };
+    let (joined, trees) = bvh::build_scene(&primitives, cache)?;
+    times.bvh = start.elapsed();
 
     let start = Instant::now();
     let declared = Declared { corners, welded, balls };
@@ -170,7 +161,7 @@ pub fn lower(
         texels,
         counters,
         times,
-        cache_warnings,
+        trees,
     })
 }
 

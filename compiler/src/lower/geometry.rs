@@ -299,6 +299,12 @@ impl Placement {
         });
     }
 
+    /// Triangles of each group.
+    pub(super) fn mesh_sizes(&self) -> Vec<usize> {
+        let starts = std::iter::once(&0).chain(&self.groups);
+        starts.zip(&self.groups).map(|(start, end)| (end - start) as usize).collect()
+    }
+
     /// Ends the triangles of one instance; instances without triangles make no group.
     fn close_group(&mut self) {
         let end = self.corners.len() as u32;

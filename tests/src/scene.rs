@@ -1,0 +1,66 @@
+//! Scene text → checked pack, in memory, through the whole compiler.
+
+use std::path::Path;
+
+use compiler::cache::Cache;
+use compiler::import::Limits;
+use compiler::pipeline::{self, Compiled, Options};
+use lang::source::{LoadError, Loader};
+use pack::{Checked, Pack};
+
+/// A loader for texts without imports.
+struct NoImports;
+
+impl Loader for NoImports {
+    fn load(&mut self, _: &str, _: &str) -> Result<(String, String), LoadError> {
+        Err(LoadError::NotFound)
+    }
+}
+
+/// Compiles a text whose files are relative to `root`; diagnostics of errors become a panic.
+///
+/// # Panics
+/// When the text is not a scene: tests are to fail there.
+#[must_use]
+pub fn compile_in(root: &Path, text: &str) -> Compiled {
+    let name = root.join("test.rts").display().to_string();
+    let analysis = lang::analyze(&name, text, &mut NoImports, &lang::Options::default());
+    let mut diagnostics = analysis.diagnostics;
+    let shown = |list: &[lang::diagnostic::Diagnostic]| {
+        let lines = list.iter().map(|d| lang::diagnostic::short(&analysis.sources, d));
+        lines.collect::<Vec<_>>().join("\n")
+    };
+    let Some(scene) = &analysis.scene else { panic!("{}", shown(&diagnostics)) };
+    let cache = Cache::disabled();
+    let options = Options { root, cache: &cache, limits: Limits::default(), defines: &[] };
+    match pipeline::compile(scene, &analysis.sources, &options, &mut diagnostics) {
+        Ok(compiled) => compiled,
+        Err(error) => panic!("{error}\n{}", shown(&diagnostics)),
+    }
+}
+
+/// Compiles a text that names no files.
+#[must_use]
+pub fn compile(text: &str) -> Compiled {
+    compile_in(Path::new(""), text)
+}
+
+/// The bytes of the pack.
+///
+/// # Panics
+/// When the writer finds fault with its own compiler.
+#[must_use]
+pub fn bytes(compiled: &Compiled) -> Vec<u8> {
+    let srgb = compiler::lower::srgb_table();
+    let written = compiled.writer(&srgb).and_then(|writer| writer.to_bytes());
+    written.expect("the compiler makes packs that pass their own checks")
+}
+
+/// Compiles a text that names no files into a checked pack.
+///
+/// # Panics
+/// As `compile` and `bytes`.
+#[must_use]
+pub fn pack(text: &str) -> Pack<Checked> {
+    Pack::from_bytes(bytes(&compile(text))).expect("what was written can be read")
+}
