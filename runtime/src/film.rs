@@ -276,7 +276,9 @@ mod tests {
         let batches: Vec<_> = range(0, 64).batches().collect();
         let run = |order: &[usize]| {
             let mut sum = Accumulator::new(Film::new([20, 10], REGION));
-            batches.iter().for_each(|&batch| sum.open(batch));
+            for batch in &batches {
+                sum.open(*batch);
+            }
             for &i in order {
                 let (batch, rect) = (batches[i / 2], halves()[i % 2]);
                 sum.deposit(batch, rect, &tile(rect, batch));
@@ -309,7 +311,7 @@ mod tests {
         sum.deposit(range(0, 16), halves()[1], &tile(halves()[1], range(0, 16)));
         let film = sum.finish();
         assert_eq!((film.samples(), film.is_even()), ((0, 16), false));
-        assert_eq!(film.mean(0), [0.0; 3]);
+        assert!(film.mean(0).iter().all(|x| *x == 0.0));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use crate::control::Control;
 use crate::cpu;
 use crate::film::Film;
-use crate::job::{Job, JobError, Precision};
+use crate::job::{Job, JobError};
 use crate::output::{Meta, Picture};
 use crate::run::{Run, TileFailure};
 use crate::scene::Scene;
@@ -12,7 +12,7 @@ use std::time::Duration;
 use thiserror::Error;
 
 #[cfg(feature = "gpu")]
-use crate::gpu;
+use crate::{gpu, job::Precision};
 
 /// Where to render.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -141,7 +141,7 @@ pub fn render(
 enum Selected {
     Cpu,
     #[cfg(feature = "gpu")]
-    Gpu(gpu::Adapter),
+    Gpu(Box<gpu::Adapter>),
 }
 
 #[cfg(not(feature = "gpu"))]
@@ -171,7 +171,7 @@ fn select(choice: &DeviceChoice, job: &Job) -> Result<Selected, RenderError> {
         _ => adapters.iter().position(|adapter| !adapter.is_software()),
     };
     match (found, choice) {
-        (Some(i), _) => Ok(Selected::Gpu(adapters.swap_remove(i))),
+        (Some(i), _) => Ok(Selected::Gpu(Box::new(adapters.swap_remove(i)))),
         (None, DeviceChoice::Auto) => Ok(Selected::Cpu),
         (None, DeviceChoice::Named(name)) => {
             Err(RenderError::NoDevice(format!("no adapter is called `{name}`{}", list(&adapters))))

@@ -70,6 +70,7 @@ impl<'a> Run<'a> {
     }
 
     /// The next tile of about `pixels` pixels; `Wait` when there may be more later.
+    #[cfg(feature = "gpu")]
     pub(crate) fn claim(&self, pixels: u64) -> Claim {
         self.claim_locked(&mut self.lock(), pixels)
     }

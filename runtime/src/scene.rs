@@ -7,8 +7,10 @@ use crate::schedule::WorkItem;
 use glam::UVec4;
 use pack::abi::{Camera, Frame, RenderSettings};
 use pack::{Checked, Kind, Pack};
+use std::fmt::Write as _;
 
 /// Sections that the kernel binds as they are, with their binding numbers.
+#[cfg(feature = "gpu")]
 const BOUND: [(u32, Kind); 5] = [
     (3, Kind::NODE),
     (4, Kind::TRIANGLE),
@@ -61,7 +63,12 @@ impl Scene {
     /// The name of what is rendered, in hexadecimal.
     #[must_use]
     pub fn render_id(&self) -> String {
-        self.pack.render_id().iter().map(|byte| format!("{byte:02x}")).collect()
+        let mut text = String::with_capacity(64);
+        for byte in self.pack.render_id() {
+            // Writing to a string cannot fail.
+            let _ = write!(text, "{byte:02x}");
+        }
+        text
     }
 
     /// The camera for an image of `size`: another aspect keeps the horizontal field of view.

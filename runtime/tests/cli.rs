@@ -29,8 +29,9 @@ fn folder() -> tempfile::TempDir {
 
 fn files(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).expect("the folder");
-    let mut names: Vec<String> =
-        entries.map(|entry| text(entry.unwrap().file_name().as_encoded_bytes())).collect();
+    let mut names: Vec<String> = entries
+        .map(|entry| text(entry.expect("an entry").file_name().as_encoded_bytes()))
+        .collect();
     names.sort();
     names
 }

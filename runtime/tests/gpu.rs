@@ -30,12 +30,12 @@ fn run(scene: &Scene, job: &Job, device: &DeviceChoice) -> Rendered {
     let notes = Arc::new(Mutex::new(String::new()));
     let sink = Arc::clone(&notes);
     let control = Control::new(move |text| {
-        let mut notes = sink.lock().unwrap();
+        let mut notes = sink.lock().expect("no panic");
         notes.push_str(text);
         notes.push('\n');
     });
     let outcome = render(scene, job, device, &control).expect("the device renders");
-    let notes = notes.lock().unwrap().clone();
+    let notes = notes.lock().expect("no panic").clone();
     Rendered { outcome, notes }
 }
 
@@ -123,11 +123,11 @@ fn a_lost_device_is_replaced_and_the_picture_is_the_same() {
     let job = Job { submission: Duration::from_nanos(1), samples, ..Job::of_scene(&scene) };
     let notes = Arc::new(Mutex::new(Vec::new()));
     let sink = Arc::clone(&notes);
-    let control = Control::new(move |text| sink.lock().unwrap().push(text.to_owned()));
+    let control = Control::new(move |text| sink.lock().expect("no panic").push(text.to_owned()));
     // After the first, large submissions, each batch is 45 workgroups.
     control.lose_device(20, 1);
     let outcome = render(&scene, &job, &device, &control).expect("it renders");
-    let notes = notes.lock().unwrap().join("\n");
+    let notes = notes.lock().expect("no panic").join("\n");
     assert!(notes.contains("the device was lost"), "{notes}");
     assert_eq!(outcome.device_error, None, "{notes}");
     assert_same(outcome.film(), run(&scene, &job, &DeviceChoice::Cpu).outcome.film());

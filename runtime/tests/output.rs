@@ -118,7 +118,7 @@ fn the_png_has_the_tone_curve_and_nothing_random() {
 
 #[test]
 fn files_of_strangers_are_refused_with_one_line() {
-    let (_folder, at) = folder();
+    let (folder, at) = folder();
     std::fs::write(at("a.exr"), b"not an image").expect("it can be written");
     assert!(matches!(read_exr(&at("a.exr")), Err(OutputError::Read { .. })));
     assert!(matches!(read_exr(&at("none.exr")), Err(OutputError::Read { .. })));
@@ -130,5 +130,5 @@ fn files_of_strangers_are_refused_with_one_line() {
     assert!(matches!(error, Err(OutputError::Format { .. })));
     // A failed write leaves nothing behind.
     assert!(write(&at("none/a.exr"), &picture(range(0, 1), None), false).is_err());
-    assert_eq!(std::fs::read_dir(_folder.path()).expect("the folder").count(), 2);
+    assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 2);
 }

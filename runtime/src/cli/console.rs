@@ -126,7 +126,9 @@ fn progress_text(progress: Progress, watched: &Watched, elapsed: Duration) -> St
         left = Some(left.map_or(until, |left| left.min(until)));
     }
     if let Some(left) = left.and_then(|left| Duration::try_from_secs_f64(left).ok()) {
-        text.push_str(&format!(", {} left", duration_text(left)));
+        text += ", ";
+        text += &duration_text(left);
+        text += " left";
     }
     text
 }

@@ -51,7 +51,7 @@ pub(super) struct Window {
 
 /// A device that is ready to render one scene.
 pub(super) struct Device {
-    pub(super) device: wgpu::Device,
+    pub(super) gpu: wgpu::Device,
     pub(super) queue: wgpu::Queue,
     pub(super) pipeline: ComputePipeline,
     pub(super) layout: BindGroupLayout,
@@ -90,7 +90,7 @@ impl Device {
         let windows = upload_all(&device, &queue, &buffers)?;
         let checks = checks(module, adapter.is_software());
         let (layout, pipeline) = compile(&device, setup.kernel(), &windows, checks)?;
-        let mut ready = Self { device, queue, pipeline, layout, windows, lost, uncaptured };
+        let mut ready = Self { gpu: device, queue, pipeline, layout, windows, lost, uncaptured };
         ready.try_one_workgroup(setup)?;
         Ok(ready)
     }
@@ -101,7 +101,7 @@ impl Device {
         if uncaptured.is_some() {
             // Whatever fails on a lost device says that something is invalid; the loss itself is told
             // by a callback, which needs a poll.
-            let _ = self.device.poll(wgpu::PollType::Poll);
+            let _ = self.gpu.poll(wgpu::PollType::Poll);
         }
         if let Some(text) = self.lost.get() {
             return Err(GpuError::Lost(text));
@@ -115,7 +115,7 @@ impl Device {
         let mut slots = Slots::default();
         let mut slot: Slot = slots.take(self, 64);
         let index = slot.submit_trial(self, setup);
-        wait(&self.device, index)?;
+        wait(&self.gpu, index)?;
         self.fault()?;
         slot.read(self, |_| ())
     }

@@ -61,7 +61,7 @@ impl Slot {
     fn new(device: &Device, capacity: u64) -> Self {
         let buffer = |label, size, usage| {
             let label = Some(label);
-            device.device.create_buffer(&BufferDescriptor {
+            device.gpu.create_buffer(&BufferDescriptor {
                 label,
                 size,
                 usage,
@@ -88,7 +88,7 @@ impl Slot {
             binding: window.binding,
             resource: part(&window.buffer, window.offset, window.size),
         }));
-        let bindings = device.device.create_bind_group(&BindGroupDescriptor {
+        let bindings = device.gpu.create_bind_group(&BindGroupDescriptor {
             label: Some("tile"),
             layout: &device.layout,
             entries: &entries,
@@ -172,7 +172,7 @@ fn submit(
     items: &[WorkItem],
 ) -> SubmissionIndex {
     let descriptor = CommandEncoderDescriptor { label: Some("tiles") };
-    let mut encoder = device.device.create_command_encoder(&descriptor);
+    let mut encoder = device.gpu.create_command_encoder(&descriptor);
     for (slot, item) in slots.iter_mut().zip(items) {
         slot.prepare(device, setup, *item);
     }
@@ -184,7 +184,9 @@ fn submit(
         pass.dispatch_workgroups(groups[0], groups[1], 1);
     }
     drop(pass);
-    slots.iter().for_each(|slot| slot.copy(&mut encoder));
+    for slot in slots.iter() {
+        slot.copy(&mut encoder);
+    }
     let index = device.queue.submit([encoder.finish()]);
     slots.iter().for_each(Slot::map);
     index
@@ -209,7 +211,9 @@ impl Device {
         let mut under_way = VecDeque::new();
         let result = self.render_loop(setup, run, pace, &mut under_way);
         for submission in &under_way {
-            submission.slots.iter().for_each(|slot| run.give_back(slot.item));
+            for slot in &submission.slots {
+                run.give_back(slot.item);
+            }
         }
         result
     }
@@ -226,7 +230,7 @@ impl Device {
         let mut n_tiles = 0;
         loop {
             if run.control().loses_device_after(n_tiles) {
-                self.device.destroy();
+                self.gpu.destroy();
             }
             while under_way.len() < IN_FLIGHT {
                 let items = claim(run, pace);
@@ -263,7 +267,7 @@ impl Device {
         last_end: &mut Instant,
     ) -> Result<(), GpuError> {
         let Some(oldest) = under_way.front_mut() else { return Ok(()) };
-        let waited = wait(&self.device, oldest.index.clone());
+        let waited = wait(&self.gpu, oldest.index.clone());
         self.fault()?;
         waited?;
         // The device was busy with it from its submission or from the end of the one before.

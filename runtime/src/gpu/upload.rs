@@ -38,7 +38,7 @@ pub(super) fn upload(
 
 /// Waits for a submission; a device that needs a minute is lost.
 pub(super) fn wait(device: &Device, index: wgpu::SubmissionIndex) -> Result<(), GpuError> {
-    let timeout = Some(Duration::from_secs(60));
+    let timeout = Some(Duration::from_mins(1));
     match device.poll(PollType::Wait { submission_index: Some(index), timeout }) {
         Ok(_) => Ok(()),
         Err(error) => Err(GpuError::Lost(error.to_string())),

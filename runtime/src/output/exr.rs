@@ -26,7 +26,7 @@ const REC_709: [[f32; 2]; 4] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06], [0.312
 pub fn write_exr(path: &Path, picture: &Picture, residual: bool) -> Result<(), OutputError> {
     let film = &picture.film;
     let means = film.means();
-    let (names, planes) = (COLOURS, planes(&means, |x| round(x)));
+    let (names, planes) = (COLOURS, planes(&means, round));
     let mut channels: Vec<_> = names.iter().zip(planes).map(|(n, p)| channel(n, p)).collect();
     if residual {
         let rest = self::planes(&means, |x| {

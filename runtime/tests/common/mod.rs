@@ -79,16 +79,7 @@ fn pack(kernel: &str, output: Option<String>) -> Vec<u8> {
         sphere([0.3, -0.15, 0.0], 0.12, 2),
         Sphere { light: 0, ..sphere([0.1, 0.5, 0.3], 0.06, 3) },
     ];
-    let floor = [[-0.6, -0.27, -0.6], [0.6, -0.27, -0.6], [0.6, -0.27, 0.6], [-0.6, -0.27, 0.6]];
-    let triangle = |a: usize, b: usize, c: usize| Triangle {
-        v0: floor[a],
-        id0: a as u32,
-        v1: floor[b],
-        id1: b as u32,
-        v2: floor[c],
-        id2: c as u32,
-    };
-    let triangles = [triangle(0, 2, 1), triangle(0, 3, 2)];
+    let triangles = floor();
     let shades = [TriShade { material: 4, light: NONE, ..TriShade::default() }; 2];
     let word = |child: ChildRef| child.encode().expect("small references have a word");
     let nodes = [Node {
@@ -110,20 +101,7 @@ fn pack(kernel: &str, output: Option<String>) -> Vec<u8> {
         material: 3,
         ..Light::default()
     }];
-    let sky = Sky {
-        zenith: [0.3, 0.5, 0.9],
-        kind: SkyKind::Gradient as u32,
-        middle: [0.6, 0.7, 0.9],
-        blend_high: 0.4,
-        horizon: [0.8, 0.8, 0.8],
-        blend_low: -0.1,
-        ground: [0.2; 3],
-        glow_power: 8.0,
-        sun_direction: [0.0, 1.0, 0.0],
-        disc_power: 256.0,
-        ..Sky::default()
-    };
-    let (settings, camera) = view();
+    let ((settings, camera), sky) = (view(), sky());
     let manifest = Manifest { scene: "marbles".to_owned(), output, ..Manifest::default() };
     let mut writer = PackWriter::new();
     writer
@@ -142,8 +120,31 @@ fn pack(kernel: &str, output: Option<String>) -> Vec<u8> {
     writer.to_bytes().expect("the scene keeps the rules")
 }
 
+fn floor() -> [Triangle; 2] {
+    let corners = [[-0.6, -0.27, -0.6], [0.6, -0.27, -0.6], [0.6, -0.27, 0.6], [-0.6, -0.27, 0.6]];
+    [[0_u32, 2, 1], [0, 3, 2]].map(|[id0, id1, id2]| {
+        let [v0, v1, v2] = [id0, id1, id2].map(|id| corners[id as usize]);
+        Triangle { v0, id0, v1, id1, v2, id2 }
+    })
+}
+
+fn sky() -> Sky {
+    Sky {
+        zenith: [0.3, 0.5, 0.9],
+        kind: SkyKind::Gradient as u32,
+        middle: [0.6, 0.7, 0.9],
+        blend_high: 0.4,
+        horizon: [0.8, 0.8, 0.8],
+        blend_low: -0.1,
+        ground: [0.2; 3],
+        glow_power: 8.0,
+        sun_direction: [0.0, 1.0, 0.0],
+        disc_power: 256.0,
+        ..Sky::default()
+    }
+}
+
 fn view() -> (RenderSettings, Camera) {
-    let halves = |x: f64| [x.to_bits() as u32, (x.to_bits() >> 32) as u32];
     let settings = RenderSettings {
         image_size: SIZE,
         samples: SPP,
@@ -152,7 +153,8 @@ fn view() -> (RenderSettings, Camera) {
         seed: 7,
         root: ChildRef::Inner(0).encode().expect("small references have a word"),
         stack_need: 1,
-        scale_bits: halves(1.0),
+        // The halves of the f64 1.0.
+        scale_bits: [0, 0x3ff0_0000],
         n_lights: 1,
         ..RenderSettings::default()
     };
@@ -178,7 +180,8 @@ pub(crate) fn scene() -> Scene {
 pub(crate) fn assert_same(a: &Film, b: &Film) {
     assert_eq!((a.image_size, a.region, &a.ranges), (b.image_size, b.region, &b.ranges));
     assert_eq!(a.counts, b.counts);
-    let differ = |i: &usize| a.sums[*i] != b.sums[*i];
+    let bits = |film: &Film, i: usize| film.sums[i].map(f64::to_bits);
+    let differ = |i: &usize| bits(a, *i) != bits(b, *i);
     let different: Vec<usize> = (0..a.sums.len()).filter(differ).collect();
     if let Some(&i) = different.first() {
         let (n, all) = (different.len(), a.sums.len());
