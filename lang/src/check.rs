@@ -14,6 +14,7 @@ use crate::source::{Loader, SourceSet};
 use crate::syntax::ItemKind;
 
 mod camera;
+mod collect;
 mod define;
 mod field;
 pub(crate) mod fields;
@@ -21,9 +22,11 @@ mod instance;
 mod light;
 mod lint;
 mod material;
+mod object;
 mod render;
 mod scene;
 mod shape;
+mod slot;
 pub(crate) mod texture;
 mod transform;
 mod unused;
@@ -90,7 +93,9 @@ pub fn analyze(
     let scene = Checker::new().run(&mut ev);
     let params = params(&ev);
     let mut diagnostics = ev.diagnostics;
-    diagnostics.iter_mut().for_each(|d| define::keep_editable(d, n_files));
+    for diagnostic in &mut diagnostics {
+        define::keep_editable(diagnostic, n_files);
+    }
     diagnostic::sort(&mut diagnostics);
     diagnostics.dedup_by(|a, b| a.code == b.code && a.message == b.message && a.span() == b.span());
     let scene = scene.filter(|_| !diagnostics.iter().any(Diagnostic::is_error));
@@ -137,11 +142,11 @@ impl Checker {
             }
         }
         let objects = ids_of(ev.program, Kind::Object);
-        self.world.check_objects(ev, &objects);
+        self.world.objects.check(ev, &objects);
         for id in ids_of(ev.program, Kind::Instance) {
             self.world.instance(ev, id, is_in_world(ev.program, id));
         }
-        self.check_asserts(ev);
+        check_asserts(ev);
         let scene = self.build(ev);
         if !ev.diagnostics.iter().any(Diagnostic::is_error) {
             unused::check(ev);
@@ -182,18 +187,19 @@ impl Checker {
         }
         self.fields.insert(id, fields);
     }
+}
 
-    fn check_asserts(&self, ev: &mut Evaluator<'_>) {
-        let program = ev.program;
-        for id in program.ids() {
-            let ItemKind::Assert(assert) = &program.item(id).kind else { continue };
-            let scope = crate::eval::Scope { module: id.module, local: None };
-            if ev.condition(&assert.condition, scope) == Some(false) {
-                let error = Diagnostic::error(diagnostic::Code("E0403"), &assert.message.text)
-                    .at(assert.condition.span, "this does not hold");
-                let error = ev.explain_values(error, &assert.condition, scope);
-                ev.fault(error);
-            }
+/// Reports assertions that do not hold.
+fn check_asserts(ev: &mut Evaluator<'_>) {
+    let program = ev.program;
+    for id in program.ids() {
+        let ItemKind::Assert(assert) = &program.item(id).kind else { continue };
+        let scope = crate::eval::Scope { module: id.module, local: None };
+        if ev.condition(&assert.condition, scope) == Some(false) {
+            let error = Diagnostic::error(diagnostic::Code("E0403"), &assert.message.text)
+                .at(assert.condition.span, "this does not hold");
+            let error = ev.explain_values(error, &assert.condition, scope);
+            ev.fault(error);
         }
     }
 }

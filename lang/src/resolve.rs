@@ -3,6 +3,7 @@
 //! Each file is loaded once, whoever imports it. Imports form a tree without cycles. What a name
 //! stands for is decided here; what the thing behind it is worth is not known here.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 
 use crate::diagnostic::{Code, Diagnostic, Fix};
@@ -16,6 +17,10 @@ pub(crate) mod like;
 
 pub(crate) use import::load;
 
+/// Names that may be compared in search of similar ones; a file full of unknown names would
+/// otherwise take time that grows with the square of its length.
+const MAX_COMPARED: usize = 5_000_000;
+
 /// A declaration: which module, which item of its file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct ItemId {
@@ -27,6 +32,8 @@ pub(crate) struct ItemId {
 #[derive(Debug, Default)]
 pub(crate) struct Program {
     pub(crate) modules: Vec<Module>,
+    /// Names compared so far in search of similar ones.
+    compared: Cell<usize>,
 }
 
 /// One file.
@@ -183,6 +190,22 @@ impl Program {
         }
     }
 
+    /// Finds the declaration that a path begins with, without a word if there is none.
+    pub(crate) fn lookup(&self, module: u32, path: &Path) -> Option<ItemId> {
+        let names = &self.modules[module as usize].names;
+        match names.get(&path.segments[0].text)?.target {
+            Target::Item(id) => Some(id),
+            Target::Poison => None,
+            Target::Module(target) => {
+                let names = &self.modules[target as usize].names;
+                match names.get(&path.segments.get(1)?.text)?.target {
+                    Target::Item(id) if id.module == target && self.item(id).public => Some(id),
+                    _ => None,
+                }
+            }
+        }
+    }
+
     /// Finds a public name of a module; `None` is one that could not be read.
     pub(crate) fn find_public(
         &self,
@@ -225,7 +248,9 @@ impl Program {
     }
 
     fn not_in_module(&self, module: u32, name: &Ident) -> Diagnostic {
-        let public = self.public_names(module);
+        self.compared.set(self.compared.get() + self.modules[module as usize].names.len());
+        let public =
+            if self.compared.get() > MAX_COMPARED { vec![] } else { self.public_names(module) };
         let text = format!("that file has no `{}`", name.text);
         let error = Diagnostic::error(Code("E0202"), text);
         let mut error = did_you_mean(error, name, public.iter().map(String::as_str));
@@ -272,6 +297,10 @@ impl Program {
             None => format!("{what} is named `{}`", name.text),
         };
         let names = &self.modules[module as usize].names;
+        self.compared.set(self.compared.get().saturating_add(names.len()));
+        if self.compared.get() > MAX_COMPARED {
+            return Diagnostic::error(Code("E0202"), text).at(name.span, "not known here");
+        }
         let fits = |entry: &Entry| match (kind, entry.target) {
             (Some(kind), Target::Item(id)) => item_kind(self.item(id)) == Some(kind),
             _ => kind.is_none(),

@@ -292,6 +292,13 @@ impl Bounds {
         low && value <= self.max
     }
 
+    /// Runs from 0 to 1, so that its values may be percent.
+    #[must_use]
+    #[expect(clippy::float_cmp, reason = "the table says exactly 1")]
+    pub fn is_share(&self) -> bool {
+        self.max == 1.0
+    }
+
     /// In words for a message: `between 0 and 1`, `at least 1`, `above 0m`.
     #[must_use]
     pub fn described(&self) -> String {
@@ -429,6 +436,7 @@ pub fn default_text(field: &Field) -> String {
 
 /// A linear colour as `.rts` text.
 #[must_use]
+#[expect(clippy::float_cmp, reason = "only exact greys may be written as one number")]
 pub fn color_text([r, g, b]: [f64; 3]) -> String {
     let number = units::show_number;
     if r == g && g == b {

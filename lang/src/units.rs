@@ -258,6 +258,7 @@ pub fn find(symbol: &str) -> Option<&'static Unit> {
 
 /// The unit of a dimension that needs no factor, where it has a symbol.
 #[must_use]
+#[expect(clippy::float_cmp, reason = "factors of SI units are exactly 1")]
 pub fn si_symbol(dim: Dim) -> Option<&'static str> {
     UNITS.iter().find(|unit| unit.dim == dim && unit.factor == 1.0).map(|unit| unit.symbol)
 }
@@ -356,6 +357,7 @@ pub fn show(value: f64, dim: Dim) -> String {
 
 /// Prints an SI value in one unit; `None` if no decimal of that unit reads back as this value.
 #[must_use]
+#[expect(clippy::float_cmp, reason = "it must read back exactly")]
 pub fn show_in(value: f64, unit: &Unit) -> Option<String> {
     let scaled = value / unit.factor;
     // Division rounds: 0.05 / 0.001 is 50.00000000000001. Fifteen digits are what it can be sure of.
@@ -365,6 +367,7 @@ pub fn show_in(value: f64, unit: &Unit) -> Option<String> {
 }
 
 #[cfg(test)]
+#[expect(clippy::float_cmp, reason = "units are exact")]
 mod tests {
     use super::*;
 

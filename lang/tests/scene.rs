@@ -248,3 +248,49 @@ fn expanded_instances_are_in_order_of_their_index() {
     assert_eq!(names[..4], ["s[-1]", "s[0]", "s[1]", "s[2]"]);
     assert_eq!((names.len(), names[11]), (12, "s[10]"));
 }
+
+#[test]
+fn the_number_of_instances_is_limited() {
+    let text = with_view(
+        "material m: diffuse { color = linear(0.5) }\n\
+         object a { shape = sphere(radius: 1m), material = m }\n\
+         object b { shape = sphere(radius: 2m), material = m }\n\
+         object pair { shape = [a, b] }\n\
+         instance s[i in 0..500_001]: pair { }",
+    );
+    let analysis = check_text(&text);
+    let codes: Vec<&str> = analysis.diagnostics.iter().map(|d| d.code.0).collect();
+    assert_eq!(codes, ["E0801"], "{}", describe(&analysis));
+}
+
+#[test]
+fn hostile_scenes_end_soon() {
+    // Groups that multiply and hold nothing, a list that is copied, thousands of unknown names, and
+    // a chain in which every value refers to all before it.
+    let members: Vec<String> = (0..300).map(|i| format!("o{i}")).collect();
+    let mut groups: String =
+        members.iter().map(|name| format!("object {name} {{ shape = nothing }}\n")).collect();
+    let mut last = members.join(", ");
+    for level in 0..6 {
+        let next: Vec<String> = (0..30).map(|i| format!("g{level}_{i}")).collect();
+        for name in &next {
+            groups += &format!("object {name} {{ shape = [{last}] }}\n");
+        }
+        last = next.join(", ");
+    }
+    groups += &format!("instance s {{ shape = [{last}] }}\n");
+    let list = format!("let l = [{}]\n", vec!["1"; 20_000].join(", "));
+    let copies: String = (0..20_000).map(|i| format!("let c{i} = l\n")).collect();
+    let unknown: String = (0..20_000).map(|i| format!("let u{i} = unknown{i}\n")).collect();
+    let cycle = format!(
+        "let y = [{}]\n{}",
+        (0..3_000).map(|i| format!("x{i}")).collect::<Vec<_>>().join(", "),
+        (0..3_000).map(|i| format!("let x{i} = [x{}, y]\n", i + 1)).collect::<String>()
+    );
+    for body in [groups, list + &copies, unknown, cycle] {
+        let start = std::time::Instant::now();
+        assert!(!check_text(&with_view(&body)).diagnostics.is_empty());
+        let seconds = start.elapsed().as_secs();
+        assert!(seconds < 30, "{seconds} s for {}", &body[..60]);
+    }
+}

@@ -108,7 +108,7 @@ pub(super) fn film(name: Name, fields: &Fields) -> Option<Film> {
 /// The film that is used when none is declared: every default of the schema.
 pub(super) fn default_film(span: crate::source::Span) -> Film {
     let schema = schema::find_type(schema::Kind::Film, "").expect("film has one schema");
-    let fields = Fields::defaults(schema);
+    let fields = Fields::new(schema);
     let name = Name { text: "default".to_owned(), span };
     film(name, &fields).expect("every field of a film has a default")
 }

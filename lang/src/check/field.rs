@@ -2,10 +2,9 @@
 
 use super::lint;
 use crate::diagnostic::{Code, Diagnostic, Fix};
-use crate::eval::value::{ShapeValue, Value};
+use crate::eval::value::Value;
 use crate::eval::{Evaluator, Scope, with_unit_fix};
 use crate::resolve::{did_you_mean, quoted_list};
-use crate::scene::ColorSpace;
 use crate::schema::{Bounds, Default, Field, FieldType, Kind, MAX_FILM_SIDE, TypeSchema, Word};
 use crate::source::Span;
 use crate::syntax::{Expr, ExprKind, Ident};
@@ -13,20 +12,20 @@ use crate::units::{self, Dim};
 
 /// Where a value is going.
 #[derive(Clone, Copy)]
-struct Slot<'e> {
-    schema: &'static TypeSchema,
-    field: &'static Field,
-    expr: &'e Expr,
-    module: u32,
+pub(super) struct Slot<'e> {
+    pub(super) schema: &'static TypeSchema,
+    pub(super) field: &'static Field,
+    pub(super) expr: &'e Expr,
+    pub(super) module: u32,
 }
 
 impl Slot<'_> {
-    fn span(&self) -> Span {
+    pub(super) fn span(&self) -> Span {
         self.expr.span
     }
 
     /// `` `ring.width` ``.
-    fn name(&self) -> String {
+    pub(super) fn name(&self) -> String {
         format!("`{}`", self.field.name)
     }
 
@@ -148,7 +147,7 @@ impl Evaluator<'_> {
         }
         match slot.field.ty {
             FieldType::Number(bounds) => self.fit_number(slot, value, bounds),
-            FieldType::Integer(min, max) => self.fit_integer(slot, value, [min, max]),
+            FieldType::Integer(min, max) => self.fit_integer(slot, &value, [min, max]),
             FieldType::Vector(dim, unit) => self.fit_vector(slot, value, (dim, unit), 3),
             FieldType::Size(n) => self.fit_size(slot, value, n),
             FieldType::Pixels => self.fit_pixels(slot, value),
@@ -212,7 +211,7 @@ impl Evaluator<'_> {
         if !slot.field.typical.is_empty() {
             error = error.with_note(format!("typical: {}", slot.field.typical));
         }
-        let looks_like_percent = bounds.max == 1.0 && (2.0..=100.0).contains(&number);
+        let looks_like_percent = bounds.is_share() && (2.0..=100.0).contains(&number);
         if looks_like_percent && matches!(&slot.expr.kind, ExprKind::Number(n) if n.unit.is_none())
         {
             error = error.with_fix(Fix::guess("write percent", slot.span().after(), "%"));
@@ -248,9 +247,9 @@ impl Evaluator<'_> {
         }
     }
 
-    fn fit_integer(&mut self, slot: Slot<'_>, value: Value, [min, max]: [u32; 2]) -> Value {
-        let Value::Number(number, Dim::NONE) = value else {
-            return self.wrong_dimension(slot, &value, (Dim::NONE, ""), "a whole number");
+    fn fit_integer(&mut self, slot: Slot<'_>, value: &Value, [min, max]: [u32; 2]) -> Value {
+        let Value::Number(number, Dim::NONE) = *value else {
+            return self.wrong_dimension(slot, value, (Dim::NONE, ""), "a whole number");
         };
         if number.fract() == 0.0 && (f64::from(min)..=f64::from(max)).contains(&number) {
             #[expect(clippy::cast_possible_truncation, reason = "whole and inside u32")]
@@ -321,86 +320,7 @@ impl Evaluator<'_> {
         value
     }
 
-    fn fit_color(&mut self, slot: Slot<'_>, value: Value, max: f64) -> Value {
-        match &value {
-            Value::Color(rgb) => {
-                let bounds = Bounds { max, min: 0.0, ..any(Dim::NONE, "") };
-                match rgb.iter().find(|c| !bounds.contains(**c)) {
-                    None => value,
-                    Some(wrong) => {
-                        let range = bounds.described();
-                        let wrong = units::show_number(*wrong);
-                        let text = format!(
-                            "each channel of {} must be {range}, found {wrong}",
-                            slot.name()
-                        );
-                        let error = Diagnostic::error(Code("E0401"), text).at(slot.span(), range);
-                        self.number_fault(if max == 1.0 {
-                            error.with_note("a surface cannot reflect more light than it gets")
-                        } else {
-                            error
-                        })
-                    }
-                }
-            }
-            Value::Hex(_) | Value::Number(_, Dim::NONE) | Value::Vector(_, Dim::NONE) => {
-                self.without_space(&slot.name(), &value, slot.span())
-            }
-            Value::TextureColor(_) | Value::TextureChannel(..) | Value::Item(Kind::Texture, _) => {
-                let wanted = match slot.field.ty {
-                    FieldType::ColorSlot(_) => "a colour: of a texture that is `.rgb`",
-                    _ => "one colour, which no texture is",
-                };
-                self.wrong_kind(slot, &value, wanted)
-            }
-            _ => self.wrong_kind(slot, &value, "a colour"),
-        }
-    }
-
-    /// A texture must be read as what its image holds.
-    fn fit_texture(
-        &mut self,
-        slot: Slot<'_>,
-        id: crate::resolve::ItemId,
-        value: Value,
-        wants_color: bool,
-    ) -> Value {
-        let Some(info) = self.textures.get(&id) else { return Value::Poison };
-        let (wants, write) = match (wants_color, info.space) {
-            (true, ColorSpace::Data) => ("a colour", "srgb"),
-            (false, ColorSpace::Srgb) => ("linear data", "data"),
-            _ => return value,
-        };
-        let tagged = match info.space {
-            ColorSpace::Srgb => "sRGB",
-            ColorSpace::Linear => "linear colour",
-            ColorSpace::Data => "data",
-        };
-        let text = format!("{} wants {wants}, but this image is tagged {tagged}", slot.name());
-        let mut error = Diagnostic::error(Code("E0601"), text)
-            .at(slot.span(), format!("used as {wants} here"))
-            .because(info.space_span, "tagged here")
-            .with_fix(Fix::guess(format!("write `space: {write}`"), info.space_value, write));
-        if let Some(import) = self.program.import_span(slot.module, id.module) {
-            error = error.because(import, "imported from here");
-        }
-        self.fault(error)
-    }
-
-    fn which_channel(&mut self, slot: Slot<'_>) -> Value {
-        let text = format!("{} needs one channel of the texture", slot.name());
-        let error = Diagnostic::error(Code("E0203"), text).at(slot.span(), "which channel?");
-        let error = match &slot.expr.kind {
-            ExprKind::Path(path) if path.segments.last().is_some_and(|s| s.text == "rgb") => {
-                let last = path.segments.last().map_or(slot.span(), |s| s.span);
-                error.with_fix(Fix::guess("take red", last, "r"))
-            }
-            _ => error.with_fix(Fix::guess("take red", slot.span().after(), ".r")),
-        };
-        self.fault(error.with_note("a texture has `.r`, `.g`, `.b` and `.a`"))
-    }
-
-    fn wrong_kind(&mut self, slot: Slot<'_>, value: &Value, wanted: &str) -> Value {
+    pub(super) fn wrong_kind(&mut self, slot: Slot<'_>, value: &Value, wanted: &str) -> Value {
         let text = format!("{} needs {wanted}, found {}", slot.name(), value.described());
         let item = match value {
             Value::Item(_, id) | Value::TextureColor(id) | Value::TextureChannel(id, _) => {
@@ -415,57 +335,6 @@ impl Evaluator<'_> {
             None => error,
         };
         self.fault(error)
-    }
-
-    fn fit_shape(&mut self, slot: Slot<'_>, value: Value) -> Value {
-        let wanted = "a shape, an asset, an object or a list of objects";
-        match value {
-            Value::Shape(_) => value,
-            Value::Item(Kind::Asset, id) => Value::Shape(Box::new(ShapeValue::Mesh(id, None))),
-            Value::Item(Kind::Object, id) => {
-                Value::Shape(Box::new(ShapeValue::Object(id, slot.span())))
-            }
-            Value::List(entries) => self.fit_group(slot, entries),
-            other => self.wrong_kind(slot, &other, wanted),
-        }
-    }
-
-    fn fit_group(&mut self, slot: Slot<'_>, entries: Vec<(Value, Span)>) -> Value {
-        let mut objects: Vec<(crate::resolve::ItemId, Span)> = Vec::new();
-        let mut fine = true;
-        for (value, span) in entries {
-            match value {
-                Value::Item(Kind::Object, id) => {
-                    match objects.iter().find(|(other, _)| *other == id) {
-                        None => objects.push((id, span)),
-                        Some((_, first)) => {
-                            fine = false;
-                            let text = "this object is listed twice";
-                            let error = Diagnostic::error(Code("E0204"), text)
-                                .at(span, "again")
-                                .because(*first, "first listed here")
-                                .with_note("both would stand in the same place");
-                            self.fault(error);
-                        }
-                    }
-                }
-                Value::Poison => fine = false,
-                other => {
-                    fine = false;
-                    let text = format!("a group holds objects, not {}", other.described());
-                    let error = Diagnostic::error(Code("E0203"), text).at(span, other.described());
-                    self.fault(
-                        error.with_help("declare an `object` with this shape and list its name"),
-                    );
-                }
-            }
-        }
-        if objects.is_empty() && fine {
-            let text = format!("{} is an empty list", slot.name());
-            return self
-                .fault(Diagnostic::error(Code("E0305"), text).at(slot.span(), "no objects"));
-        }
-        if fine { Value::Shape(Box::new(ShapeValue::Objects(objects))) } else { Value::Poison }
     }
 
     fn fit_interval(&mut self, slot: Slot<'_>, value: Value, bounds: Bounds) -> Value {
@@ -539,6 +408,6 @@ fn wants_word(ty: FieldType) -> bool {
 }
 
 /// No limit but those of the language; the lower end is zero.
-fn any(dim: Dim, unit: &'static str) -> Bounds {
+pub(super) fn any(dim: Dim, unit: &'static str) -> Bounds {
     Bounds { dim, unit, min: 0.0, above_min: false, max: f64::INFINITY }
 }

@@ -1,23 +1,21 @@
-//! Instances and objects become a flat list of shapes with a matrix and a material each.
+//! Instances become a flat list of shapes with a matrix and a material each.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
-use super::fields::{Fields, Givens};
+use super::collect::Givens;
+use super::fields::Fields;
+use super::object::{self, Objects, Thing};
 use super::transform::{self, Matrix};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::value::{ShapeValue, Value};
 use crate::eval::{Evaluator, Scope};
 use crate::resolve::ItemId;
-use crate::schema::Kind;
 use crate::source::Span;
 use crate::syntax::Index;
 use crate::units::Dim;
 
 /// A scene has at most this many instances.
 pub(crate) const MAX_INSTANCES: usize = 1_000_000;
-
-/// Groups may hold groups this deep.
-pub(crate) const MAX_OBJECT_DEPTH: usize = 8;
 
 /// One shape in the world.
 #[derive(Clone, Debug)]
@@ -27,25 +25,16 @@ pub(super) struct Placed {
     pub(super) name: String,
     pub(super) name_span: Span,
     /// Never an object or a group.
-    pub(super) shape: ShapeValue,
+    pub(super) shape: Rc<ShapeValue>,
     pub(super) shape_span: Span,
     pub(super) material: Option<(ItemId, Span)>,
     pub(super) matrix: Matrix,
 }
 
-/// A checked object.
-#[derive(Clone, Debug)]
-struct Thing {
-    shape: ShapeValue,
-    shape_span: Span,
-    material: Option<(ItemId, Span)>,
-    matrix: Matrix,
-}
-
 /// Collects what is in the world.
 #[derive(Default)]
 pub(super) struct World {
-    objects: BTreeMap<ItemId, Option<Thing>>,
+    pub(super) objects: Objects,
     pub(super) placed: Vec<Placed>,
     /// The limit was reported.
     full: bool,
@@ -62,75 +51,6 @@ struct Place<'a> {
 }
 
 impl World {
-    /// Checks every object, then which objects hold which.
-    pub(super) fn check_objects(&mut self, ev: &mut Evaluator<'_>, ids: &[ItemId]) {
-        for &id in ids {
-            if super::refuse_index(ev, Kind::Object, id) {
-                self.objects.insert(id, None);
-                continue;
-            }
-            let fields = ev.fields_of(id);
-            let thing = fields.filter(|fields| fields.ok).and_then(|fields| thing(&fields));
-            self.objects.insert(id, thing);
-        }
-        let mut depths: BTreeMap<ItemId, usize> = BTreeMap::new();
-        let mut reported = BTreeSet::new();
-        for &id in ids {
-            self.depth(ev, id, &mut vec![id], &mut depths, &mut reported);
-        }
-        for id in reported {
-            self.objects.insert(id, None);
-        }
-    }
-
-    /// How many groups deep an object is; the walk stops at cycles and at the limit.
-    fn depth(
-        &self,
-        ev: &mut Evaluator<'_>,
-        id: ItemId,
-        stack: &mut Vec<ItemId>,
-        depths: &mut BTreeMap<ItemId, usize>,
-        reported: &mut BTreeSet<ItemId>,
-    ) -> usize {
-        if let Some(depth) = depths.get(&id) {
-            return *depth;
-        }
-        let mut deepest = 0;
-        let children: &[(ItemId, Span)] = match self.objects.get(&id) {
-            Some(Some(Thing { shape: ShapeValue::Objects(children), .. })) => children,
-            Some(Some(Thing { shape: ShapeValue::Object(child, at), .. })) => &[(*child, *at)],
-            _ => &[],
-        };
-        {
-            for &(child, span) in children {
-                if stack.contains(&child) {
-                    let text = format!("`{}` contains itself", ev.program.name(child));
-                    let error = Diagnostic::error(Code("E0803"), text)
-                        .at(span, "leads back to it")
-                        .because(ev.program.name_span(child), "this object");
-                    ev.fault(error);
-                    reported.insert(id);
-                    continue;
-                }
-                if stack.len() > MAX_OBJECT_DEPTH + 1 {
-                    deepest = deepest.max(1);
-                    continue;
-                }
-                stack.push(child);
-                deepest = deepest.max(1 + self.depth(ev, child, stack, depths, reported));
-                stack.pop();
-            }
-        }
-        if deepest > MAX_OBJECT_DEPTH && reported.insert(id) {
-            let text =
-                format!("`{}` holds groups more than {MAX_OBJECT_DEPTH} deep", ev.program.name(id));
-            let span = ev.program.name_span(id);
-            ev.fault(Diagnostic::error(Code("E0803"), text).at(span, "this object"));
-        }
-        depths.insert(id, deepest);
-        deepest
-    }
-
     /// Checks an `instance` and, if `placed`, puts it into the world.
     pub(super) fn instance(&mut self, ev: &mut Evaluator<'_>, id: ItemId, placed: bool) {
         let (program, models) = (ev.program, ev.models);
@@ -146,17 +66,25 @@ impl World {
         ev.check_names(id);
         let Some((low, high)) = index_range(ev, index, id.module) else { return };
         let givens = ev.givens(id);
-        if !has_required(ev, id, &givens) || low == high {
+        if !has_required(ev, id, &givens) {
             return;
+        }
+        let variable = index.var.text.as_str();
+        if low == high {
+            // Nothing is placed, and its names and dimensions are checked all the same.
+            let local = (variable, 0.0);
+            ev.unsurely(|ev| ev.fields_at(model.schema, &givens, local));
         }
         for i in low..high {
             let before = ev.diagnostics.len();
-            #[expect(clippy::cast_precision_loss, reason = "index ranges end at 2^53")]
-            let local = (index.var.text.as_str(), i as f64);
-            let fields = ev.fields_at(model.schema, &givens, local);
+            let fields = ev.fields_at(model.schema, &givens, (variable, i as f64));
             let key = (name.clone(), i, format!("[{i}]"));
             self.place(ev, id, &fields, &key, placed);
-            let failed = ev.diagnostics[before..].iter().any(Diagnostic::is_error);
+            let faults = &mut ev.diagnostics[before..];
+            for fault in faults.iter_mut().filter(|fault| fault.code.0.starts_with("E04")) {
+                fault.notes.push(format!("where `{variable}` is {i}"));
+            }
+            let failed = faults.iter().any(Diagnostic::is_error);
             if failed || !fields.ok || self.full {
                 break;
             }
@@ -189,8 +117,8 @@ impl World {
                 ev.fault(error);
                 return;
             }
-            (Some(Value::Shape(shape)), None) => *shape,
-            (_, Some((object, at))) => ShapeValue::Object(object, at),
+            (Some(Value::Shape(shape)), None) => shape,
+            (_, Some((object, at))) => Rc::new(ShapeValue::Object(object, at)),
             (_, None) => {
                 let text = format!("`{}` lacks `shape`", ev.program.name(id));
                 let error = Diagnostic::error(Code("E0207"), text)
@@ -201,12 +129,12 @@ impl World {
             }
         };
         let Some(matrix) = transform::matrix(fields) else { return };
-        let over = material(fields);
+        let over = object::material(fields);
         let place = Place { key, name_span, over };
         let shape_span = fields.value_span("shape").or(base.map(|(_, at)| at)).unwrap_or(name_span);
         let thing = Thing { shape, shape_span, material: over, matrix };
         if placed {
-            self.flatten(ev, &place, &thing, &mut Vec::new(), None);
+            self.flatten(ev, &place, (&thing, &thing.matrix), &mut Vec::new(), None);
         }
     }
 
@@ -216,30 +144,29 @@ impl World {
         &mut self,
         ev: &mut Evaluator<'_>,
         place: &Place<'_>,
-        thing: &Thing,
+        (thing, world): (&Thing, &Matrix),
         path: &mut Vec<ItemId>,
         inherited: Option<(ItemId, Span)>,
     ) {
-        self.steps += 1;
-        if self.full || self.steps > 16 * MAX_INSTANCES {
-            self.overflow(ev, place);
-            return;
-        }
         let own = place.over.or(thing.material).or(inherited);
-        let children: &[(ItemId, Span)] = match &thing.shape {
+        let children: &[(ItemId, Span)] = match &*thing.shape {
             ShapeValue::Objects(children) => children,
             ShapeValue::Object(child, at) => &[(*child, *at)],
-            _ => return self.put(ev, place, thing, (path.as_slice(), own)),
+            _ => return self.put(ev, place, (thing, world), (path.as_slice(), own)),
         };
-        let named = matches!(thing.shape, ShapeValue::Objects(_));
+        let named = matches!(*thing.shape, ShapeValue::Objects(_));
         for &(child, _) in children {
-            let Some(Some(inner)) = self.objects.get(&child) else { continue };
-            let mut inner = inner.clone();
-            inner.matrix = transform::product(&thing.matrix, &inner.matrix);
+            self.steps += 1;
+            if self.full || self.steps > 16 * MAX_INSTANCES {
+                self.overflow(ev, place);
+                return;
+            }
+            let Some(inner) = self.objects.get(child) else { continue };
+            let world = transform::product(world, &inner.matrix);
             if named {
                 path.push(child);
             }
-            self.flatten(ev, place, &inner, path, own);
+            self.flatten(ev, place, (&inner, &world), path, own);
             if named {
                 path.pop();
             }
@@ -259,7 +186,7 @@ impl World {
         &mut self,
         ev: &mut Evaluator<'_>,
         place: &Place<'_>,
-        thing: &Thing,
+        (thing, world): (&Thing, &Matrix),
         (path, material): (&[ItemId], Option<(ItemId, Span)>),
     ) {
         if self.placed.len() >= MAX_INSTANCES {
@@ -273,7 +200,7 @@ impl World {
             tail.push('.');
             tail.push_str(part);
         }
-        if material.is_none() && !matches!(thing.shape, ShapeValue::Mesh(..)) {
+        if material.is_none() && !matches!(*thing.shape, ShapeValue::Mesh(..)) {
             let text = format!("`{base}{tail}` has no material");
             let error = Diagnostic::error(Code("E0207"), text)
                 .at(place.name_span, "what is it made of?")
@@ -282,7 +209,7 @@ impl World {
             ev.fault(error);
             return;
         }
-        if !transform::is_sound(&thing.matrix) {
+        if !transform::is_sound(world) {
             let text = format!("`{base}{tail}` is scaled or moved beyond what can be drawn");
             ev.fault(Diagnostic::error(Code("E0402"), text).at(place.name_span, "this instance"));
             return;
@@ -291,27 +218,12 @@ impl World {
             key: (base.clone(), *index, tail.clone()),
             name: format!("{base}{tail}"),
             name_span: place.name_span,
-            shape: thing.shape.clone(),
+            shape: Rc::clone(&thing.shape),
             shape_span: thing.shape_span,
             material,
-            matrix: thing.matrix,
+            matrix: *world,
         });
     }
-}
-
-/// The material that is written, with its place.
-fn material(fields: &Fields) -> Option<(ItemId, Span)> {
-    fields.item("material").zip(fields.value_span("material"))
-}
-
-fn thing(fields: &Fields) -> Option<Thing> {
-    let Some(Value::Shape(shape)) = fields.get("shape") else { return None };
-    Some(Thing {
-        shape: *shape,
-        shape_span: fields.value_span("shape")?,
-        material: material(fields),
-        matrix: transform::matrix(fields)?,
-    })
 }
 
 /// Reports a missing shape once, before any index is tried.

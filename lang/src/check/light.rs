@@ -58,7 +58,7 @@ pub(super) fn check_sky(ev: &mut Evaluator<'_>, fields: &Fields) {
     }
     if let (Some(direction), Some(span)) =
         (fields.vector::<3>("sun.direction"), fields.value_span("sun.direction"))
-        && direction == [0.0; 3]
+        && direction.iter().all(|c| *c == 0.0)
     {
         let text = "`sun.direction` has length zero";
         ev.fault(Diagnostic::error(Code("E0401"), text).at(span, "points nowhere"));

@@ -23,7 +23,7 @@ pub(super) fn literal(ev: &mut Evaluator<'_>, field: &Field, expr: &Expr) {
         (
             ExprKind::Number(Number { unit: Some(unit), value, .. }),
             FieldType::Number(bounds) | FieldType::ScalarSlot(bounds),
-        ) if unit.text == "%" && bounds.max == 1.0 && *value > 0.0 && *value < 1.0 => {
+        ) if unit.text == "%" && bounds.is_share() && *value > 0.0 && *value < 1.0 => {
             let text = format!("`{}` is less than one percent", field.name);
             let warning = Diagnostic::warning(Code("W0302"), "percent", text)
                 .at(

@@ -24,22 +24,24 @@ impl Checker {
         let id = one_render(ev)?;
         let fields = self.fields.get(&id)?;
         let name_span = ev.program.name_span(id);
-        let camera = self.choose(ev, id, fields, Kind::Camera);
-        let film = self.choose(ev, id, fields, Kind::Film);
-        let sky = self.choose(ev, id, fields, Kind::Sky);
+        let camera = choose(ev, id, fields, Kind::Camera);
+        let film = choose(ev, id, fields, Kind::Film);
+        let sky = choose(ev, id, fields, Kind::Sky);
         if !fields.ok {
             return None;
         }
-        let film = match film? {
-            Some(film) => camera::film(name(ev, film), self.sound(film)?)?,
-            None => camera::default_film(name_span),
+        let film = match film {
+            Choice::Item(film) => camera::film(name(ev, film), self.sound(film)?)?,
+            Choice::Nothing => camera::default_film(name_span),
+            Choice::Fault => return None,
         };
-        let camera = camera??;
+        let Choice::Item(camera) = camera else { return None };
         let camera = camera::camera(name(ev, camera), self.sound(camera)?, &film)?;
         camera::check_built(ev, &camera);
-        let sky = match sky? {
-            Some(sky) => Some(light::sky(name(ev, sky), self.sound(sky)?)?),
-            None => None,
+        let sky = match sky {
+            Choice::Item(sky) => Some(light::sky(name(ev, sky), self.sound(sky)?)?),
+            Choice::Nothing => None,
+            Choice::Fault => return None,
         };
         let render = Render {
             name: name(ev, id),
@@ -56,58 +58,61 @@ impl Checker {
     pub(super) fn sound(&self, id: ItemId) -> Option<&Fields> {
         self.fields.get(&id).filter(|fields| fields.ok)
     }
+}
 
-    /// The declaration that `render` names, or the only one of the root file. `None` is a fault,
-    /// `Some(None)` an absence.
-    fn choose(
-        &self,
-        ev: &mut Evaluator<'_>,
-        render: ItemId,
-        fields: &Fields,
-        kind: Kind,
-    ) -> Option<Option<ItemId>> {
-        let word = kind.name();
-        if let Some(id) = fields.item(word) {
-            return Some(Some(id));
+/// Which declaration `render` takes.
+#[derive(Clone, Copy)]
+enum Choice {
+    Item(ItemId),
+    /// None is wanted, or there is none.
+    Nothing,
+    /// Already reported.
+    Fault,
+}
+
+/// The declaration that `render` names, or the only one of the root file.
+fn choose(ev: &mut Evaluator<'_>, render: ItemId, fields: &Fields, kind: Kind) -> Choice {
+    let word = kind.name();
+    if let Some(id) = fields.item(word) {
+        return Choice::Item(id);
+    }
+    if fields.is_none(word) && kind == Kind::Sky {
+        return Choice::Nothing;
+    }
+    if fields.span(word).is_some() && !fields.ok {
+        return Choice::Fault;
+    }
+    let here: Vec<ItemId> =
+        ids_of(ev.program, kind).into_iter().filter(|id| id.module == 0).collect();
+    match here.as_slice() {
+        [only] => {
+            ev.used.insert(*only);
+            Choice::Item(*only)
         }
-        if fields.is_none(word) && kind == Kind::Sky {
-            return Some(None);
+        [] if kind != Kind::Camera => Choice::Nothing,
+        [] => {
+            if !has_errors(&ev.program.modules[0].tree) {
+                let text = "there is no camera to render from";
+                let error = Diagnostic::error(Code("E0712"), text)
+                    .at(ev.program.name_span(render), "this render needs one")
+                    .with_help(
+                        "declare `camera hero: perspective { from = (0, 1, 5)m, to = (0, 1, 0)m }`",
+                    );
+                ev.fault(error);
+            }
+            Choice::Fault
         }
-        if fields.span(word).is_some() && !fields.ok {
-            return None;
-        }
-        let here: Vec<ItemId> =
-            ids_of(ev.program, kind).into_iter().filter(|id| id.module == 0).collect();
-        match here.as_slice() {
-            [only] => {
-                ev.used.insert(*only);
-                Some(Some(*only))
+        several => {
+            let names: Vec<String> =
+                several.iter().map(|id| ev.program.name(*id).to_owned()).collect();
+            let text = format!("which {word}? there are {}", quoted_list(&names));
+            let mut error = Diagnostic::error(Code("E0712"), text)
+                .at(ev.program.name_span(render), format!("this render names no {word}"));
+            for id in several.iter().take(4) {
+                error = error.because(ev.program.name_span(*id), "one of them");
             }
-            [] if kind != Kind::Camera => Some(None),
-            [] => {
-                if !has_errors(&ev.program.modules[0].tree) {
-                    let text = "there is no camera to render from";
-                    let error = Diagnostic::error(Code("E0712"), text)
-                        .at(ev.program.name_span(render), "this render needs one")
-                        .with_help(
-                            "declare `camera hero: perspective { from = (0, 1, 5)m, to = (0, 1, 0)m }`",
-                        );
-                    ev.fault(error);
-                }
-                None
-            }
-            several => {
-                let names: Vec<String> =
-                    several.iter().map(|id| ev.program.name(*id).to_owned()).collect();
-                let text = format!("which {word}? there are {}", quoted_list(&names));
-                let mut error = Diagnostic::error(Code("E0712"), text)
-                    .at(ev.program.name_span(render), format!("this render names no {word}"));
-                for id in several.iter().take(4) {
-                    error = error.because(ev.program.name_span(*id), "one of them");
-                }
-                ev.fault(error.with_help(format!("write `{word} = {}`", names[0])));
-                None
-            }
+            ev.fault(error.with_help(format!("write `{word} = {}`", names[0])));
+            Choice::Fault
         }
     }
 }

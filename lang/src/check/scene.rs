@@ -29,7 +29,7 @@ impl Checker {
             used.iter().filter_map(|id| self.sound(*id)).flat_map(material::textures).collect();
         let meshes: BTreeSet<ItemId> = placed
             .iter()
-            .filter_map(|p| match p.shape {
+            .filter_map(|p| match *p.shape {
                 ShapeValue::Mesh(id, _) => Some(id),
                 _ => None,
             })
@@ -111,11 +111,13 @@ fn instances(
     placed
         .into_iter()
         .map(|placed| {
-            let shape = match placed.shape {
-                ShapeValue::Sphere(radius) => Shape::Sphere { radius },
-                ShapeValue::Rectangle(size) => Shape::Rectangle { size },
-                ShapeValue::Box(size) => Shape::Box { size },
-                ShapeValue::Mesh(id, part) => Shape::Mesh { asset: *asset_at.get(&id)?, part },
+            let shape = match &*placed.shape {
+                ShapeValue::Sphere(radius) => Shape::Sphere { radius: *radius },
+                ShapeValue::Rectangle(size) => Shape::Rectangle { size: *size },
+                ShapeValue::Box(size) => Shape::Box { size: *size },
+                ShapeValue::Mesh(id, part) => {
+                    Shape::Mesh { asset: *asset_at.get(id)?, part: part.clone() }
+                }
                 ShapeValue::Object(..) | ShapeValue::Objects(_) => return None,
             };
             let material = match placed.material {

@@ -1,5 +1,7 @@
 //! Shape calls become geometry: `sphere(radius: 14cm)`.
 
+use std::rc::Rc;
+
 use crate::eval::value::{ShapeValue, Value};
 use crate::eval::{Evaluator, Scope};
 use crate::schema::TypeSchema;
@@ -23,6 +25,6 @@ impl Evaluator<'_> {
             "rectangle" => fields.vector("size").map(ShapeValue::Rectangle),
             _ => fields.vector("size").map(ShapeValue::Box),
         };
-        shape.map_or(Value::Poison, |shape| Value::Shape(Box::new(shape)))
+        shape.map_or(Value::Poison, |shape| Value::Shape(Rc::new(shape)))
     }
 }

@@ -122,15 +122,14 @@ fn unknown_call(ev: &mut Evaluator<'_>, kind: Kind, name: &Ident) {
     let foreign = kind.types().iter().find_map(|schema| {
         schema.foreign.iter().find(|f| f.0 == name.text).map(|f| (schema.name, f.1))
     });
-    let error = match foreign {
-        Some((ours, from)) => error
+    let error = if let Some((ours, from)) = foreign {
+        error
             .at(name.span, "not known")
             .with_note(format!("`{}` is the name in {from}", name.text))
-            .with_fix(Fix::sure(format!("in `.rts` it is `{ours}`"), name.span, ours)),
-        None => {
-            let names = kind.types().iter().map(|schema| schema.name);
-            did_you_mean(error, name, names)
-        }
+            .with_fix(Fix::sure(format!("in `.rts` it is `{ours}`"), name.span, ours))
+    } else {
+        let names = kind.types().iter().map(|schema| schema.name);
+        did_you_mean(error, name, names)
     };
     ev.fault(error);
 }

@@ -12,7 +12,7 @@ pub(super) fn check(ev: &mut Evaluator<'_>) {
     for id in program.ids() {
         if let Some(decl) = program.decl(id)
             && let Some(Base::Like(path) | Base::Type(path)) = &decl.base
-            && let Ok(crate::resolve::Found::Item(base, _)) = program.find(id.module, path, None)
+            && let Some(base) = program.lookup(id.module, path)
         {
             ev.used.insert(base);
         }

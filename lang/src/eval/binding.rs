@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use super::advice::{literal_unit, walk_paths, with_unit_fix};
 use super::value::Value;
-use super::{Evaluator, Scope, walk_paths, with_unit_fix};
+use super::{Evaluator, Scope};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::resolve::{Found, ItemId, did_you_mean, quoted_list};
+use crate::resolve::{ItemId, did_you_mean, quoted_list};
 use crate::source::Span;
 use crate::syntax::{Expr, Ident, ItemKind, Param};
 use crate::units::{Dim, PARAM_DIMENSIONS};
@@ -43,7 +44,8 @@ impl Evaluator<'_> {
     /// recursion, so a chain of them may be as long as it likes.
     pub(crate) fn evaluate_bindings(&mut self) {
         self.check_defines();
-        let mut state: BTreeMap<ItemId, bool> = BTreeMap::new();
+        // Where on the stack an item is that is open, or `None` once it is done.
+        let mut state: BTreeMap<ItemId, Option<usize>> = BTreeMap::new();
         let ids: Vec<ItemId> = self.program.ids().filter(|id| self.is_binding(*id)).collect();
         for root in ids {
             let mut stack = vec![(root, None)];
@@ -52,20 +54,20 @@ impl Evaluator<'_> {
                     Some(rest) => rest,
                     None if state.contains_key(&id) => continue,
                     None => {
-                        state.insert(id, false);
+                        state.insert(id, Some(stack.len()));
                         self.references(id)
                     }
                 };
                 match references.pop() {
                     None => {
-                        state.insert(id, true);
+                        state.insert(id, None);
                         self.binding(id, None);
                     }
                     Some(next) => {
-                        let open = state.get(&next) == Some(&false);
+                        let open = state.get(&next).copied().flatten();
                         stack.push((id, Some(references)));
-                        if open {
-                            self.binding_cycle(next, &stack);
+                        if let Some(start) = open {
+                            self.binding_cycle(next, &stack[start..]);
                         } else {
                             stack.push((next, None));
                         }
@@ -83,7 +85,7 @@ impl Evaluator<'_> {
     fn references(&self, id: ItemId) -> Vec<ItemId> {
         let mut found = Vec::new();
         let mut visit = |path: &_| {
-            if let Ok(Found::Item(other, _)) = self.program.find(id.module, path, None)
+            if let Some(other) = self.program.lookup(id.module, path)
                 && self.is_binding(other)
             {
                 found.push(other);
@@ -103,17 +105,19 @@ impl Evaluator<'_> {
         found
     }
 
-    fn binding_cycle(&mut self, id: ItemId, stack: &[(ItemId, Option<Vec<ItemId>>)]) {
+    /// Reports a cycle and poisons its members, so that each is reported once.
+    fn binding_cycle(&mut self, id: ItemId, cycle: &[(ItemId, Option<Vec<ItemId>>)]) {
         let name = self.program.name(id);
-        let start = stack.iter().position(|(member, _)| *member == id).unwrap_or(0);
         let mut error = Diagnostic::error(Code("E0212"), format!("`{name}` depends on itself"))
             .at(self.program.name_span(id), "its value needs itself");
-        for (member, _) in stack[start..].iter().filter(|(member, _)| *member != id).take(6) {
+        for (member, _) in cycle.iter().filter(|(member, _)| *member != id).take(6) {
             error = error.because(self.program.name_span(*member), "through this");
         }
         self.fault(error);
-        for (member, _) in &stack[start..] {
-            self.bindings.insert(*member, Some(Value::Poison));
+        for (member, _) in cycle {
+            if self.bindings.insert(*member, Some(Value::Poison)).is_some() {
+                break; // the rest belongs to a cycle that was reported before
+            }
         }
     }
 
@@ -199,21 +203,17 @@ impl Evaluator<'_> {
             | (ParamType::Text, Value::Text(_)) => return value,
             (ParamType::Number(dim), Value::Number(_, own)) if dim == *own => return value,
             (ParamType::Number(dim), Value::Number(_, own)) => {
-                let (code, label) = match own.is_none() {
-                    true => ("E0301", "no unit".to_owned()),
-                    false => ("E0302", own.to_string()),
+                let (code, label) = if own.is_none() {
+                    ("E0301", "no unit".to_owned())
+                } else {
+                    ("E0302", own.to_string())
                 };
                 let text = format!("`{name}` needs {dim}, found {own}");
                 let error = Diagnostic::error(Code(code), text).at(expr.span, label);
-                let error = match param.ty.span == expr.span {
-                    true => error,
-                    false => error.because(param.ty.span, format!("declared as {dim}")),
-                };
-                let unit = super::literal_unit(&param.value).unwrap_or_default().to_owned();
-                let error = match own.is_none() {
-                    true => with_unit_fix(error, expr, dim, &unit),
-                    false => error,
-                };
+                let error = error.because(param.ty.span, format!("declared as {dim}"));
+                let unit = literal_unit(&param.value).unwrap_or_default().to_owned();
+                let error =
+                    if own.is_none() { with_unit_fix(error, expr, dim, &unit) } else { error };
                 return self.fault(error);
             }
             (ParamType::Count, Value::Number(n, Dim::NONE)) => {
@@ -304,9 +304,10 @@ impl Evaluator<'_> {
             let error = Diagnostic::error(Code("E0213"), text);
             let error = did_you_mean(error, &name, params.iter().copied());
             let all: Vec<String> = params.iter().map(|p| (*p).to_owned()).collect();
-            let note = match all.is_empty() {
-                true => "it has no parameters at all".to_owned(),
-                false => format!("its parameters are {}", quoted_list(&all)),
+            let note = if all.is_empty() {
+                "it has no parameters at all".to_owned()
+            } else {
+                format!("its parameters are {}", quoted_list(&all))
             };
             self.fault(error.with_note(note));
         }

@@ -1,5 +1,7 @@
 //! Calls: functions of the table, shapes, and named parts of assets.
 
+use std::rc::Rc;
+
 use super::function::{self, FUNCTIONS, Function, Want};
 use super::value::{ShapeValue, Value};
 use super::{Evaluator, Scope, with_unit_fix};
@@ -74,7 +76,7 @@ impl Evaluator<'_> {
         };
         match part {
             Some(text) if is_asset && last == "part" => {
-                Value::Shape(Box::new(ShapeValue::Mesh(id, Some(text.clone()))))
+                Value::Shape(Rc::new(ShapeValue::Mesh(id, Some(text.clone()))))
             }
             _ => {
                 let error = Diagnostic::error(
@@ -206,15 +208,17 @@ impl Evaluator<'_> {
         let vector = matches!(want, Want::Vector | Want::VectorLikeFirst);
         match &value {
             Value::Poison => return value,
-            Value::Number(_, dim) if !vector => {
-                if *dim == wanted || (first_poisoned && want == Want::LikeFirst) {
-                    return value;
-                }
+            Value::Number(_, dim)
+                if !vector && (*dim == wanted || (first_poisoned && want == Want::LikeFirst)) =>
+            {
+                return value;
             }
-            Value::Vector(values, dim) if vector || want == Want::ColorParts => {
-                if values.len() == 3 && (*dim == wanted || first_poisoned) {
-                    return value;
-                }
+            Value::Vector(values, dim)
+                if (vector || want == Want::ColorParts)
+                    && values.len() == 3
+                    && (*dim == wanted || first_poisoned) =>
+            {
+                return value;
             }
             Value::Hex(_) if want == Want::ColorParts => return value,
             Value::Vector(..) | Value::Color(_) if want == Want::Blend => return value,

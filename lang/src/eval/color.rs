@@ -70,6 +70,7 @@ fn observer(nm: f64) -> [f64; 3] {
 }
 
 #[cfg(test)]
+#[expect(clippy::float_cmp, reason = "the ends of the curve are exact")]
 mod tests {
     use super::*;
 

@@ -37,7 +37,7 @@ pub(crate) struct Function {
     /// The arguments after the first may be left out together.
     pub(crate) one_or_all: bool,
     pub(crate) doc: &'static str,
-    pub(crate) run: fn(&[Value]) -> Result<Value, String>,
+    pub(crate) run: fn(&[Value]) -> Outcome,
 }
 
 impl Function {
@@ -56,7 +56,7 @@ const fn function(
     name: &'static str,
     params: &'static [(&'static str, Want)],
     doc: &'static str,
-    run: fn(&[Value]) -> Result<Value, String>,
+    run: fn(&[Value]) -> Outcome,
 ) -> Function {
     Function { name, params, more: false, one_or_all: false, doc, run }
 }
@@ -91,9 +91,9 @@ pub(crate) const FUNCTIONS: &[Function] = &[
         "The colour of a glowing body between 500K and 100000K, with luminance 1.",
         blackbody,
     ),
-    function("sin", &[("angle", ANGLE)], "Sine.", |a| plain(libm::sin(num(a, 0)))),
-    function("cos", &[("angle", ANGLE)], "Cosine.", |a| plain(libm::cos(num(a, 0)))),
-    function("tan", &[("angle", ANGLE)], "Tangent.", |a| plain(libm::tan(num(a, 0)))),
+    function("sin", &[("angle", ANGLE)], "Sine.", |a| Ok(plain(libm::sin(num(a, 0))))),
+    function("cos", &[("angle", ANGLE)], "Cosine.", |a| Ok(plain(libm::cos(num(a, 0))))),
+    function("tan", &[("angle", ANGLE)], "Tangent.", |a| Ok(plain(libm::tan(num(a, 0))))),
     function("asin", &[("x", PLAIN)], "The angle with this sine.", |a| {
         inverse(num(a, 0), libm::asin)
     }),
@@ -101,33 +101,33 @@ pub(crate) const FUNCTIONS: &[Function] = &[
         inverse(num(a, 0), libm::acos)
     }),
     function("atan", &[("x", PLAIN)], "The angle with this tangent.", |a| {
-        angle(libm::atan(num(a, 0)))
+        Ok(angle(libm::atan(num(a, 0))))
     }),
     function(
         "atan2",
         &[("y", Want::AnyNumber), ("x", Want::LikeFirst)],
         "The angle of the point (x, y) from the x axis.",
-        |a| angle(libm::atan2(num(a, 0), num(a, 1))),
+        |a| Ok(angle(libm::atan2(num(a, 0), num(a, 1)))),
     ),
-    function("exp", &[("x", PLAIN)], "e to the power x.", |a| plain(libm::exp(num(a, 0)))),
+    function("exp", &[("x", PLAIN)], "e to the power x.", |a| Ok(plain(libm::exp(num(a, 0))))),
     function("log", &[("x", PLAIN)], "Natural logarithm.", |a| match num(a, 0) {
-        x if x > 0.0 => plain(libm::log(x)),
+        x if x > 0.0 => Ok(plain(libm::log(x))),
         x => Err(format!("the logarithm of {x} does not exist")),
     }),
     function("pow", &[("x", Want::AnyNumber), ("y", PLAIN)], "x to the power y.", pow),
     function("sqrt", &[("x", Want::AnyNumber)], "Square root.", sqrt),
-    function("abs", &[("x", Want::AnyNumber)], "Without its sign.", |a| map(a, f64::abs)),
+    function("abs", &[("x", Want::AnyNumber)], "Without its sign.", |a| Ok(map(a, f64::abs))),
     variadic(function(
         "min",
         &[("a", Want::AnyNumber), ("b", Want::LikeFirst)],
         "The smallest.",
-        |a| fold(a, f64::min),
+        |a| Ok(fold(a, f64::min)),
     )),
     variadic(function(
         "max",
         &[("a", Want::AnyNumber), ("b", Want::LikeFirst)],
         "The largest.",
-        |a| fold(a, f64::max),
+        |a| Ok(fold(a, f64::max)),
     )),
     function(
         "clamp",
@@ -138,16 +138,16 @@ pub(crate) const FUNCTIONS: &[Function] = &[
             if low > high {
                 return Err("`low` is above `high`".to_owned());
             }
-            map(a, |x| x.max(low).min(high))
+            Ok(map(a, |x| x.max(low).min(high)))
         },
     ),
-    function("floor", &[("x", PLAIN)], "The next whole number below.", |a| map(a, f64::floor)),
-    function("ceil", &[("x", PLAIN)], "The next whole number above.", |a| map(a, f64::ceil)),
+    function("floor", &[("x", PLAIN)], "The next whole number below.", |a| Ok(map(a, f64::floor))),
+    function("ceil", &[("x", PLAIN)], "The next whole number above.", |a| Ok(map(a, f64::ceil))),
     function(
         "round",
         &[("x", PLAIN)],
         "The nearest whole number; halves go away from zero.",
-        |a| map(a, f64::round),
+        |a| Ok(map(a, f64::round)),
     ),
     function(
         "mod",
@@ -158,7 +158,7 @@ pub(crate) const FUNCTIONS: &[Function] = &[
             if y <= 0.0 {
                 Err("`y` must be above zero".to_owned())
             } else {
-                map(a, |_| modulo(x, y))
+                Ok(map(a, |_| modulo(x, y)))
             }
         },
     ),
@@ -207,6 +207,9 @@ pub(crate) const FUNCTIONS: &[Function] = &[
     ),
 ];
 
+/// What a function gives: a value, or why there is none.
+type Outcome = Result<Value, String>;
+
 /// The function of this name.
 pub(crate) fn find(name: &str) -> Option<&'static Function> {
     FUNCTIONS.iter().find(|function| function.name == name)
@@ -236,25 +239,25 @@ fn product_dim(args: &[Value]) -> Result<Dim, String> {
     dim(args, 0).times(dim(args, 1)).ok_or_else(|| "this unit has too high a power".to_owned())
 }
 
-fn plain(value: f64) -> Result<Value, String> {
-    Ok(Value::plain(value))
+fn plain(value: f64) -> Value {
+    Value::plain(value)
 }
 
-fn angle(value: f64) -> Result<Value, String> {
-    Ok(Value::Number(value, Dim::ANGLE))
+fn angle(value: f64) -> Value {
+    Value::Number(value, Dim::ANGLE)
 }
 
-fn inverse(x: f64, f: fn(f64) -> f64) -> Result<Value, String> {
-    if x.abs() <= 1.0 { angle(f(x)) } else { Err(format!("{x} is not between -1 and 1")) }
+fn inverse(x: f64, f: fn(f64) -> f64) -> Outcome {
+    if x.abs() <= 1.0 { Ok(angle(f(x))) } else { Err(format!("{x} is not between -1 and 1")) }
 }
 
-fn map(args: &[Value], f: impl Fn(f64) -> f64) -> Result<Value, String> {
-    Ok(Value::Number(f(num(args, 0)), dim(args, 0)))
+fn map(args: &[Value], f: impl Fn(f64) -> f64) -> Value {
+    Value::Number(f(num(args, 0)), dim(args, 0))
 }
 
-fn fold(args: &[Value], f: fn(f64, f64) -> f64) -> Result<Value, String> {
+fn fold(args: &[Value], f: fn(f64, f64) -> f64) -> Value {
     let best = (1..args.len()).fold(num(args, 0), |best, i| f(best, num(args, i)));
-    Ok(Value::Number(best, dim(args, 0)))
+    Value::Number(best, dim(args, 0))
 }
 
 fn modulo(x: f64, y: f64) -> f64 {
@@ -266,7 +269,7 @@ fn length(v: [f64; 3]) -> f64 {
     (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
 }
 
-fn sqrt(args: &[Value]) -> Result<Value, String> {
+fn sqrt(args: &[Value]) -> Outcome {
     let x = num(args, 0);
     if x < 0.0 {
         return Err(format!("the square root of {x} does not exist"));
@@ -276,7 +279,7 @@ fn sqrt(args: &[Value]) -> Result<Value, String> {
     Ok(Value::Number(x.sqrt(), dim))
 }
 
-fn pow(args: &[Value]) -> Result<Value, String> {
+fn pow(args: &[Value]) -> Outcome {
     let (x, y) = (num(args, 0), num(args, 1));
     let own = dim(args, 0);
     let dim = if own.is_none() {
@@ -297,7 +300,7 @@ fn pow(args: &[Value]) -> Result<Value, String> {
     Ok(Value::Number(libm::pow(x, y), dim))
 }
 
-fn mix(args: &[Value]) -> Result<Value, String> {
+fn mix(args: &[Value]) -> Outcome {
     let t = num(args, 2);
     let lerp = |x: f64, y: f64| x * (1.0 - t) + y * t;
     match (&args[0], &args[1]) {
@@ -314,7 +317,8 @@ fn mix(args: &[Value]) -> Result<Value, String> {
     }
 }
 
-fn polar(args: &[Value]) -> Result<Value, String> {
+#[expect(clippy::unnecessary_wraps, reason = "the table wants functions that may fail")]
+fn polar(args: &[Value]) -> Outcome {
     let (azimuth, elevation, d) = (num(args, 0), num(args, 1), num(args, 2));
     let flat = d * libm::cos(elevation);
     let point =
@@ -330,7 +334,7 @@ fn color_parts(args: &[Value]) -> [f64; 3] {
     }
 }
 
-fn srgb(args: &[Value]) -> Result<Value, String> {
+fn srgb(args: &[Value]) -> Outcome {
     if let Value::Hex(bytes) = args[0] {
         return Ok(Value::Color(color::linear_from_hex(bytes)));
     }
@@ -341,14 +345,14 @@ fn srgb(args: &[Value]) -> Result<Value, String> {
     Ok(Value::Color(rgb.map(color::linear_from_srgb)))
 }
 
-fn linear(args: &[Value]) -> Result<Value, String> {
+fn linear(args: &[Value]) -> Outcome {
     if let Value::Hex(_) = args[0] {
         return Err("`#rrggbb` is sRGB: write `srgb(#rrggbb)`".to_owned());
     }
     Ok(Value::Color(color_parts(args)))
 }
 
-fn blackbody(args: &[Value]) -> Result<Value, String> {
+fn blackbody(args: &[Value]) -> Outcome {
     let [low, high] = color::BLACKBODY_RANGE;
     match num(args, 0) {
         kelvin if (low..=high).contains(&kelvin) => Ok(Value::Color(color::blackbody(kelvin))),

@@ -1,9 +1,9 @@
 //! Arithmetic and comparison. `+ - <` need equal dimensions, `* /` add and subtract exponents.
 
+use super::advice::{literal_unit, takes_unit, with_unit_fix};
 use super::value::Value;
-use super::{Evaluator, Scope, literal_unit, takes_unit, with_unit_fix};
+use super::{Evaluator, Scope};
 use crate::diagnostic::{Code, Diagnostic, Fix};
-use crate::resolve::Found;
 use crate::scene::Axis;
 use crate::source::Span;
 use crate::syntax::{BinaryOp, CompareOp, Expr, ExprKind, ItemKind};
@@ -88,6 +88,7 @@ impl Evaluator<'_> {
         }
     }
 
+    #[expect(clippy::float_cmp, reason = "`==` of the language means exactly equal")]
     pub(super) fn compare(
         &mut self,
         (op, op_span): (CompareOp, Span),
@@ -246,9 +247,7 @@ impl Evaluator<'_> {
     /// The unit that a literal is written with, or the value of a name.
     fn written_unit<'e>(&'e self, expr: &'e Expr, scope: Scope<'_>) -> Option<&'e str> {
         let ExprKind::Path(path) = &expr.kind else { return literal_unit(expr) };
-        let Ok(Found::Item(id, _)) = self.program.find(scope.module, path, None) else {
-            return None;
-        };
+        let id = self.program.lookup(scope.module, path)?;
         match &self.program.item(id).kind {
             ItemKind::Let(binding) => literal_unit(&binding.value),
             ItemKind::Param(param) => literal_unit(&param.value),

@@ -1,5 +1,7 @@
 //! Names in expressions: values, declarations, their fields and members.
 
+use std::rc::Rc;
+
 use super::value::{ShapeValue, Value};
 use super::{Evaluator, Scope};
 use crate::diagnostic::{Code, Diagnostic, Fix};
@@ -36,7 +38,7 @@ impl Evaluator<'_> {
             (_, []) => Value::Item(kind, id),
             (Kind::Asset, parts) => {
                 let names: Vec<&str> = parts.iter().map(|part| part.text.as_str()).collect();
-                Value::Shape(Box::new(ShapeValue::Mesh(id, Some(names.join(".")))))
+                Value::Shape(Rc::new(ShapeValue::Mesh(id, Some(names.join(".")))))
             }
             (Kind::Texture, [channel, rest @ ..]) => {
                 let value = self.channel(id, channel);
@@ -91,15 +93,15 @@ impl Evaluator<'_> {
     }
 
     fn members(&mut self, value: Value, names: &[Ident]) -> Value {
-        names.iter().fold(value, |value, name| self.member(value, name))
+        names.iter().fold(value, |value, name| self.member(&value, name))
     }
 
     /// `.x` of a vector, `.r` of a colour.
-    pub(super) fn member(&mut self, value: Value, name: &Ident) -> Value {
+    pub(super) fn member(&mut self, value: &Value, name: &Ident) -> Value {
         let index = |letters: &str| {
             (name.text.len() == 1).then(|| letters.find(name.text.as_str())).flatten()
         };
-        let (members, found): (&[&str], Option<Value>) = match &value {
+        let (members, found): (&[&str], Option<Value>) = match value {
             Value::Poison => return Value::Poison,
             Value::Vector(values, dim) => {
                 let found =

@@ -1,5 +1,7 @@
 //! What an expression comes to: numbers with dimensions, colours, names of declarations.
 
+use std::rc::Rc;
+
 use crate::resolve::ItemId;
 use crate::scene::{Axis, Rgb};
 use crate::schema::Kind;
@@ -7,7 +9,7 @@ use crate::source::Span;
 use crate::units::{self, Dim};
 
 /// The value of an expression. `Poison` stands for a fault that has been reported; it fits
-/// everywhere, so that one fault gives one message.
+/// everywhere, so that one fault gives one message. Copies are cheap.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Value {
     /// Already reported.
@@ -19,7 +21,7 @@ pub(crate) enum Value {
     /// Yes or no.
     Bool(bool),
     /// A text in quotes.
-    Text(String),
+    Text(Rc<str>),
     /// Linear Rec. 709.
     Color(Rgb),
     /// `#c79a6b` without a space.
@@ -39,9 +41,9 @@ pub(crate) enum Value {
     /// One channel of a texture, 0 red … 3 alpha.
     TextureChannel(ItemId, u8),
     /// Geometry.
-    Shape(Box<ShapeValue>),
+    Shape(Rc<ShapeValue>),
     /// `[a, b]`, with the place of each entry.
-    List(Vec<(Value, Span)>),
+    List(Rc<[(Value, Span)]>),
     /// `default`.
     Default,
     /// `none`.

@@ -232,7 +232,9 @@ fn bring_in(program: &Program, import: &Import, target: Option<u32>, names: &mut
         }
         (ImportNames::As(alias), None) => names.poison(&alias.text, alias.span),
         (ImportNames::Only(list), None) => {
-            list.iter().for_each(|name| names.poison(&name.text, name.span));
+            for name in list {
+                names.poison(&name.text, name.span);
+            }
         }
         (ImportNames::Only(list), Some(module)) => {
             for name in list {

@@ -1,0 +1,145 @@
+//! Values that name something: colours from textures, channels, shapes and groups.
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use super::field::{Slot, any};
+use crate::diagnostic::{Code, Diagnostic, Fix};
+use crate::eval::Evaluator;
+use crate::eval::value::{ShapeValue, Value};
+use crate::resolve::ItemId;
+use crate::scene::ColorSpace;
+use crate::schema::{Bounds, FieldType, Kind};
+use crate::source::Span;
+use crate::syntax::ExprKind;
+use crate::units::{self, Dim};
+
+impl Evaluator<'_> {
+    pub(super) fn fit_color(&mut self, slot: Slot<'_>, value: Value, max: f64) -> Value {
+        match &value {
+            Value::Color(rgb) => {
+                let bounds = Bounds { max, min: 0.0, ..any(Dim::NONE, "") };
+                match rgb.iter().find(|c| !bounds.contains(**c)) {
+                    None => value,
+                    Some(wrong) => {
+                        let range = bounds.described();
+                        let wrong = units::show_number(*wrong);
+                        let text = format!(
+                            "each channel of {} must be {range}, found {wrong}",
+                            slot.name()
+                        );
+                        let error = Diagnostic::error(Code("E0401"), text).at(slot.span(), range);
+                        self.number_fault(if bounds.is_share() {
+                            error.with_note("a surface cannot reflect more light than it gets")
+                        } else {
+                            error
+                        })
+                    }
+                }
+            }
+            Value::Hex(_) | Value::Number(_, Dim::NONE) | Value::Vector(_, Dim::NONE) => {
+                self.without_space(&slot.name(), &value, slot.span())
+            }
+            Value::TextureColor(_) | Value::TextureChannel(..) | Value::Item(Kind::Texture, _) => {
+                let wanted = match slot.field.ty {
+                    FieldType::ColorSlot(_) => "a colour: of a texture that is `.rgb`",
+                    _ => "one colour, which no texture is",
+                };
+                self.wrong_kind(slot, &value, wanted)
+            }
+            _ => self.wrong_kind(slot, &value, "a colour"),
+        }
+    }
+
+    /// A texture must be read as what its image holds.
+    pub(super) fn fit_texture(
+        &mut self,
+        slot: Slot<'_>,
+        id: ItemId,
+        value: Value,
+        wants_color: bool,
+    ) -> Value {
+        let Some(info) = self.textures.get(&id) else { return Value::Poison };
+        let (wants, write) = match (wants_color, info.space) {
+            (true, ColorSpace::Data) => ("a colour", "srgb"),
+            (false, ColorSpace::Srgb) => ("linear data", "data"),
+            _ => return value,
+        };
+        let tagged = match info.space {
+            ColorSpace::Srgb => "sRGB",
+            ColorSpace::Linear => "linear colour",
+            ColorSpace::Data => "data",
+        };
+        let text = format!("{} wants {wants}, but this image is tagged {tagged}", slot.name());
+        let mut error = Diagnostic::error(Code("E0601"), text)
+            .at(slot.span(), format!("used as {wants} here"))
+            .because(info.space_span, "tagged here")
+            .with_fix(Fix::guess(format!("write `space: {write}`"), info.space_value, write));
+        if let Some(import) = self.program.import_span(slot.module, id.module) {
+            error = error.because(import, "imported from here");
+        }
+        self.fault(error)
+    }
+
+    pub(super) fn which_channel(&mut self, slot: Slot<'_>) -> Value {
+        let text = format!("{} needs one channel of the texture", slot.name());
+        let error = Diagnostic::error(Code("E0203"), text).at(slot.span(), "which channel?");
+        let error = match &slot.expr.kind {
+            ExprKind::Path(path) if path.segments.last().is_some_and(|s| s.text == "rgb") => {
+                let last = path.segments.last().map_or(slot.span(), |s| s.span);
+                error.with_fix(Fix::guess("take red", last, "r"))
+            }
+            _ => error.with_fix(Fix::guess("take red", slot.span().after(), ".r")),
+        };
+        self.fault(error.with_note("a texture has `.r`, `.g`, `.b` and `.a`"))
+    }
+
+    pub(super) fn fit_shape(&mut self, slot: Slot<'_>, value: Value) -> Value {
+        let wanted = "a shape, an asset, an object or a list of objects";
+        match value {
+            Value::Shape(_) => value,
+            Value::Item(Kind::Asset, id) => Value::Shape(Rc::new(ShapeValue::Mesh(id, None))),
+            Value::Item(Kind::Object, id) => {
+                Value::Shape(Rc::new(ShapeValue::Object(id, slot.span())))
+            }
+            Value::List(entries) => self.fit_group(slot, &entries),
+            other => self.wrong_kind(slot, &other, wanted),
+        }
+    }
+
+    /// A list of objects. The first entry that is wrong speaks for all.
+    fn fit_group(&mut self, slot: Slot<'_>, entries: &[(Value, Span)]) -> Value {
+        if !self.spend(10 * entries.len(), slot.span()) {
+            return Value::Poison;
+        }
+        let mut seen: BTreeMap<ItemId, Span> = BTreeMap::new();
+        let mut objects: Vec<(ItemId, Span)> = Vec::with_capacity(entries.len());
+        for (value, span) in entries {
+            let id = match value {
+                Value::Poison => return Value::Poison,
+                Value::Item(Kind::Object, id) => *id,
+                other => {
+                    let text = format!("a group holds objects, not {}", other.described());
+                    let error = Diagnostic::error(Code("E0203"), text)
+                        .at(*span, other.described())
+                        .with_help("declare an `object` with this shape and list its name");
+                    return self.fault(error);
+                }
+            };
+            if let Some(first) = seen.insert(id, *span) {
+                let error = Diagnostic::error(Code("E0204"), "this object is listed twice")
+                    .at(*span, "again")
+                    .because(first, "first listed here")
+                    .with_note("both would stand in the same place");
+                return self.fault(error);
+            }
+            objects.push((id, *span));
+        }
+        if objects.is_empty() {
+            let text = format!("{} is an empty list", slot.name());
+            let error = Diagnostic::error(Code("E0305"), text).at(slot.span(), "no objects");
+            return self.fault(error);
+        }
+        Value::Shape(Rc::new(ShapeValue::Objects(objects)))
+    }
+}
