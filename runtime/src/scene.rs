@@ -5,7 +5,7 @@
 use crate::job::Job;
 use crate::schedule::WorkItem;
 use glam::UVec4;
-use pack::abi::{Camera, Frame, RenderSettings};
+use pack::abi::{Camera, Frame, NONE, RenderSettings};
 use pack::{Checked, Kind, Pack};
 use std::fmt::Write as _;
 
@@ -99,6 +99,8 @@ impl Scene {
             at
         });
         let [camera_at, sky_at, material_at, light_at, texture_at, srgb_at] = at;
+        // The full kernel asks this number whether there is a sky; a specialised one knows.
+        let sky_at = if self.pack.sky().is_some() { sky_at } else { NONE };
         let frame = Frame {
             image_size: job.image_size,
             seed: job.seed,
@@ -153,7 +155,14 @@ impl Setup<'_> {
         let heap = (2, bytemuck::cast_slice(&self.heap));
         let bound =
             BOUND.map(|(binding, kind)| (binding, bytemuck::cast_slice(self.section(kind))));
-        std::iter::once(heap).chain(bound).filter(|(_, bytes)| !bytes.is_empty()).collect()
+        let mut buffers: Vec<(u32, &[u8])> =
+            std::iter::once(heap).chain(bound).filter(|(_, bytes)| !bytes.is_empty()).collect();
+        // A tree that is one leaf has no node, but the kernel's loop names the buffer.
+        let has_nodes = buffers.iter().any(|(binding, _)| *binding == BOUND[0].0);
+        if self.frame.root != NONE && !has_nodes {
+            buffers.insert(1, (BOUND[0].0, &[0; 64]));
+        }
+        buffers
     }
 
     /// Bits of `pack::features`.
