@@ -3,5 +3,8 @@
 //! This library is what those tests share: a scene text becomes a checked pack in memory, a pack
 //! becomes a film, a film becomes a mean with its standard error.
 
+pub mod console;
+pub mod kernel;
 pub mod picture;
 pub mod scene;
+pub mod statistics;

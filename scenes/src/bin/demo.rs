@@ -78,8 +78,7 @@ fn run(example: &Example, args: &Args) -> std::io::Result<ExitCode> {
     for extension in ["exr", "png"] {
         render.extend(["-o".into(), pack.with_extension(extension).into_os_string()]);
     }
-    for (flag, value) in
-        [("--size", &args.size), ("--spp", &args.spp), ("--device", &args.device)]
+    for (flag, value) in [("--size", &args.size), ("--spp", &args.spp), ("--device", &args.device)]
     {
         if let Some(value) = value {
             render.extend([flag.into(), value.into()]);

@@ -1,0 +1,8 @@
+//! The only place of these programs that prints.
+
+use std::io::Write;
+
+/// A line on standard output.
+pub fn line(text: &str) {
+    let _ = writeln!(std::io::stdout().lock(), "{text}");
+}

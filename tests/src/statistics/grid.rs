@@ -1,0 +1,181 @@
+//! Directions → cells, and densities → what each cell expects.
+//!
+//! The cells are rings around an axis, cut into sectors. Both are stretched by a sine hyperbolicus: even
+//! within `scale`, logarithmic beyond, so that a lobe a thousandth of a radian wide and its tail over the
+//! whole sphere are resolved by the same few hundred cells.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use glam::DVec3;
+
+/// A stretch of [0, 1] onto [0, `reach`].
+#[derive(Clone, Copy, Debug)]
+struct Stretch {
+    reach: f64,
+    scale: f64,
+    full: f64,
+}
+
+impl Stretch {
+    fn new(reach: f64, scale: f64) -> Self {
+        Self { reach, scale, full: (reach / scale).asinh() }
+    }
+
+    /// Value at `t` and its derivative.
+    fn at(&self, t: f64) -> (f64, f64) {
+        let x = t * self.full;
+        (self.scale * x.sinh(), self.scale * self.full * x.cosh())
+    }
+
+    fn inverse(&self, x: f64) -> f64 {
+        (x / self.scale).asinh() / self.full
+    }
+}
+
+/// Shape of a [`Grid`].
+#[derive(Clone, Copy, Debug)]
+pub struct Shape {
+    /// Largest angle from the axis, radians.
+    pub reach: f64,
+    /// Angle from the axis within which rings are even, radians.
+    pub ring_scale: f64,
+    /// Angle from the plane of `side` within which sectors are even, radians.
+    pub sector_scale: f64,
+    /// Number of rings.
+    pub n_rings: usize,
+    /// Number of sectors in each quadrant.
+    pub n_sectors: usize,
+}
+
+impl Shape {
+    /// 30 rings of 16 sectors over the whole sphere.
+    pub const SPHERE: Self =
+        Self { reach: PI, ring_scale: PI, sector_scale: FRAC_PI_2, n_rings: 30, n_sectors: 4 };
+    /// 20 rings of 16 sectors over half of it.
+    pub const HEMISPHERE: Self = Self { reach: FRAC_PI_2, n_rings: 20, ..Self::SPHERE };
+}
+
+/// Cells of directions.
+#[derive(Clone, Copy, Debug)]
+pub struct Grid {
+    axis: DVec3,
+    side: DVec3,
+    across: DVec3,
+    rings: Stretch,
+    sectors: Stretch,
+    shape: Shape,
+}
+
+impl Grid {
+    /// Cells around the unit vector `axis`; the quadrants begin at the plane of `axis` and `side`.
+    #[must_use]
+    pub fn new(axis: DVec3, side: DVec3, shape: Shape) -> Self {
+        let across = axis.cross(side);
+        let across = if across.length() < 1e-6 { axis.any_orthonormal_vector() } else { across };
+        let across = across.normalize();
+        Self {
+            axis,
+            side: across.cross(axis),
+            across,
+            rings: Stretch::new(shape.reach, shape.ring_scale),
+            sectors: Stretch::new(FRAC_PI_2, shape.sector_scale),
+            shape,
+        }
+    }
+
+    /// Number of cells.
+    #[must_use]
+    pub fn cells(&self) -> usize {
+        self.shape.n_rings * self.shape.n_sectors * 4
+    }
+
+    /// Cell of the unit vector `d`, if it is within reach (a ten-thousandth more for rounding).
+    #[must_use]
+    pub fn cell(&self, d: DVec3) -> Option<usize> {
+        let (x, y, z) = (d.dot(self.side), d.dot(self.across), d.dot(self.axis));
+        let theta = x.hypot(y).atan2(z);
+        if theta > self.rings.reach * 1.0001 {
+            return None;
+        }
+        let index = |t: f64, n: usize| ((t * n as f64) as usize).min(n - 1);
+        let ring = index(self.rings.inverse(theta), self.shape.n_rings);
+        let sector = index(self.sectors.inverse(y.abs().atan2(x.abs())), self.shape.n_sectors);
+        let quadrant = usize::from(x < 0.0) + 2 * usize::from(y < 0.0);
+        Some((ring * self.shape.n_sectors + sector) * 4 + quadrant)
+    }
+
+    /// Integral of `f` over each cell by steradian, `fine` × `fine` midpoints a cell.
+    pub fn integrate(&self, fine: usize, mut f: impl FnMut(DVec3) -> f64) -> Vec<f64> {
+        let mut sums = vec![0.0; self.cells()];
+        let (n, m) = (self.shape.n_rings * fine, self.shape.n_sectors * fine);
+        let area = 1.0 / (n as f64 * m as f64);
+        for i in 0..n {
+            let (theta, d_theta) = self.rings.at((i as f64 + 0.5) / n as f64);
+            let (sin, cos) = theta.sin_cos();
+            for j in 0..m {
+                let (phi, d_phi) = self.sectors.at((j as f64 + 0.5) / m as f64);
+                let (x, y) = (sin * phi.cos(), sin * phi.sin());
+                for quadrant in 0..4 {
+                    let sx = if quadrant & 1 == 0 { x } else { -x };
+                    let sy = if quadrant & 2 == 0 { y } else { -y };
+                    let d = self.side * sx + self.across * sy + self.axis * cos;
+                    let cell = (i / fine * self.shape.n_sectors + j / fine) * 4 + quadrant;
+                    sums[cell] += f(d) * sin * d_theta * d_phi * area;
+                }
+            }
+        }
+        sums
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::statistics::Counts;
+    use crate::statistics::stream::Stream;
+
+    fn narrow() -> Grid {
+        let shape = Shape { ring_scale: 0.01, sector_scale: 0.1, ..Shape::SPHERE };
+        Grid::new(DVec3::new(0.36, -0.48, 0.8), DVec3::X, shape)
+    }
+
+    #[test]
+    fn cells_cover_the_sphere() {
+        let area: f64 = narrow().integrate(16, |_| 1.0).iter().sum();
+        assert!((area / (4.0 * PI) - 1.0).abs() < 1e-4, "{area}");
+    }
+
+    #[test]
+    fn a_direction_is_in_the_cell_that_it_is_integrated_in() {
+        let grid = narrow();
+        let mut wrong = 0;
+        let mut of_cell = Vec::new();
+        grid.integrate(3, |d| {
+            of_cell.push(grid.cell(d));
+            0.0
+        });
+        // The order of visits is that of the loops.
+        let (n, m) = (30 * 3, 4 * 3);
+        for i in 0..n {
+            for j in 0..m {
+                for quadrant in 0..4 {
+                    let cell = (i / 3 * 4 + j / 3) * 4 + quadrant;
+                    wrong += usize::from(of_cell[(i * m + j) * 4 + quadrant] != Some(cell));
+                }
+            }
+        }
+        assert_eq!(wrong, 0);
+    }
+
+    #[test]
+    fn uniform_directions_pass() {
+        let (grid, n) = (narrow(), 100_000);
+        let expected = grid.integrate(16, |_| n as f64 / (4.0 * PI));
+        let mut counts = Counts::new(expected);
+        let mut stream = Stream::new(3, 0);
+        for _ in 0..n {
+            counts.add(grid.cell(stream.direction()).expect("the grid is the whole sphere"));
+        }
+        assert!(counts.p_value() > 1e-3);
+    }
+}
