@@ -40,8 +40,14 @@ impl<'a> Reader<'a> {
     /// The whole file, which must be a regular file within the limit.
     pub(super) fn read(&mut self, path: &Path) -> Result<Vec<u8>, ImportError> {
         let bytes = read_file(path, self.limits)?;
-        self.files.push(FileRead { path: path.to_owned(), hash: *blake3::hash(&bytes).as_bytes() });
+        self.remember(path, &bytes);
         Ok(bytes)
+    }
+
+    /// Notes that `bytes` of the file `path` went into the import.
+    pub(super) fn remember(&mut self, path: &Path, bytes: &[u8]) {
+        let hash = *blake3::hash(bytes).as_bytes();
+        self.files.push(FileRead { path: path.to_owned(), hash });
     }
 }
 

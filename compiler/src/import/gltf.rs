@@ -16,8 +16,9 @@ mod node;
 mod primitive;
 
 use self::accessor::Buffers;
+use self::container::Images;
 use super::error::{ErrorKind, ImportError};
-use super::file::{Limits, Reader};
+use super::file::{Limits, Reader, read_file};
 use super::image_set::ImageSet;
 use super::mesh::MeshFile;
 use super::report::ImportReport;
@@ -49,10 +50,15 @@ impl Document<'_> {
 
 /// Reads a `.gltf` or `.glb` file with the buffers and images that it refers to.
 pub fn load_gltf(path: &Path, limits: &Limits) -> Result<MeshFile, ImportError> {
+    read_gltf(&read_file(path, limits)?, path, limits)
+}
+
+/// The same for a file whose bytes are in memory; `path` is what its files are relative to.
+pub fn read_gltf(bytes: &[u8], path: &Path, limits: &Limits) -> Result<MeshFile, ImportError> {
     let mut reader = Reader::new(limits);
-    let bytes = reader.read(path)?;
+    reader.remember(path, bytes);
     let file = path.display().to_string();
-    let (json, chunk) = container::split(&bytes, &file)?;
+    let (json, chunk) = container::split(bytes, &file)?;
     let root = parse(json, &file)?;
     let document = Document { root: &root, file: &file };
     let mut report = ImportReport::default();
@@ -62,7 +68,7 @@ pub fn load_gltf(path: &Path, limits: &Limits) -> Result<MeshFile, ImportError> 
     let placed = node::placed_meshes(&document)?;
     let table = primitive::Table::new(&document, &placed, limits, &mut report)?;
     let mut images = ImageSet::default();
-    let mut source = container::Images { document: &document, buffers: &buffers, folder, reader };
+    let mut source = Images { document: &document, buffers: &buffers, folder, reader };
     let materials = material::convert(&table.used, &mut source, &mut images, &mut report)?;
     let Images { reader, .. } = source;
     let parts = bake::parts(&placed, &table, &materials, &buffers, &mut report)?;
@@ -79,8 +85,6 @@ pub fn load_gltf(path: &Path, limits: &Limits) -> Result<MeshFile, ImportError> 
     let materials = materials.into_iter().map(|material| material.imported).collect();
     Ok(MeshFile { parts, materials, images, report })
 }
-
-use self::container::Images;
 
 fn parse(json: &[u8], file: &str) -> Result<Root, ImportError> {
     let parsed: Result<Root, _> = deserialize::from_slice(json);

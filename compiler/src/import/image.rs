@@ -9,6 +9,7 @@
 //! against the limit before any texel is decoded.
 
 mod exr;
+mod guard;
 mod hdr;
 
 use super::error::{ErrorKind, ImportError, excerpt};
@@ -16,7 +17,6 @@ use super::file::{Limits, read_file};
 use ::image::{DynamicImage, ImageDecoder as _, ImageFormat, ImageReader};
 use half::f16;
 use std::io::Cursor;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 /// A decoded image. Row 0 is the top row (v = 1); rows follow without gaps; alpha is straight.
@@ -46,7 +46,7 @@ pub enum Pixels {
 /// Reads one image file.
 pub fn load_image(path: &Path, limits: &Limits) -> Result<Image, ImportError> {
     let bytes = read_file(path, limits)?;
-    decode(&bytes, &path.display().to_string(), limits)
+    decode_image(&bytes, &path.display().to_string(), limits)
 }
 
 /// Formats that are read, by their first bytes.
@@ -59,22 +59,18 @@ enum Format {
 }
 
 /// Decodes an image in memory; `place` is named in errors.
-pub(super) fn decode(bytes: &[u8], place: &str, limits: &Limits) -> Result<Image, ImportError> {
-    // A decoder that panics on some file is a bug of its own; it must not take the compiler along.
-    let guarded = AssertUnwindSafe(|| match recognise(bytes, place)? {
+pub fn decode_image(bytes: &[u8], place: &str, limits: &Limits) -> Result<Image, ImportError> {
+    guard::quietly(|| match recognise(bytes, place)? {
         Format::Exr => exr::decode(bytes, place, limits),
         Format::Hdr => hdr::decode(bytes, place, limits),
         format => decode_ldr(bytes, format, place, limits),
-    });
-    catch_unwind(guarded).unwrap_or_else(|_| {
-        Err(ImportError::new(ErrorKind::Image, place, "the image decoder gave up on this file")
-            .with_help("open and save it again with an image editor"))
     })
+    .unwrap_or_else(|| Err(gave_up(place)))
 }
 
 /// Width and height that an image in memory claims, checked against the limit.
 pub(super) fn size(bytes: &[u8], place: &str, limits: &Limits) -> Result<[u32; 2], ImportError> {
-    let guarded = AssertUnwindSafe(|| match recognise(bytes, place)? {
+    guard::quietly(|| match recognise(bytes, place)? {
         Format::Exr => exr::size(bytes, place, limits),
         Format::Hdr => hdr::size(bytes, place, limits),
         format => {
@@ -82,9 +78,13 @@ pub(super) fn size(bytes: &[u8], place: &str, limits: &Limits) -> Result<[u32; 2
             let (width, height) = decoder.into_dimensions().map_err(|e| broken(place, &e))?;
             checked_size(width, height, place, limits)
         }
-    });
-    let failed = "the image decoder gave up on the header of this file";
-    catch_unwind(guarded).unwrap_or_else(|_| Err(ImportError::new(ErrorKind::Image, place, failed)))
+    })
+    .unwrap_or_else(|| Err(gave_up(place)))
+}
+
+fn gave_up(place: &str) -> ImportError {
+    ImportError::new(ErrorKind::Image, place, "the image is damaged: its decoder gave up")
+        .with_help("open it and save it again with an image editor")
 }
 
 fn recognise(bytes: &[u8], place: &str) -> Result<Format, ImportError> {

@@ -73,7 +73,7 @@ impl<'a> ImageSet<'a> {
             .requests
             .into_par_iter()
             .map(|request| {
-                let mut image = image::decode(&request.bytes, &request.place, limits)?;
+                let mut image = image::decode_image(&request.bytes, &request.place, limits)?;
                 if request.alpha == Alpha::Mask && !image.has_alpha {
                     brightness_to_alpha(&mut image);
                 }

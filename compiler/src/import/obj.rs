@@ -10,7 +10,7 @@ mod scan;
 
 use self::scan::{Scanned, Scanner};
 use super::error::{ErrorKind, ImportError};
-use super::file::{Limits, Reader};
+use super::file::{Limits, Reader, read_file};
 use super::image_set::ImageSet;
 use super::mesh::{MeshFile, Part};
 use super::report::ImportReport;
@@ -34,11 +34,22 @@ pub fn load_obj(
     up: Axis,
     limits: &Limits,
 ) -> Result<MeshFile, ImportError> {
+    read_obj(&read_file(path, limits)?, path, metres_per_unit, up, limits)
+}
+
+/// The same for a file whose bytes are in memory; `path` is where its libraries are looked for.
+pub fn read_obj(
+    bytes: &[u8],
+    path: &Path,
+    metres_per_unit: f64,
+    up: Axis,
+    limits: &Limits,
+) -> Result<MeshFile, ImportError> {
     let mut reader = Reader::new(limits);
-    let bytes = reader.read(path)?;
+    reader.remember(path, bytes);
     let file = path.display().to_string();
-    reject_foreign(&bytes, &file)?;
-    let (models, scanned) = parse(&bytes, &file, limits)?;
+    reject_foreign(bytes, &file)?;
+    let (models, scanned) = parse(bytes, &file, limits)?;
     let mut report = ImportReport::default();
     warn_about(&scanned, &file, &mut report);
     let mut images = ImageSet::default();
@@ -46,7 +57,7 @@ pub fn load_obj(
     let library = mtl::load(folder, &file, &scanned, &mut reader, &mut images, &mut report)?;
     let source = build::Source {
         file: &file,
-        bytes: &bytes,
+        bytes,
         frame: Frame { metres_per_unit, up },
         scanned: &scanned,
         material_ids: &library.ids,

@@ -94,16 +94,27 @@ fn distance2(a: [f32; 3], b: [f32; 3]) -> f64 {
     (0..3).map(|i| (f64::from(a[i]) - f64::from(b[i])).powi(2)).sum()
 }
 
-/// Convex and wound once: every turn is to the left, and the directions go round once.
+/// Convex and wound once: never a turn to the right, nowhere back the way it came, and the
+/// directions go round once. Corners that coincide with the one before do not count.
 fn is_convex(flat: &[[f64; 2]]) -> bool {
-    let n = flat.len();
-    let at = |i: usize| flat[i % n];
-    let left = (0..n).all(|i| turn(at(i), at(i + 1), at(i + 2)) >= 0.0);
-    // A curve that only turns left and winds twice has more than two changes of direction in x.
-    let signs = (0..n).map(|i| at(i + 1)[0] - at(i)[0]).filter(|dx| *dx != 0.0).map(|dx| dx > 0.0);
+    let mut corners = flat.to_vec();
+    corners.dedup();
+    while corners.len() > 1 && corners.first() == corners.last() {
+        corners.pop();
+    }
+    let n = corners.len();
+    let at = |i: usize| corners[i % n];
+    let side = |i: usize| [at(i + 1)[0] - at(i)[0], at(i + 1)[1] - at(i)[1]];
+    let onward = (0..n).all(|i| {
+        let (here, next) = (side(i), side(i + 1));
+        let area2 = turn(at(i), at(i + 1), at(i + 2));
+        area2 > 0.0 || (area2 >= 0.0 && here[0] * next[0] + here[1] * next[1] > 0.0)
+    });
+    // A curve that only turns left but winds twice changes its direction in x more than twice.
+    let signs = (0..n).map(|i| side(i)[0]).filter(|dx| *dx != 0.0).map(|dx| dx > 0.0);
     let signs: Vec<bool> = signs.collect();
     let changes = (0..signs.len()).filter(|&i| signs[i] != signs[(i + 1) % signs.len()]).count();
-    left && changes <= 2
+    onward && changes <= 2
 }
 
 fn ears(flat: &[[f64; 2]]) -> Cut {
@@ -111,11 +122,14 @@ fn ears(flat: &[[f64; 2]]) -> Cut {
     let mut triangles = Vec::with_capacity(flat.len());
     let mut budget = TESTS_PER_CORNER * flat.len();
     let mut at = 0; // where to look next: the corner after the last ear
-    let mut misses = 0;
+    let mut misses = 0; // corners in a row that are no ears
     while ring.len() > 3 {
         let n = ring.len();
         let here = [ring[(at + n - 1) % n], ring[at % n], ring[(at + 1) % n]];
-        if is_ear(flat, &ring, here, &mut budget) {
+        // Flat corners are cut off only when nothing else is left, so that they stay corners of
+        // triangles where they can, as they are for the neighbours of this polygon.
+        let flat_too = misses >= n;
+        if is_ear(flat, &ring, here, flat_too, &mut budget) {
             triangles.push(here);
             ring.remove(at % n);
             at %= n - 1;
@@ -124,7 +138,7 @@ fn ears(flat: &[[f64; 2]]) -> Cut {
             at = (at + 1) % n;
             misses += 1;
         }
-        if misses > n || budget == 0 {
+        if misses > 2 * n || budget == 0 {
             triangles = fan(u32::try_from(flat.len()).unwrap_or(0));
             return Cut { triangles, crooked: true };
         }
@@ -134,11 +148,18 @@ fn ears(flat: &[[f64; 2]]) -> Cut {
 }
 
 /// Whether cutting off `here` leaves a simple polygon. Uses up `budget`, one for each test.
-fn is_ear(flat: &[[f64; 2]], ring: &[u32], here: [u32; 3], budget: &mut usize) -> bool {
+fn is_ear(
+    flat: &[[f64; 2]],
+    ring: &[u32],
+    here: [u32; 3],
+    flat_too: bool,
+    budget: &mut usize,
+) -> bool {
     let [a, b, c] = here.map(|corner| flat[corner as usize]);
     *budget = budget.saturating_sub(ring.len());
-    if turn(a, b, c) < 0.0 {
-        return false;
+    let area2 = turn(a, b, c);
+    if area2 <= 0.0 {
+        return flat_too && area2 >= 0.0;
     }
     ring.iter().filter(|corner| !here.contains(corner)).all(|&corner| {
         let p = flat[corner as usize];
