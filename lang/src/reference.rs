@@ -54,6 +54,24 @@ const HEAD: &str = "# Reference of the scene language
 
 Every kind, type and field of `rts 1`. A field that is not listed here is an error. `rtc explain NAME`
 prints any of these tables, for example `rtc explain material.metal`.
+
+## How a scene is put together
+
+- Declarations and fields may stand in any order. All names of a file are different, whatever they name.
+- `let name = value` names a value; `param name: type = value in low..high` names one that
+  `-D name=value` may replace, in the root file.
+- `like other` takes every field of another declaration of the same kind, and changes some. `default`
+  goes back to the default, `none` takes an optional field away.
+- `name.field` is the value of a field of another declaration: `distance(hero.from, hero.to)`.
+- `instance name[i in 0..6] { ... }` makes `name[0]` to `name[5]`.
+- An object is a shape, another object, or a list of objects, with a place of its own. An instance of a
+  list makes one thing for each member, called `instance.member`.
+- `import \"parts/lantern.rts\" as lantern` makes the `pub` names of a file usable as `lantern.name`;
+  `import \"file\" { a, b }` brings some of them, `import \"file\"` all of them, under their own names. What
+  an imported file puts into the world are its `pub` instances and lights; its `render` does not count.
+- The root file has one `render`. Where it names no camera, film or sky, it takes the only one of the
+  file.
+- In `if a then b else c` both branches must make sense, and only the numbers of the taken one count.
 ";
 
 /// The page of one type.

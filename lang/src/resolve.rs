@@ -19,7 +19,7 @@ pub(crate) use import::load;
 
 /// Names that may be compared in search of similar ones; a file full of unknown names would
 /// otherwise take time that grows with the square of its length.
-const MAX_COMPARED: usize = 5_000_000;
+const MAX_COMPARED: usize = 500_000;
 
 /// A declaration: which module, which item of its file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,5 +1,7 @@
 //! Right scenes: what they become, and that the order in which they are written does not matter.
 
+#![expect(clippy::float_cmp, reason = "the same text gives exactly the same numbers")]
+
 mod common;
 
 use std::collections::BTreeMap;
@@ -263,31 +265,35 @@ fn the_number_of_instances_is_limited() {
     assert_eq!(codes, ["E0801"], "{}", describe(&analysis));
 }
 
+/// One line for each number below `n`.
+fn lines(n: usize, line: impl Fn(usize) -> String) -> String {
+    (0..n).map(line).collect::<Vec<String>>().join("\n") + "\n"
+}
+
+/// Names separated by commas.
+fn names(n: usize, prefix: &str) -> String {
+    (0..n).map(|i| format!("{prefix}{i}")).collect::<Vec<String>>().join(", ")
+}
+
 #[test]
 fn hostile_scenes_end_soon() {
-    // Groups that multiply and hold nothing, a list that is copied, thousands of unknown names, and
-    // a chain in which every value refers to all before it.
-    let members: Vec<String> = (0..300).map(|i| format!("o{i}")).collect();
-    let mut groups: String =
-        members.iter().map(|name| format!("object {name} {{ shape = nothing }}\n")).collect();
-    let mut last = members.join(", ");
+    // Groups that multiply and hold nothing.
+    let mut groups = lines(300, |i| format!("object o{i} {{ shape = nothing }}"));
+    let mut members = names(300, "o");
     for level in 0..6 {
-        let next: Vec<String> = (0..30).map(|i| format!("g{level}_{i}")).collect();
-        for name in &next {
-            groups += &format!("object {name} {{ shape = [{last}] }}\n");
-        }
-        last = next.join(", ");
+        groups += &lines(30, |i| format!("object g{level}_{i} {{ shape = [{members}] }}"));
+        members = names(30, &format!("g{level}_"));
     }
-    groups += &format!("instance s {{ shape = [{last}] }}\n");
-    let list = format!("let l = [{}]\n", vec!["1"; 20_000].join(", "));
-    let copies: String = (0..20_000).map(|i| format!("let c{i} = l\n")).collect();
-    let unknown: String = (0..20_000).map(|i| format!("let u{i} = unknown{i}\n")).collect();
-    let cycle = format!(
-        "let y = [{}]\n{}",
-        (0..3_000).map(|i| format!("x{i}")).collect::<Vec<_>>().join(", "),
-        (0..3_000).map(|i| format!("let x{i} = [x{}, y]\n", i + 1)).collect::<String>()
-    );
-    for body in [groups, list + &copies, unknown, cycle] {
+    groups += &lines(1, |_| format!("instance s {{ shape = [{members}] }}"));
+    // A list with many copies, and as many groups of it.
+    let list = format!("let l = [{}]\n", names(20_000, "o"))
+        + &lines(20_000, |i| format!("let c{i} = l"))
+        + &lines(20_000, |i| format!("object o{i} {{ shape = l }}"));
+    let unknown = lines(20_000, |i| format!("let u{i} = unknown{i}"));
+    // A chain in which the last refers to all before it.
+    let cycle = format!("let y = [{}]\n", names(3_000, "x"))
+        + &lines(3_000, |i| format!("let x{i} = [x{}, y]", i + 1));
+    for body in [groups, list, unknown, cycle] {
         let start = std::time::Instant::now();
         assert!(!check_text(&with_view(&body)).diagnostics.is_empty());
         let seconds = start.elapsed().as_secs();

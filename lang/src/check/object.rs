@@ -76,12 +76,13 @@ impl Objects {
         let mut deepest = 0;
         for &(child, span) in children {
             if walk.stack.contains(&child) {
-                let text = format!("`{}` contains itself", ev.program.name(child));
-                let error = Diagnostic::error(Code("E0803"), text)
-                    .at(span, "leads back to it")
-                    .because(ev.program.name_span(child), "this object");
-                ev.fault(error);
-                walk.reported.insert(id);
+                if walk.reported.insert(id) {
+                    let text = format!("`{}` contains itself", ev.program.name(child));
+                    let error = Diagnostic::error(Code("E0803"), text)
+                        .at(span, "leads back to it")
+                        .because(ev.program.name_span(child), "this object");
+                    ev.fault(error);
+                }
             } else if walk.stack.len() > MAX_OBJECT_DEPTH + 1 {
                 deepest = deepest.max(1);
             } else {
