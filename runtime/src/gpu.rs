@@ -66,7 +66,8 @@ pub(crate) fn render(
 ) -> Result<(), GpuError> {
     let mut module = match judge(setup) {
         Trust::Known => {
-            run.note("kernel: every line is known, runtime checks are off");
+            let left = if adapter.is_software() { " but for loop limits" } else { "" };
+            run.note(&format!("kernel: every line is known, runtime checks are off{left}"));
             Module::Trusted
         }
         Trust::Unknown { line } => {
