@@ -4,6 +4,8 @@
 //! swapped for interesting numbers. Whatever comes back must be a result; a panic inside a decoder,
 //! which is caught, is allowed only where it is known.
 
+#![expect(clippy::cast_possible_truncation, reason = "random bits")]
+
 mod import_support;
 
 use compiler::import::{ImportError, Limits, MeshFile, decode_image, read_gltf, read_obj};
@@ -97,7 +99,7 @@ fn damage_and_load<T>(
     n: usize,
     seeds: &[Vec<u8>],
     name: &str,
-    repair: fn(&mut Vec<u8>),
+    repair: fn(&mut [u8]),
     load: impl Fn(&[u8], &Path) -> Result<T, ImportError>,
 ) -> usize {
     let path = Path::new(name);
@@ -128,7 +130,7 @@ fn damage_and_load<T>(
     n_good
 }
 
-fn keep(_: &mut Vec<u8>) {}
+fn keep(_: &mut [u8]) {}
 
 fn noise(n: usize) -> Vec<u8> {
     let mut random = Random(7);
@@ -136,7 +138,7 @@ fn noise(n: usize) -> Vec<u8> {
 }
 
 /// Everything that came out must be usable without a check.
-fn check_mesh(mesh: MeshFile) {
+fn check_mesh(mesh: &MeshFile) {
     for part in &mesh.parts {
         assert!(part.material.is_none_or(|m| (m as usize) < mesh.materials.len()));
         for tri in 0..part.triangles.len() {
@@ -159,7 +161,7 @@ fn check_mesh(mesh: MeshFile) {
 
 #[test]
 fn damaged_png() {
-    let rgba = |size: u32, color| {
+    let rgba = |size: u32, color: image::ExtendedColorType| {
         let mut out = Vec::new();
         let encoder = image::codecs::png::PngEncoder::new(&mut out);
         let bytes = noise(size as usize * size as usize * 8);
@@ -182,7 +184,7 @@ fn damaged_png() {
 }
 
 /// Recomputes the checksums, so that damage reaches the decoder behind them.
-fn repair_png(bytes: &mut Vec<u8>) {
+fn repair_png(bytes: &mut [u8]) {
     let mut at = 8;
     while let Some(length) = bytes.get(at..at + 4) {
         let length = u32::from_be_bytes(length.try_into().expect("four bytes")) as usize;
@@ -276,20 +278,20 @@ fn damaged_glb() {
     let new = sparse.view(bytemuck::cast_slice(&[0.0_f32, 3.0, 0.0]));
     sparse.json["accessors"][positions]["sparse"] = json!({"count": 1,
         "indices": {"bufferView": at, "componentType": 5121}, "values": {"bufferView": new}});
-    sparse.mesh(json!({"attributes": {"POSITION": positions}, "mode": 5}));
+    sparse.mesh(&json!({"attributes": {"POSITION": positions}, "mode": 5}));
     let seeds = [textured.glb(), sparse.glb()];
     let n_good = damage_and_load(8000, &seeds, "a.glb", repair_glb, |bytes, path| {
-        read_gltf(bytes, path, &LIMITS).map(check_mesh)
+        read_gltf(bytes, path, &LIMITS).map(|mesh| check_mesh(&mesh))
     });
     assert!(n_good > 100, "{n_good}");
     let json = textured.json.to_string().into_bytes();
     damage_and_load(4000, &[json], "a.gltf", keep, |bytes, path| {
-        read_gltf(bytes, path, &LIMITS).map(check_mesh)
+        read_gltf(bytes, path, &LIMITS).map(|mesh| check_mesh(&mesh))
     });
 }
 
 /// Makes the length in the header true again.
-fn repair_glb(bytes: &mut Vec<u8>) {
+fn repair_glb(bytes: &mut [u8]) {
     let length = u32::try_from(bytes.len()).expect("small").to_le_bytes();
     if let Some(header) = bytes.get_mut(8..12) {
         header.copy_from_slice(&length);
@@ -305,7 +307,7 @@ fn damaged_obj_and_mtl() {
         b"newmtl red\nKd 1 0 0\nKs 1 1 1\nNs 100\nNi 1.5\nd 0.5\nillum 2\nmap_Kd -clamp on a.png\n\
         newmtl blue\nKe 1 2 3\nTr 0.5\nPr 0.1\nPm 1\nmap_d -o 0 0 0 a.png\nKa 0 0 0\nbump b.png\n";
     let n_good = damage_and_load(8000, &[obj.to_vec()], "a.obj", keep, |bytes, path| {
-        read_obj(bytes, path, 0.01, Axis::PlusZ, &LIMITS).map(check_mesh)
+        read_obj(bytes, path, 0.01, Axis::PlusZ, &LIMITS).map(|mesh| check_mesh(&mesh))
     });
     assert!(n_good > 100, "{n_good}");
     let folder = TempDir::new().expect("temporary folder");
@@ -313,6 +315,6 @@ fn damaged_obj_and_mtl() {
     damage_and_load(1000, &[mtl.to_vec()], "a.mtl", keep, |bytes, name| {
         fs::write(folder.path().join(name), bytes).expect("write");
         let path = folder.path().join("a.obj");
-        read_obj(obj, &path, 1.0, Axis::PlusY, &LIMITS).map(check_mesh)
+        read_obj(obj, &path, 1.0, Axis::PlusY, &LIMITS).map(|mesh| check_mesh(&mesh))
     });
 }

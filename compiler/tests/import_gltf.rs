@@ -1,5 +1,7 @@
 //! glTF and GLB: the scene graph, accessors, materials, and every refusal with its accessor.
 
+#![expect(clippy::float_cmp, reason = "these numbers are exact")]
+
 mod import_support;
 
 use compiler::import::{ErrorKind, ImportError, Limits, MeshFile, load_gltf, topology};
@@ -93,7 +95,7 @@ fn strips_and_fans_and_missing_indices() {
     for (mode, order, area) in [(5, [0, 1, 2, 3], 1.0), (6, [0, 1, 3, 2], 1.0)] {
         let mut document = Builder::default();
         let positions = document.floats(&order.map(|i| square[i]), "VEC3");
-        document.mesh(json!({"attributes": {"POSITION": positions}, "mode": mode}));
+        document.mesh(&json!({"attributes": {"POSITION": positions}, "mode": mode}));
         let mesh = load(&document);
         let parts: Vec<_> = mesh.parts.iter().collect();
         let found = topology(&parts);
@@ -107,8 +109,8 @@ fn strips_and_fans_and_missing_indices() {
     let mut document = Builder::default();
     let positions = document.floats(&square, "VEC3");
     let indices = document.indices(&[0, 1, 2, 2, 3, 3, 1, 2, 3]);
-    document.mesh(json!({"attributes": {"POSITION": positions}, "indices": indices, "mode": 5}));
-    document.mesh(json!({"attributes": {"POSITION": positions}, "mode": 1}));
+    document.mesh(&json!({"attributes": {"POSITION": positions}, "indices": indices, "mode": 5}));
+    document.mesh(&json!({"attributes": {"POSITION": positions}, "mode": 1}));
     let mesh = load(&document);
     assert_eq!(mesh.report.zero_area.count, 0, "sewing triangles of strips are no surface");
     assert_eq!(mesh.report.warnings[0].message, "1 primitives of points or lines are left out");
@@ -122,7 +124,7 @@ fn sparse_interleaved_and_quantised_accessors() {
     let new = document.view(bytemuck::cast_slice(&[0.0_f32, 3.0, 0.0]));
     document.json["accessors"][positions]["sparse"] = json!({"count": 1,
         "indices": {"bufferView": at, "componentType": 5121}, "values": {"bufferView": new}});
-    document.mesh(json!({"attributes": {"POSITION": positions}}));
+    document.mesh(&json!({"attributes": {"POSITION": positions}}));
     assert_eq!(soup(&load(&document)), [[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 3.0, 0.0]]]);
 
     let mut document = Builder::default();
@@ -131,7 +133,7 @@ fn sparse_interleaved_and_quantised_accessors() {
     document.json["bufferViews"][view]["byteStride"] = json!(8);
     let accessor = json!({"bufferView": view, "componentType": 5122, "normalized": true, "count": 3, "type": "VEC3"});
     let positions = document.push("accessors", accessor);
-    document.mesh(json!({"attributes": {"POSITION": positions}}));
+    document.mesh(&json!({"attributes": {"POSITION": positions}}));
     document.json["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
     assert_eq!(soup(&load(&document)), [[[0.0; 3], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]]]);
 }
@@ -225,6 +227,7 @@ fn required_extensions_are_refused_by_name() {
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "a table")]
 fn bad_accessors_are_named() {
     type Change = fn(&mut Value);
     let cases: &[(Change, &str)] = &[
@@ -307,14 +310,14 @@ fn bad_accessors_are_named() {
         (
             |json| {
                 json["accessors"][0]["sparse"] = json!({"count": 9,
-                "indices": {"bufferView": 0, "componentType": 5121}, "values": {"bufferView": 0}})
+                "indices": {"bufferView": 0, "componentType": 5121}, "values": {"bufferView": 0}});
             },
             "accessor 0: 9 sparse values for 3 elements",
         ),
         (
             |json| {
                 json["accessors"][0]["sparse"] = json!({"count": 1,
-                "indices": {"bufferView": 0, "byteOffset": 14, "componentType": 5121}, "values": {"bufferView": 0}})
+                "indices": {"bufferView": 0, "byteOffset": 14, "componentType": 5121}, "values": {"bufferView": 0}});
             },
             "accessor 0: sparse index 128, but there are 3 elements",
         ),
@@ -355,7 +358,7 @@ fn bad_accessors_are_named() {
 fn numbers_that_are_not_finite_are_named() {
     let mut document = Builder::default();
     let positions = document.floats(&[[0.0; 3], [1.0, f32::NAN, 0.0], [0.0, 1.0, 0.0]], "VEC3");
-    document.mesh(json!({"attributes": {"POSITION": positions}}));
+    document.mesh(&json!({"attributes": {"POSITION": positions}}));
     let error = load_bytes(&document.glb(), &[]).expect_err("NaN");
     assert_eq!(
         (error.kind, error.to_string().as_str()),
@@ -374,7 +377,7 @@ fn numbers_that_are_not_finite_are_named() {
     let mut document = Builder::default();
     let positions = document.floats(&[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], "VEC3");
     let indices = document.indices(&[0, 1, 3]);
-    document.mesh(json!({"attributes": {"POSITION": positions}, "indices": indices}));
+    document.mesh(&json!({"attributes": {"POSITION": positions}, "indices": indices}));
     let error = load_bytes(&document.glb(), &[]).expect_err("index");
     assert_eq!(error.to_string(), "a.glb: accessor 1: element 2 is 3, but there are 3 vertices");
 }
@@ -387,7 +390,7 @@ fn zero_area_and_zero_normals_are_counted() {
     let normals = document.floats(&[[0.0_f32; 3]; 4], "VEC3");
     let indices = document.indices(&[0, 1, 2, 0, 1, 3]);
     document.mesh(
-        json!({"attributes": {"POSITION": positions, "NORMAL": normals}, "indices": indices}),
+        &json!({"attributes": {"POSITION": positions, "NORMAL": normals}, "indices": indices}),
     );
     let mesh = load(&document);
     assert_eq!(

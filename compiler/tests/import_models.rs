@@ -1,5 +1,7 @@
 //! Tries the importers on well-known meshes, where a folder of them is at hand.
 
+#![expect(clippy::print_stderr, reason = "says what is skipped, and what was found")]
+
 use compiler::import::{Limits, MeshFile, load_gltf, load_image, load_obj, topology};
 use lang::scene::Axis;
 use std::path::PathBuf;

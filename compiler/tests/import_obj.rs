@@ -1,5 +1,8 @@
 //! OBJ and MTL: what is understood, and that everything wrong names its line.
 
+#![expect(clippy::float_cmp, reason = "these numbers are exact")]
+#![expect(clippy::format_push_string, reason = "short texts")]
+
 use compiler::import::{ErrorKind, ImportError, Limits, MeshFile, load_obj, topology};
 use lang::scene::Axis;
 use std::fs;

@@ -55,6 +55,11 @@ pub(super) fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
     (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))
 }
 
+/// Whether `v` has no length.
+pub(super) fn is_zero(v: [f32; 3]) -> bool {
+    v.iter().all(|x| x.abs() <= 0.0)
+}
+
 /// Rounded to single precision.
 #[expect(clippy::cast_possible_truncation, reason = "rounding is what it is for")]
 pub(super) fn single<const N: usize>(v: [f64; N]) -> [f32; N] {

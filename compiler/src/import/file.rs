@@ -92,6 +92,9 @@ fn io_error(path: &Path, source: std::io::Error) -> ImportError {
     error
 }
 
+/// Entries of a folder that are looked at; a help text is not worth more.
+const MAX_ENTRIES: usize = 10_000;
+
 /// What to try instead of a path that does not exist: `/` for `\`, or the case that does exist.
 fn spelling_help(path: &Path) -> String {
     if path.to_string_lossy().contains('\\') {
@@ -105,7 +108,6 @@ fn spelling_help(path: &Path) -> String {
     let Ok(entries) = std::fs::read_dir(folder) else {
         return format!("there is no folder `{}`", folder.display());
     };
-    const MAX_ENTRIES: usize = 10_000; // a help text is not worth more
     let names = entries.take(MAX_ENTRIES).flatten();
     let names = names.map(|entry| entry.file_name().to_string_lossy().into_owned());
     let similar = names.filter(|name| name.to_lowercase() == wanted).min();

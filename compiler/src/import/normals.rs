@@ -157,14 +157,16 @@ fn assemble(
         let computed = &mut out[face.part as usize];
         let bits = position_bits(*normal);
         let known = recent.iter().find(|(part, known, _)| *part == face.part && *known == bits);
-        let index = known.map(|(_, _, index)| *index).unwrap_or_else(|| {
+        let known = known.map(|(_, _, index)| *index);
+        let store = || {
             let index = u32::try_from(computed.values.len()).expect("fewer than 2^32 corners");
             computed.values.push(*normal);
             if recent.len() < MAX_RECENT {
                 recent.push((face.part, bits, index));
             }
             index
-        });
+        };
+        let index = known.unwrap_or_else(store);
         computed.corners[face.wanted_idx as usize][(corner.id % 3) as usize] = index;
     }
     out

@@ -147,6 +147,10 @@ fn ears(flat: &[[f64; 2]]) -> Cut {
     Cut { triangles, crooked: false }
 }
 
+fn same(a: [f64; 2], b: [f64; 2]) -> bool {
+    (a[0] - b[0]).abs() <= 0.0 && (a[1] - b[1]).abs() <= 0.0
+}
+
 /// Whether cutting off `here` leaves a simple polygon. Uses up `budget`, one for each test.
 fn is_ear(
     flat: &[[f64; 2]],
@@ -164,6 +168,6 @@ fn is_ear(
     ring.iter().filter(|corner| !here.contains(corner)).all(|&corner| {
         let p = flat[corner as usize];
         let within = turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
-        !within || p == a || p == b || p == c // bridges to holes pass through a corner twice
+        !within || [a, b, c].iter().any(|corner| same(*corner, p)) // bridges to holes pass through a corner twice
     })
 }

@@ -62,7 +62,7 @@ impl Builder {
     }
 
     /// A mesh of one primitive, and a node of the scene that shows it.
-    pub(crate) fn mesh(&mut self, primitive: Value) {
+    pub(crate) fn mesh(&mut self, primitive: &Value) {
         let mesh = self.push("meshes", json!({"primitives": [primitive]}));
         let node = self.push("nodes", json!({"mesh": mesh}));
         let nodes = self.json["scenes"][0]["nodes"].as_array_mut().expect("a list");
@@ -102,7 +102,7 @@ pub(crate) fn triangle() -> Builder {
     let uvs = document.floats(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], "VEC2");
     let indices = document.indices(&[0, 1, 2]);
     let attributes = json!({"POSITION": positions, "NORMAL": normals, "TEXCOORD_0": uvs});
-    document.mesh(json!({"attributes": attributes, "indices": indices}));
+    document.mesh(&json!({"attributes": attributes, "indices": indices}));
     document
 }
 

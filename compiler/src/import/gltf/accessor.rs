@@ -199,16 +199,14 @@ impl Buffers<'_> {
         let inside = length
             .and_then(|length| range(offset, length as u64))
             .and_then(|range| bytes.get(range));
-        match inside {
-            Some(bytes) => Ok(Elements { bytes, stride, size, count }),
-            None => {
-                let (view, total) = (view.value(), bytes.len());
-                failure(format!(
-                    "{count} elements of {size} bytes, {stride} apart, from byte {offset} are not \
-                     inside buffer view {view} of {total} bytes"
-                ))
-            }
-        }
+        let Some(inside) = inside else {
+            let (view, total) = (view.value(), bytes.len());
+            return failure(format!(
+                "{count} elements of {size} bytes, {stride} apart, from byte {offset} are not \
+                 inside buffer view {view} of {total} bytes"
+            ));
+        };
+        Ok(Elements { bytes: inside, stride, size, count })
     }
 
     /// Replaces some values by those of the sparse part.

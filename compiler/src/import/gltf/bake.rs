@@ -1,6 +1,6 @@
 //! Placed meshes become parts in the frame of the file.
 
-use super::super::check::{Quality, cross, dot, edge, grow, quality, single, unit};
+use super::super::check::{Quality, cross, dot, edge, grow, is_zero, quality, single, unit};
 use super::super::error::{ErrorKind, ImportError};
 use super::super::mesh::{Attribute, Part};
 use super::super::report::ImportReport;
@@ -153,7 +153,7 @@ fn replace_zero_normals(
     let mut n_replaced = 0;
     for triangle in triangles {
         for vertex in triangle.map(|vertex| vertex as usize) {
-            if normals[vertex] != [0.0; 3] {
+            if !is_zero(normals[vertex]) {
                 continue;
             }
             let [a, b, c] = triangle.map(|vertex| positions[vertex as usize]);

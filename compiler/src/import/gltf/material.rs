@@ -182,7 +182,7 @@ impl Maps<'_, '_, '_> {
         let wrap = match texture.sampler {
             None => [Wrap::Repeat; 2],
             Some(index) => match document.root.get(index) {
-                Some(sampler) => [wrap(&sampler.wrap_s), wrap(&sampler.wrap_t)],
+                Some(sampler) => [wrap(sampler.wrap_s), wrap(sampler.wrap_t)],
                 None => return missing(format!("there is no sampler {}", index.value())),
             },
         };
@@ -193,12 +193,11 @@ impl Maps<'_, '_, '_> {
         }
         self.differ |= *self.lookup.get_or_insert(lookup) != lookup;
         let name = self.source.name(texture.source);
-        let image = match self.images.find(&name, Alpha::Own) {
-            Some(image) => image,
-            None => {
-                let (bytes, place) = self.source.bytes(texture.source)?;
-                self.images.add(name, place, Alpha::Own, bytes)?
-            }
+        let image = if let Some(image) = self.images.find(&name, Alpha::Own) {
+            image
+        } else {
+            let (bytes, place) = self.source.bytes(texture.source)?;
+            self.images.add(name, place, Alpha::Own, bytes)?
         };
         Ok(Some(MapUse { image, space, wrap }))
     }
@@ -218,7 +217,7 @@ fn lookup(info: &Info) -> Lookup {
     (extension.tex_coord.unwrap_or(info.tex_coord), Some(transform))
 }
 
-fn wrap(mode: &Checked<WrappingMode>) -> Wrap {
+fn wrap(mode: Checked<WrappingMode>) -> Wrap {
     match mode {
         Checked::Valid(WrappingMode::ClampToEdge) => Wrap::Clamp,
         Checked::Valid(WrappingMode::MirroredRepeat) => Wrap::Mirror,

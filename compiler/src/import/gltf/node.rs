@@ -32,6 +32,14 @@ struct Visit {
     file_from_parent: Matrix,
 }
 
+/// How the walk came to a node.
+#[derive(Clone, Copy)]
+enum Reached {
+    Not,
+    AsRoot,
+    From(usize),
+}
+
 const IDENTITY: Matrix = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
 
 /// All meshes of the default scene, depth first, in the order of the file. Without a default scene
@@ -41,7 +49,7 @@ pub(super) fn placed_meshes(document: &Document<'_>) -> Result<Vec<Placed>, Impo
     let mut stack: Vec<Visit> = Vec::new();
     let start = |node| Visit { node, parent: None, depth: 0, file_from_parent: IDENTITY };
     stack.extend(roots(document)?.into_iter().rev().map(start));
-    let mut parents: Vec<Option<Option<usize>>> = vec![None; root.nodes.len()];
+    let mut parents: Vec<Reached> = vec![Reached::Not; root.nodes.len()];
     let mut placed = Vec::new();
     while let Some(visit) = stack.pop() {
         let index = visit.node.value();
@@ -50,13 +58,13 @@ pub(super) fn placed_meshes(document: &Document<'_>) -> Result<Vec<Placed>, Impo
         let Some(node) = root.get(visit.node) else {
             return fail(ErrorKind::Index, "there is no such node");
         };
-        if parents[index].is_some() {
+        if !matches!(parents[index], Reached::Not) {
             return fail(ErrorKind::Format, "it is reached twice: the nodes do not form a tree");
         }
         if visit.depth >= MAX_DEPTH {
             return fail(ErrorKind::Limit, "it is nested more than 256 levels deep");
         }
-        parents[index] = Some(visit.parent);
+        parents[index] = visit.parent.map_or(Reached::AsRoot, Reached::From);
         let Some(local) = local_matrix(node) else {
             return fail(ErrorKind::Number, "its transform is not a finite affine one");
         };
@@ -105,11 +113,7 @@ fn roots(document: &Document<'_>) -> Result<Vec<Index<Node>>, ImportError> {
 }
 
 /// Names from the root to node `index`, and which of them are made up.
-fn path_of(
-    document: &Document<'_>,
-    parents: &[Option<Option<usize>>],
-    index: usize,
-) -> (Vec<String>, Vec<bool>) {
+fn path_of(document: &Document<'_>, parents: &[Reached], index: usize) -> (Vec<String>, Vec<bool>) {
     let mut path = Vec::new();
     let mut at = Some(index);
     while let Some(index) = at {
@@ -121,7 +125,10 @@ fn path_of(
             ),
             name.is_none(),
         ));
-        at = parents[index].flatten();
+        at = match parents[index] {
+            Reached::From(parent) => Some(parent),
+            Reached::AsRoot | Reached::Not => None,
+        };
     }
     path.into_iter().rev().unzip()
 }

@@ -1,6 +1,6 @@
 //! `tobj`'s models become parts: polygons cut, triangles judged, missing normals computed.
 
-use super::super::check::{Quality, grow, quality, single, unit};
+use super::super::check::{Quality, grow, is_zero, quality, single, unit};
 use super::super::error::{ErrorKind, ImportError};
 use super::super::file::Limits;
 use super::super::mesh::{Attribute, NO_CORNER, Part};
@@ -126,7 +126,7 @@ fn add_model(
             let mut normals = NONE_HERE;
             if tag.has_normal {
                 normals = cut.map(|i| corner(&mesh.normal_indices, bases[2], i));
-                if normals.iter().any(|n| draft.normals[*n as usize] == [0.0; 3]) {
+                if normals.iter().any(|n| is_zero(draft.normals[*n as usize])) {
                     report.zero_normals.add(|| source.place(face_idx));
                     normals = NONE_HERE;
                 }

@@ -372,7 +372,7 @@ impl<'a> MapOptions<'a> {
                     for _ in 0..3 {
                         let (word, after) = cut_word(rest);
                         let Ok(number) = word.parse::<f64>() else { break };
-                        neutral &= number == if option == "-s" { 1.0 } else { 0.0 };
+                        neutral &= (number - if option == "-s" { 1.0 } else { 0.0 }).abs() <= 0.0;
                         rest = after;
                     }
                     out.ignored |= !neutral;

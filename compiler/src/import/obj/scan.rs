@@ -326,13 +326,12 @@ impl<'a> Scanner<'a> {
     fn rename(&mut self) -> Checked {
         let next = u32::try_from(self.out.names.len())
             .map_err(|_| (ErrorKind::Limit, "more than 2^32 groups".to_owned()))?;
-        self.state.name = match self.name_ids.get(&self.name) {
-            Some(id) => *id,
-            None => {
-                self.name_ids.insert(self.name.clone(), next);
-                self.out.names.push(self.name.clone());
-                next
-            }
+        self.state.name = if let Some(id) = self.name_ids.get(&self.name) {
+            *id
+        } else {
+            self.name_ids.insert(self.name.clone(), next);
+            self.out.names.push(self.name.clone());
+            next
         };
         Ok(())
     }
@@ -371,7 +370,7 @@ impl<'a> Scanner<'a> {
     fn skip(&mut self, keyword: &[u8]) -> Checked {
         const MAX_KEYWORD: usize = 32; // longer ones exist in no dialect
         const MAX_KINDS: usize = 64; // a text with more unknown words is not an OBJ file
-        let plain = keyword.iter().all(|byte| byte.is_ascii_graphic());
+        let plain = keyword.iter().all(u8::is_ascii_graphic);
         if !plain || keyword.len() > MAX_KEYWORD || self.out.skipped.len() >= MAX_KINDS {
             let found = excerpt(keyword);
             return format_error(format!("`{found}` is not an OBJ keyword; is this an OBJ file?"));
