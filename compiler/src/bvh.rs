@@ -11,6 +11,7 @@ mod build;
 mod check;
 mod fragment;
 mod join;
+mod probe;
 mod refit;
 mod scene;
 mod sweep;

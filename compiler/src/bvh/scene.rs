@@ -9,14 +9,12 @@ use std::time::Duration;
 use rayon::prelude::*;
 
 use super::join::{Group, GroupKind, Joined, join_groups};
+use super::probe::visits;
 use super::{BvhError, Fragment, MAX_PRIMITIVES};
 use crate::cache::{Cache, CacheWarning, Cached, Source};
 
 /// Meshes of fewer triangles share a group: the cache would not keep their trees anyway.
 pub const SMALL_MESH: usize = crate::cache::MIN_PRIMITIVES;
-
-/// One tree over all triangles replaces the joined trees when its cost is below this part of theirs.
-const MERGE_BELOW: f64 = 0.9;
 
 /// The primitives of a scene, in the frame in which the kernel sees them.
 #[derive(Clone, Copy, Debug)]
@@ -75,7 +73,7 @@ pub fn plan(mesh_sizes: &[usize]) -> Vec<Vec<Range<u32>>> {
 ///
 /// Meshes that fill the same space all over (leaves and twigs, halves of one shell) remain tangled
 /// after joining: every ray visits both trees. Where joining could not separate the meshes, one tree
-/// over all triangles is made as well, and the cheaper of the two is taken.
+/// over all triangles is made as well, and the one that takes fewer visits is used.
 pub fn build_scene(
     primitives: &Primitives,
     cache: &Cache,
@@ -92,7 +90,8 @@ pub fn build_scene(
         let all = vec![std::iter::once(0..end).collect()];
         let groups = build_groups(primitives, all, cache, &mut report)?;
         let (merged, _) = join_groups(&groups)?;
-        if merged.cost() < MERGE_BELOW * joined.cost() {
+        let [one, many] = [&merged, &joined].map(|tree| visits(tree, primitives.triangles));
+        if one < many {
             joined = merged;
             report.merged = true;
         }

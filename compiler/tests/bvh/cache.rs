@@ -189,7 +189,9 @@ fn clear_deletes_trees_and_nothing_else() {
     cache.tree(fragments(&degenerate("soup", N))).unwrap();
     let folder = only_file(dir.path()).parent().unwrap().to_owned();
     let keep = [dir.path().join("bvh/notes.bvh"), folder.join("mine.txt")];
-    keep.iter().for_each(|path| fs::write(path, "precious").unwrap());
+    for path in &keep {
+        fs::write(path, "precious").unwrap();
+    }
     let stats = cache.stats().unwrap();
     assert_eq!(stats.entries, 1);
     assert_eq!(cache.clear().unwrap(), stats);
