@@ -10,12 +10,13 @@ use crate::schema::{self, Kind};
 use crate::units;
 
 /// Pages as Markdown; each starts with a line `# CODE: title`.
-const PAGES: [&str; 5] = [
+const PAGES: [&str; 6] = [
     include_str!("explain/syntax.md"),
     include_str!("explain/names.md"),
     include_str!("explain/types.md"),
     include_str!("explain/values.md"),
     include_str!("explain/view.md"),
+    include_str!("explain/files.md"),
 ];
 
 /// Every code that has a page, in order of the pages.

@@ -191,7 +191,7 @@ fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {
     block(out, &format!("camera {}: perspective", camera.name.text), &camera_fields(camera))?;
     let [width, height] = film.size;
     let tone_map = match film.tone_map {
-        ToneMap::None => "none",
+        ToneMap::None => "linear",
         ToneMap::Reinhard => "reinhard",
         ToneMap::Aces => "aces",
     };

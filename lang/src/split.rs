@@ -40,9 +40,12 @@ pub(crate) struct Chunk {
 /// Words that start a declaration without a block.
 const LINE_WORDS: [&str; 6] = ["import", "param", "let", "asset", "texture", "assert"];
 
-/// Every word that may start a declaration.
+/// Every word that may start a declaration of this edition. `medium` and `scatter` are read, so that
+/// the answer can say that they do not exist yet, but never proposed.
 pub(crate) fn start_words() -> impl Iterator<Item = &'static str> {
-    LINE_WORDS.into_iter().chain(DeclKind::ALL.map(DeclKind::word)).chain(["pub"])
+    let later = [DeclKind::Medium, DeclKind::Scatter];
+    let kinds = DeclKind::ALL.into_iter().filter(move |kind| !later.contains(kind));
+    LINE_WORDS.into_iter().chain(kinds.map(DeclKind::word)).chain(["pub"])
 }
 
 /// Splits a file. The chunks cover all tokens except comments and line breaks between them.

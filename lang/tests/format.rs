@@ -100,7 +100,7 @@ impl Writer<'_> {
     fn comment(&mut self) {
         self.n_comments += 1;
         let start = ["//", "// ", "/// ", "\n//"][self.choose(4)];
-        let _ = write!(self.out, " {start}c{} #A, {{ ]  \n", self.n_comments);
+        let _ = writeln!(self.out, " {start}c{} #A, {{ ]  ", self.n_comments);
     }
 
     fn name(&mut self) {

@@ -25,25 +25,30 @@ fn the_reference_is_what_the_schema_says() {
     assert_eq!(stored, made, "docs/reference.md is stale: UPDATE=1 cargo test -p lang");
 }
 
-/// The first block of code of a page that starts with ```` ```rts ````, and whether it is whole.
-fn example(page: &str) -> Option<(String, bool)> {
+/// The first block of code of a page that starts with ```` ```rts ````, and the word after that:
+/// `whole` is a scene of its own, `files` fails only where there are files.
+fn example(page: &str) -> Option<(String, &str)> {
     let (_, rest) = page.split_once("```rts")?;
     let (info, rest) = rest.split_once('\n')?;
     let (text, _) = rest.split_once("```")?;
-    Some((text.to_owned(), info.trim() == "whole"))
+    Some((text.to_owned(), info.trim()))
 }
 
 #[test]
 fn every_page_has_an_example_that_fails_as_it_says() {
     // Two files, a command line, or characters that cannot be printed.
-    let without = ["E0107", "E0206", "E0210", "E0213"];
-    for code in lang::codes() {
+    let without = ["E0107", "E0199", "E0206", "E0210", "E0213"];
+    // What only the compiler can find has its examples run where the compiler is tested.
+    for code in lang::codes().filter(|code| !code.starts_with("W052")) {
         let page = lang::explain(code).expect("codes() lists pages");
-        let Some((text, whole)) = example(&page) else {
+        let Some((text, info)) = example(&page) else {
             assert!(without.contains(&code), "{code} has no example");
             continue;
         };
-        let text = if whole { text } else { format!("rts 1\n{text}{TAIL}") };
+        if info == "files" {
+            continue;
+        }
+        let text = if info == "whole" { text } else { format!("rts 1\n{text}{TAIL}") };
         let analysis = check_text(&text);
         let mut found: Vec<&str> = analysis.diagnostics.iter().map(|d| d.code.0).collect();
         found.dedup();

@@ -144,7 +144,7 @@ impl Placer<'_, '_> {
         let Some(scale) = self.transform.uniform_scale() else {
             let name = &self.instance.name.text;
             diagnostics.push(
-                Diagnostic::error(Code("E0803"), format!("`{name}` would not stay a sphere"))
+                Diagnostic::error(Code("E0804"), format!("`{name}` would not stay a sphere"))
                     .at(self.instance.shape_span, "a sphere, scaled differently along its axes")
                     .with_help("give `scale` one number, or use a mesh"),
             );

@@ -160,7 +160,7 @@ pub(super) fn relative(path: &Path, root: &Path) -> String {
 
 fn failed(error: &ImportError, span: Span, written: &str) -> Diagnostic {
     let code = match error.kind {
-        ErrorKind::Missing | ErrorKind::Io => "E0501",
+        ErrorKind::Missing | ErrorKind::Io => "E0514",
         ErrorKind::Format => "E0503",
         ErrorKind::Number => "E0504",
         ErrorKind::Index => "E0505",

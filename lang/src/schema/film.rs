@@ -6,7 +6,7 @@ use crate::units::Dim;
 pub(super) const TYPES: &[&TypeSchema] = &[&FILM];
 
 const TONE_MAPS: &[Word] = &[
-    ("none", "the sRGB curve only; what is brighter than 1 is white"),
+    ("linear", "the sRGB curve only; what is brighter than 1 is white"),
     ("reinhard", "`x / (1 + x)`"),
     ("aces", "a filmic curve with a soft shoulder"),
 ];
@@ -36,7 +36,7 @@ const FILM: TypeSchema = TypeSchema {
         Field::new(
             "tone_map",
             FieldType::Word(TONE_MAPS),
-            Default::Word("none"),
+            Default::Word("linear"),
             "How brightness becomes the eight bits of the PNG.",
         )
         .foreign(&[

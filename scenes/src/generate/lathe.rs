@@ -30,7 +30,13 @@ pub(super) fn lathe(profile: &[[f64; 2]], segments: usize) -> MeshData {
             let corner = |r: usize, s: usize| (r * width + s) as u32;
             let (a, b) = (corner(row, step), corner(row, step + 1));
             let (c, d) = (corner(row + 1, step + 1), corner(row + 1, step));
-            mesh.indices.extend([a, d, c, a, c, b]);
+            // At a pole the ring is one point, and one of the two triangles has no area.
+            if profile[row + 1][0] > 0.0 {
+                mesh.indices.extend([a, d, c]);
+            }
+            if profile[row][0] > 0.0 {
+                mesh.indices.extend([a, c, b]);
+            }
         }
     }
     mesh
