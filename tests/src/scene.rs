@@ -23,6 +23,15 @@ impl Loader for NoImports {
 /// When the text is not a scene: tests are to fail there.
 #[must_use]
 pub fn compile_in(root: &Path, text: &str) -> Compiled {
+    compile_with(root, text, &Cache::disabled())
+}
+
+/// As `compile_in`, with a cache of trees.
+///
+/// # Panics
+/// As `compile_in`.
+#[must_use]
+pub fn compile_with(root: &Path, text: &str, cache: &Cache) -> Compiled {
     let name = root.join("test.rts").display().to_string();
     let analysis = lang::analyze(&name, text, &mut NoImports, &lang::Options::default());
     let mut diagnostics = analysis.diagnostics;
@@ -31,8 +40,7 @@ pub fn compile_in(root: &Path, text: &str) -> Compiled {
         lines.collect::<Vec<_>>().join("\n")
     };
     let Some(scene) = &analysis.scene else { panic!("{}", shown(&diagnostics)) };
-    let cache = Cache::disabled();
-    let options = Options { root, cache: &cache, limits: Limits::default(), defines: &[] };
+    let options = Options { root, cache, limits: Limits::default(), defines: &[] };
     match pipeline::compile(scene, &analysis.sources, &options, &mut diagnostics) {
         Ok(compiled) => compiled,
         Err(error) => panic!("{error}\n{}", shown(&diagnostics)),

@@ -11,7 +11,7 @@ const ARROWS: &[(&str, &[&str], &[&str])] = &[
     ("native", &["naga"], &[]),
     ("shaders", &["pack", "naga"], &[]),
     ("compiler", &["lang", "shaders", "pack"], &[]),
-    ("runtime", &["pack", "wgpu"], &["shaders", "native"]),
+    ("runtime", &["pack", "wgpu"], &["pack", "shaders", "native"]),
     ("scenes", &["compiler", "runtime"], &[]),
 ];
 
