@@ -66,8 +66,7 @@ pub(crate) fn render(
 ) -> Result<(), GpuError> {
     let mut module = match judge(setup) {
         Trust::Known => {
-            let left = if adapter.is_software() { " but for loop limits" } else { "" };
-            run.note(&format!("kernel: every line is known, runtime checks are off{left}"));
+            run.note("kernel: every line is known, runtime checks are off");
             Module::Trusted
         }
         Trust::Unknown { line } => {

@@ -88,7 +88,7 @@ impl Device {
             fault.set(error.to_string());
         }));
         let windows = upload_all(&device, &queue, &buffers)?;
-        let checks = checks(module, adapter.is_software());
+        let checks = (module == Module::Trusted).then(ShaderRuntimeChecks::unchecked);
         let (layout, pipeline) = compile(&device, setup.kernel(), &windows, checks)?;
         let mut ready = Self { gpu: device, queue, pipeline, layout, windows, lost, uncaptured };
         ready.try_one_workgroup(setup)?;
@@ -237,16 +237,6 @@ fn compile_here(
         Some(error) => Err(GpuError::Kernel(error)),
         None => Ok((layout, pipeline)),
     }
-}
-
-/// Checks to leave in a trusted module; `None`: the module is not trusted.
-fn checks(module: Module, software: bool) -> Option<ShaderRuntimeChecks> {
-    // Mesa's llvmpipe (seen in 22.3.6) gives wrong pictures for correct loops whose first statement is
-    // no exit, unless each turn is counted. On a software adapter that costs nothing that matters.
-    (module == Module::Trusted).then_some(ShaderRuntimeChecks {
-        force_loop_bounding: software,
-        ..ShaderRuntimeChecks::unchecked()
-    })
 }
 
 fn create_module(

@@ -10,7 +10,7 @@
 fn ggx_normals(h: vec3f, alpha: f32) -> f32 {
     let t = h.x * h.x + h.y * h.y + alpha * alpha * h.z * h.z;
     let k = alpha / t;
-    return k * k * INV_PI;
+    return (k * INV_PI) * k;
 }
 
 // The lobe without Fresnel, times the cosine of `wi`: D G2 / (4 cos_o).

@@ -100,7 +100,7 @@ fn principled_pdf(s: Scatter, wo: vec3f, wi: vec3f) -> f32 {
     }
     let alpha = principled_alpha(s);
     let share = principled_lobe_share(s, principled_f0(s), cos_o);
-    let base = (1.0 - share) * cos_i * INV_PI;
+    let base = (1.0 - share) * (cos_i * INV_PI);
     if (alpha < PRINCIPLED_SMOOTH) {
         return base;
     }

@@ -17,13 +17,15 @@ fn render(@builtin(global_invocation_id) gid: vec3<u32>) {
     let end = frame.sample_first + frame.sample_count;
     var film = film_empty();
     var path = path_begin(sample_key(pixel, frame.sample_first, frame.seed), pixel);
+    // The exit stands first: Mesa's llvmpipe (seen in 22.3.6) gives wrong pictures for the same loop with its exit
+    // inside the condition below.
     loop {
+        if (path.key.sample == end) { break; }
         film.rays += 1u;
         path_advance(&path, trace(path_ray(path)));
         if (path_ended(path)) {
             let sample = path.key.sample;
             film_add(&film, path.radiance, sample, path.segments);
-            if (sample + 1u == end) { break; }
             path = path_begin(sample_key(pixel, sample + 1u, frame.seed), pixel);
         }
     }

@@ -13,7 +13,7 @@ fn sphere_light_cone(light: Light, p: vec3f) -> f32 {
     let v = light.origin - p;
     let d2 = dot(v, v);
     let r2 = light.edge1.x * light.edge1.x;
-    if (d2 <= r2 * 1.00001) {
+    if (d2 * 0.99999 <= r2) {
         return 0.0;
     }
     let s2 = r2 / d2;
@@ -28,12 +28,13 @@ fn sphere_light_sample(light: Light, p: vec3f, u: vec2f) -> LightSample {
     }
     let x = u.x * omc;
     let cos_t = 1.0 - x;
-    let sin_t = sqrt(x * (2.0 - x));
-    let sc = sincos_2pi(u.y) * sin_t;
+    let sin2_t = x * (2.0 - x);
+    let sc = sincos_2pi(u.y) * sqrt(sin2_t);
     let v = light.origin - p;
-    let distance = sqrt(dot(v, v));
+    let d2 = dot(v, v);
+    let distance = sqrt(d2);
     let wi = vector_unit(basis_world_from_local(basis_around(v / distance), vec3f(sc.y, sc.x, cos_t)));
-    let chord = light.edge1.x * light.edge1.x - distance * distance * (sin_t * sin_t);
+    let chord = light.edge1.x * light.edge1.x - d2 * sin2_t;
     let t = distance * cos_t - sqrt(max(chord, 0.0));
     return LightSample(wi, t, 1.0 / (2.0 * PI * omc), true);
 }

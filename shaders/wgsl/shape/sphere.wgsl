@@ -52,6 +52,6 @@ fn sphere_surface(i: u32, origin: vec3f, dir: vec3f, t: f32) -> Surface {
 // Texture coordinates of the outward normal `n`, both 0 ..= 1: u is the longitude, growing to the right
 // as seen from outside with y up, 0.5 at +z; v is the latitude, 0 at -y and 1 at +y.
 fn sphere_uv(n: vec3f) -> vec2f {
-    let latitude = 2.0 * atan_turns(n.y, sqrt(n.x * n.x + n.z * n.z));
-    return vec2f(0.5 + atan_turns(n.x, n.z), 0.5 + latitude);
+    let latitude = atan_turns(n.y, sqrt(n.x * n.x + n.z * n.z));
+    return vec2f(0.5 + atan_turns(n.x, n.z), 2.0 * (0.25 + latitude));
 }
