@@ -1,0 +1,215 @@
+//! Small scenes, each about one feature of the kernel, and one with all of them.
+
+use std::path::Path;
+
+use compiler::pipeline::Compiled;
+use pack::{Checked, Pack};
+
+/// A scene that exercises one feature.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    /// What it is about.
+    pub name: &'static str,
+    /// Sky, lights and things.
+    parts: &'static [&'static str],
+    /// Fields of the camera beyond the usual.
+    camera: &'static str,
+}
+
+const fn case(name: &'static str, parts: &'static [&'static str]) -> Case {
+    Case { name, parts, camera: "" }
+}
+
+/// Every feature of the kernel.
+pub const CASES: &[Case] = &[
+    // Without geometry, without a sky, with one sort of geometry.
+    case("sky alone", &[SKY]),
+    Case { name: "gradient sky alone, through a lens", parts: &[GRADIENT], camera: LENS },
+    case("spheres alone", &[SKY, CLAY, BALL]),
+    case("triangles alone", &[SKY, CLAY, BOX]),
+    case("black sky", &[SPHERE_LIGHT, CLAY, BALL, FLOOR]),
+    Case { name: "lens", parts: &[SKY, CLAY, BALL, FLOOR], camera: LENS },
+    // Materials.
+    case("diffuse", &[GRADIENT, CLAY, BALL, FLOOR]),
+    case("mirror", &[GRADIENT, "material m: metal { color = linear(0.9) }\n", BALL, TENT, FLOOR]),
+    case("metal", &[SKY, "material m: metal { color = linear(0.9, 0.7, 0.4), fuzz = 0.3 }\n", BALL, FLOOR]),
+    case("metal of the largest ball", &[SKY, "material m: metal { color = linear(0.9), fuzz = 1 }\n", BALL]),
+    case("dielectric", &[GRADIENT, "material m: dielectric { ior = 1.5 }\n", BALL, TENT, FLOOR]),
+    case("dielectric that hardly bends", &[SKY, "material m: dielectric { ior = 1.0001 }\n", BALL, FLOOR]),
+    case("emissive, both sides", &[LAMP_BOTH, PANEL, CLAY, BALL, FLOOR]),
+    case("smooth plastic", &[GRADIENT, "material m: principled { roughness = 0, ior = 1.8 }\n", BALL, FLOOR]),
+    case("rough plastic", &[GRADIENT, "material m: principled { roughness = 0.35 }\n", BALL, TENT, FLOOR]),
+    case("smooth metal", &[SKY, "material m: principled { metallic = 1, roughness = 0.02 }\n", BALL, FLOOR]),
+    case("rough metal", &[GRADIENT, "material m: principled { metallic = 1, roughness = 1 }\n", BALL, FLOOR]),
+    case("half metal that glows", &[SKY, GLOWING, BALL, FLOOR]),
+    // Lights, seen by each sort of lobe.
+    case("sphere light on plastic", &[SPHERE_LIGHT, PLASTIC, BALL, FLOOR]),
+    case("sphere light on metal", &[SPHERE_LIGHT, SKY, FUZZY, BALL, FLOOR]),
+    case("rectangle light on plastic", &[LAMP, PANEL, PLASTIC, BALL, FLOOR]),
+    case("rectangle light on metal", &[LAMP, PANEL, GRADIENT, FUZZY, BALL, FLOOR]),
+    case("triangle lights", &[LAMP, GLOWING_TENT, PLASTIC, BALL, FLOOR]),
+    case("lights of every kind", &[LAMP, PANEL, GLOWING_TENT, SPHERE_LIGHT, SKY, PLASTIC, BALL, FLOOR]),
+    case("light with a picture and holes", &[WEAR, PAINT, LACE_LAMP, PANEL, CLAY, BALL, FLOOR]),
+    // Textures.
+    case("sRGB texture, repeated", &[SKY, PAINT, PAINTED, BALL, QUILT]),
+    case("linear texture, mirrored", &[SKY, WEAR, WORN, BALL, QUILT]),
+    case("half-float texture, clamped", &[SKY, GLOW, NEON, BALL, QUILT]),
+    case("mixed wraps, without spheres", &[SKY, MIXED, PAINTED, QUILT]),
+    case("all formats", &[GRADIENT, PAINT, WEAR, GLOW, MANY, BALL, QUILT, FLOOR]),
+    // Cut out, mirrored, interpolated.
+    case("alpha on spheres", &[SKY, WEAR, LACE, BALL, FLOOR]),
+    case("alpha on triangles", &[GRADIENT, SPHERE_LIGHT, WEAR, LACE, TENT, FLOOR]),
+    case("smooth normals", &[GRADIENT, SPHERE_LIGHT, PLASTIC, TENT, FLOOR]),
+    case("mirrored instances", &[GRADIENT, SPHERE_LIGHT, PLASTIC, MIRRORED, FLOOR]),
+    Case {
+        name: "all",
+        parts: &[GRADIENT, SPHERE_LIGHT, LAMP, PANEL, GLOWING_TENT, WEAR, PAINT, GLOW, MANY, ALL_THINGS, FLOOR],
+        camera: LENS,
+    },
+];
+
+const LENS: &str = "  aperture = 40cm\n  focus = 5m\n";
+
+const SKY: &str = "sky day: constant { color = linear(0.6, 0.8, 1.0) }\n";
+const GRADIENT: &str = "sky day: gradient {
+  sun.direction = (0.3, 0.5, 0.4)
+  glow.color = linear(0.5, 0.3, 0.1)
+  disc.color = linear(20)
+}\n";
+
+const SPHERE_LIGHT: &str =
+    "light bulb: sphere { center = (2, 4, 2)m, radius = 30cm, color = blackbody(3200K), strength = 20 }\n";
+const LAMP: &str = "material lamp: emissive { color = linear(1, 0.9, 0.7), strength = 8, sides = front }\n";
+const LAMP_BOTH: &str = "material lamp: emissive { color = linear(0.7, 0.9, 1), strength = 8 }\n";
+const PANEL: &str = "instance panel {
+  shape = rectangle(size: (2, 1)m)
+  material = lamp
+  rotate = (180, 0, 30)deg
+  at = (0, 4, 0)m
+}\n";
+const GLOWING_TENT: &str = "asset canopy = obj(\"tent.obj\", unit: m, up: +y)
+instance shade { shape = canopy, material = lamp, at = (-1, 2.5, 0.5)m }\n";
+const LACE_LAMP: &str = "material lamp: principled {
+  color = linear(0.2)
+  emission.color = paint.rgb
+  emission.strength = 6
+  alpha = wear.a
+  alpha.clip = 50%
+}\n";
+
+const FLOOR: &str = "material grey: diffuse { color = linear(0.6) }
+instance floor { shape = rectangle(size: (20, 20)m), material = grey }\n";
+const BALL: &str = "instance ball { shape = sphere(radius: 1m), material = m, at = (0, 1, 0)m }\n";
+const BOX: &str =
+    "instance crate { shape = box(size: (1, 1, 1)m), material = m, rotate = (0, 30, 0)deg, at = (0, 0.7, 1)m }\n";
+const TENT: &str = "asset tent = obj(\"tent.obj\", unit: m, up: +y)
+instance canvas { shape = tent, material = m, at = (1.2, 0, 1.6)m, scale = (1, 1.5, 1) }\n";
+const MIRRORED: &str = "asset tent = obj(\"tent.obj\", unit: m, up: +y)
+instance one { shape = tent, material = m, at = (1.2, 0, 1)m, scale = (1, 1.5, -1), rotate = (0, 20, 0)deg }
+instance two { shape = tent, material = m, at = (-1, 0.9, 1)m, scale = (-1.5, -1, -1.2) }\n";
+/// Texture coordinates from -1.4 to 2.3.
+const QUILT: &str = "asset quilt = obj(\"quilt.obj\", unit: m, up: +y)
+instance spread { shape = quilt, material = m, rotate = (70, 0, 0)deg, at = (-1.6, 1, 1)m }\n";
+
+const CLAY: &str = "material m: diffuse { color = linear(0.7, 0.4, 0.2) }\n";
+const PLASTIC: &str = "material m: principled { color = linear(0.1, 0.3, 0.8), roughness = 0.3 }\n";
+const FUZZY: &str = "material m: metal { color = linear(0.8), fuzz = 0.2 }\n";
+const GLOWING: &str = "material m: principled {
+  metallic = 0.5
+  roughness = 0.6
+  emission.color = linear(0.2, 0.1, 0)
+  emission.strength = 2
+}\n";
+
+const PAINT: &str = "texture paint = image(\"paint.png\", space: srgb)\n";
+const MIXED: &str = "texture paint = image(\"paint.png\", space: srgb, wrap_u: clamp, wrap_v: mirror)\n";
+const WEAR: &str = "texture wear = image(\"wear.png\", space: data, wrap: mirror)\n";
+const GLOW: &str = "texture glow = image(\"glow.exr\", space: linear, wrap: clamp)\n";
+const PAINTED: &str = "material m: diffuse { color = paint.rgb }\n";
+const WORN: &str = "material m: principled { roughness = wear.g, metallic = wear.b }\n";
+const NEON: &str = "material m: emissive { color = glow.rgb, strength = 2 }\n";
+const LACE: &str = "material m: principled { color = linear(0.4, 0.7, 0.3), alpha = wear.a, alpha.clip = 50% }\n";
+const MANY: &str = "material m: principled {
+  color = paint.rgb
+  roughness = wear.g
+  metallic = wear.b
+  emission.color = glow.rgb
+  emission.strength = 0.1
+  alpha = wear.a
+  alpha.clip = 30%
+}\n";
+const ALL_THINGS: &str = "material brass: metal { color = linear(0.9, 0.7, 0.4), fuzz = 0.3 }
+material glass: dielectric { ior = 1.5 }
+material clay: diffuse { color = paint.rgb }
+asset tent = obj(\"tent.obj\", unit: m, up: +y)
+instance a { shape = sphere(radius: 60cm), material = glass, at = (-1.5, 0.6, 1)m }
+instance b { shape = box(size: (1, 1, 1)m), material = clay, rotate = (0, 30, 0)deg, at = (1.8, 0.5, -1)m }
+instance c { shape = tent, material = m, at = (0.6, 0, 1.4)m, scale = (-1, 1, 1) }
+instance d { shape = sphere(radius: 50cm), material = brass, at = (0, 0.5, -1)m }
+instance e { shape = sphere(radius: 40cm), material = m, at = (-0.4, 1.6, 0)m }\n";
+
+/// A four-sided tent with normals and texture coordinates.
+const TENT_OBJ: &str = "v -0.5 0 -0.5\nv 0.5 0 -0.5\nv 0.5 0 0.5\nv -0.5 0 0.5\nv 0 0.8 0
+vn -0.6 0.5 -0.6\nvn 0.6 0.5 -0.6\nvn 0.6 0.5 0.6\nvn -0.6 0.5 0.6\nvn 0 1 0
+vt 0 0\nvt 1 0\nvt 0.5 1
+f 2/1/2 1/2/1 5/3/5\nf 3/1/3 2/2/2 5/3/5\nf 4/1/4 3/2/3 5/3/5\nf 1/1/1 4/2/4 5/3/5\n";
+/// A square whose texture coordinates go beyond the image on all sides.
+const QUILT_OBJ: &str = "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1
+vt -1.4 -1.2\nvt 2.3 -1.2\nvt 2.3 2.1\nvt -1.4 2.1
+f 1/1 2/2 3/3 4/4\n";
+
+/// The case with this name.
+///
+/// # Panics
+/// When there is none.
+#[must_use]
+pub fn named(name: &str) -> &'static Case {
+    CASES.iter().find(|case| case.name == name).expect("tests name cases that there are")
+}
+
+/// Compiles a case; its files are made in a temporary directory.
+///
+/// # Panics
+/// When the case is not a scene.
+#[must_use]
+pub fn compiled(case: &Case) -> Compiled {
+    let dir = tempfile::tempdir().expect("a temporary directory can be made");
+    write_files(dir.path());
+    let Case { parts, camera, .. } = case;
+    let things = parts.concat();
+    let text = format!(
+        "rts 1\n{things}
+camera eye: perspective {{
+  from = (0.5, 1.8, 5)m
+  to = (0, 0.9, 0)m
+  fov.vertical = 42deg
+{camera}}}
+film small {{ size = (40, 30)px }}
+render main: path {{ camera = eye, film = small, samples = 8, depth = 8, seed = 7 }}\n",
+    );
+    crate::scene::compile_in(dir.path(), &text)
+}
+
+/// Compiles a case into a checked pack.
+///
+/// # Panics
+/// When the case is not a scene.
+#[must_use]
+pub fn case_pack(case: &Case) -> Pack<Checked> {
+    Pack::from_bytes(crate::scene::bytes(&compiled(case))).expect("what was written can be read")
+}
+
+fn write_files(dir: &Path) {
+    let save = |name: &str, texel: fn(u8, u8) -> [u8; 4]| {
+        let at = |x: u32| u8::try_from(x).expect("the images are small");
+        let image = image::RgbaImage::from_fn(13, 8, |x, y| image::Rgba(texel(at(x), at(y))));
+        image.save(dir.join(name)).expect("an image can be written");
+    };
+    save("paint.png", |x, y| [x * 19, y * 31, (x ^ y) * 16, 255]);
+    save("wear.png", |x, y| [0, 60 + x * 12, y * 30, if (x + y) % 3 == 0 { 0 } else { 255 }]);
+    let glow = |x: usize, y: usize| (x as f32 * 0.25, y as f32 * 0.5, 1.5_f32);
+    exr::prelude::write_rgb_file(dir.join("glow.exr"), 6, 5, glow).expect("an image can be written");
+    for (name, text) in [("tent.obj", TENT_OBJ), ("quilt.obj", QUILT_OBJ)] {
+        std::fs::write(dir.join(name), text).expect("a mesh can be written");
+    }
+}

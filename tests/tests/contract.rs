@@ -1,0 +1,129 @@
+//! The contract of the one shading source: the CPU kernel and the WGSL on a software Vulkan adapter
+//! give the same bits, for every feature and for all of them together.
+//!
+//! The specialised kernel of each pack runs on the adapter, without runtime checks, and the full
+//! kernel on the CPU: so equality also shows that leaving code out changes nothing, and that nothing
+//! relies on the checks. Real GPUs may contract products and sums; they are compared elsewhere, by
+//! statistics.
+
+use compiler::pipeline::Compiled;
+use pack::abi::{Texture, TextureFormat};
+use pack::{Checked, Pack};
+use runtime::{DeviceChoice, Film};
+use tests::features::{CASES, case_pack, compiled, named};
+use tests::{picture, scene};
+
+/// Part of the name of Mesa's software adapter.
+const SOFTWARE: &str = "llvmpipe";
+
+fn software() -> Option<DeviceChoice> {
+    let found = runtime::gpu::adapters().iter().any(|a| a.describe().contains(SOFTWARE));
+    if !found {
+        tests::console::line("skipped: no adapter");
+    }
+    found.then(|| DeviceChoice::Named(SOFTWARE.to_owned()))
+}
+
+/// What differs between the CPU and `device`, a line each.
+fn differences(
+    device: &DeviceChoice,
+    name: &str,
+    pack: impl Fn() -> Pack<Checked>,
+    estimator: u32,
+) -> Vec<String> {
+    let set = |job: &mut runtime::Job| job.estimator = estimator;
+    let (cpu, gpu) = (picture::cpu(pack(), set), picture::on(device, pack(), set));
+    assert_eq!(gpu.device_error, None, "{name}");
+    let mut found: Vec<String> = pixels(cpu.film(), gpu.film()).into_iter().collect();
+    let (ours, theirs) = (&cpu.film().counters, &gpu.film().counters);
+    if ours != theirs {
+        found.push(format!("counters {ours:?} and {theirs:?}"));
+    }
+    found.into_iter().map(|line| format!("{name}, estimator {estimator}: {line}")).collect()
+}
+
+fn pixels(ours: &Film, theirs: &Film) -> Option<String> {
+    let bits = |rgb: &[f64; 3]| rgb.map(f64::to_bits);
+    let (ours, theirs) = (ours.means(), theirs.means());
+    assert_eq!(ours.len(), theirs.len());
+    let differ = ours.iter().zip(&theirs).filter(|(a, b)| bits(a) != bits(b)).count();
+    let off = ours.iter().zip(&theirs).flat_map(|(a, b)| (0..3).map(|k| (a[k] - b[k]).abs()));
+    let (n, worst) = (ours.len(), off.fold(0.0, f64::max));
+    (differ > 0).then(|| format!("{differ} of {n} pixels differ, by up to {worst:.3e}"))
+}
+
+#[test]
+fn cpu_and_software_adapter_give_the_same_bits_for_every_feature() {
+    let Some(device) = software() else { return };
+    let mut found = Vec::new();
+    for case in CASES {
+        found.extend(differences(&device, case.name, || case_pack(case), 0));
+    }
+    for estimator in [1, 2] {
+        found.extend(differences(&device, "all", || case_pack(named("all")), estimator));
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn every_feature_gives_light_and_no_bad_sample() {
+    for case in CASES {
+        let outcome = picture::cpu(case_pack(case), |_| {});
+        let sum: f64 = picture::channel(outcome.film(), 1).iter().sum();
+        assert!(sum.is_finite() && sum > 0.0, "{}: {sum}", case.name);
+        assert_eq!(outcome.film().counters.bad, 0, "{}", case.name);
+    }
+}
+
+#[test]
+fn the_cases_cover_every_feature_of_a_pack() {
+    let of = |pack: Pack<Checked>| pack::features::names(pack.features());
+    let every: Vec<&str> = pack::features::NAMES.iter().map(|(_, name)| *name).collect();
+    let mut seen: Vec<&str> = CASES.iter().flat_map(|case| of(case_pack(case))).collect();
+    seen.sort_by_key(|name| every.iter().position(|known| known == name));
+    seen.dedup();
+    assert_eq!(seen, every);
+    // A scene has one sky; that is all that the last case lacks.
+    let all = of(case_pack(named("all")));
+    let lacks: Vec<&&str> = every.iter().filter(|name| !all.contains(name)).collect();
+    assert_eq!(lacks, [&"constant sky"]);
+}
+
+/// Width and height of an image larger than a binding, in texels: 151 MB.
+const LARGE: [u32; 2] = [4096, 9216];
+
+#[test]
+fn texels_beyond_one_binding_are_read_through_windows() {
+    let Some(device) = software() else { return };
+    let scene = large_texture();
+    assert!(scene.kernel.text.contains("texel_words_1"));
+    let pack_of = |scene: &Compiled| {
+        let bytes = scene::bytes(scene);
+        move || Pack::from_bytes(bytes.clone()).expect("what was written can be read")
+    };
+    let pack = pack_of(&scene);
+    assert_eq!(differences(&device, "large texture", &pack, 0), Vec::<String>::new());
+    // The second window can be seen: without it the picture is another.
+    let mut cut = scene;
+    cut.lowered.texels[shaders::WINDOW_WORDS as usize..].fill([0; 4]);
+    let films = [pack(), pack_of(&cut)()].map(|pack| picture::cpu(pack, |_| {}));
+    assert!(pixels(films[0].film(), films[1].film()).is_some());
+}
+
+/// A scene with one texture of size `LARGE`.
+fn large_texture() -> Compiled {
+    let mut scene = compiled(named("mixed wraps, without spheres"));
+    let [width, height] = LARGE;
+    let texture = scene.lowered.textures[0];
+    let format = TextureFormat::Rgba8Srgb as u32;
+    assert_eq!((scene.lowered.textures.len(), texture.format), (1, format));
+    scene.lowered.textures = vec![Texture { width, height, ..texture }];
+    let words = width * height / 4;
+    assert!(words > shaders::WINDOW_WORDS);
+    // Every word tells where it is.
+    let word = |i: u32| [i.wrapping_mul(0x9e37_79b1), i >> 3, !i, i.rotate_left(9)];
+    scene.lowered.texels = (0..words).map(word).collect();
+    scene.features.windows.texel = 2;
+    scene.kernel = shaders::link(&scene.features).expect("two windows are few bindings");
+    scene
+}
