@@ -2,8 +2,7 @@
 
 use bytemuck::Pod;
 use glam::{DVec3, UVec4, Vec3};
-use pack::NONE;
-use pack::abi::{Camera, Frame, Light, MaterialKind, Sphere, TriShade, Triangle};
+use pack::abi::{Camera, Frame, Light, MaterialKind, NONE, Sphere, TriShade, Triangle};
 use runtime::kernel::{f32 as single, f64 as double};
 
 /// What a kernel reads.

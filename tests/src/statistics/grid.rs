@@ -8,6 +8,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::DVec3;
 
+use crate::statistics::index;
+
 /// A stretch of [0, 1] onto [0, `reach`].
 #[derive(Clone, Copy, Debug)]
 struct Stretch {
@@ -97,7 +99,6 @@ impl Grid {
         if theta > self.rings.reach * 1.0001 {
             return None;
         }
-        let index = |t: f64, n: usize| ((t * n as f64) as usize).min(n - 1);
         let ring = index(self.rings.inverse(theta), self.shape.n_rings);
         let sector = index(self.sectors.inverse(y.abs().atan2(x.abs())), self.shape.n_sectors);
         let quadrant = usize::from(x < 0.0) + 2 * usize::from(y < 0.0);
@@ -105,7 +106,20 @@ impl Grid {
     }
 
     /// Integral of `f` over each cell by steradian, `fine` × `fine` midpoints a cell.
-    pub fn integrate(&self, fine: usize, mut f: impl FnMut(DVec3) -> f64) -> Vec<f64> {
+    pub fn integrate(&self, fine: usize, f: impl FnMut(DVec3) -> f64) -> Vec<f64> {
+        // Every direction is above a plane without a normal.
+        self.integrate_above(fine, DVec3::ZERO, f)
+    }
+
+    /// As [`Grid::integrate`], over the directions above the plane with unit normal `up` only. Where the
+    /// plane cuts, shares are exact to first order, so cells at the horizon are as good as the others. `f`
+    /// is asked above the plane only.
+    pub fn integrate_above(
+        &self,
+        fine: usize,
+        up: DVec3,
+        mut f: impl FnMut(DVec3) -> f64,
+    ) -> Vec<f64> {
         let mut sums = vec![0.0; self.cells()];
         let (n, m) = (self.shape.n_rings * fine, self.shape.n_sectors * fine);
         let area = 1.0 / (n as f64 * m as f64);
@@ -114,18 +128,51 @@ impl Grid {
             let (sin, cos) = theta.sin_cos();
             for j in 0..m {
                 let (phi, d_phi) = self.sectors.at((j as f64 + 0.5) / m as f64);
-                let (x, y) = (sin * phi.cos(), sin * phi.sin());
                 for quadrant in 0..4 {
-                    let sx = if quadrant & 1 == 0 { x } else { -x };
-                    let sy = if quadrant & 2 == 0 { y } else { -y };
-                    let d = self.side * sx + self.across * sy + self.axis * cos;
-                    let cell = (i / fine * self.shape.n_sectors + j / fine) * 4 + quadrant;
-                    sums[cell] += f(d) * sin * d_theta * d_phi * area;
+                    let (x, y) = self.quadrant(quadrant);
+                    let out = x * phi.cos() + y * phi.sin();
+                    let d = out * sin + self.axis * cos;
+                    // Half the cell's extent along both of its sides, measured along `up`.
+                    let along = (out * cos - self.axis * sin).dot(up) * d_theta / n as f64 * 0.5;
+                    let turned =
+                        (y * phi.cos() - x * phi.sin()).dot(up) * sin * d_phi / m as f64 * 0.5;
+                    let (a, b) = (along.abs(), turned.abs());
+                    let height = d.dot(up);
+                    let share = if up == DVec3::ZERO { 1.0 } else { share_above(height, a, b) };
+                    if share > 0.0 {
+                        let lift = ((a + b) * 0.25 - height).max(0.0);
+                        let d = if share < 1.0 { (d + up * lift).normalize() } else { d };
+                        let cell = (i / fine * self.shape.n_sectors + j / fine) * 4 + quadrant;
+                        sums[cell] += share * f(d) * sin * d_theta * d_phi * area;
+                    }
                 }
             }
         }
         sums
     }
+
+    /// `side` and `across`, turned to the quadrant.
+    fn quadrant(&self, quadrant: usize) -> (DVec3, DVec3) {
+        let x = if quadrant & 1 == 0 { self.side } else { -self.side };
+        let y = if quadrant & 2 == 0 { self.across } else { -self.across };
+        (x, y)
+    }
+}
+
+/// Share of the rectangle -1 ..= 1 squared where `height + a x + b y > 0`; `a`, `b` >= 0.
+fn share_above(height: f64, a: f64, b: f64) -> f64 {
+    let reach = a + b;
+    if height >= reach {
+        return 1.0;
+    }
+    if height <= -reach {
+        return 0.0;
+    }
+    if height.abs() <= (a - b).abs() {
+        return 0.5 + height / (2.0 * a.max(b));
+    }
+    let corner = (reach - height.abs()).powi(2) / (8.0 * a * b);
+    if height < 0.0 { corner } else { 1.0 - corner }
 }
 
 #[cfg(test)]
@@ -143,6 +190,24 @@ mod tests {
     fn cells_cover_the_sphere() {
         let area: f64 = narrow().integrate(16, |_| 1.0).iter().sum();
         assert!((area / (4.0 * PI) - 1.0).abs() < 1e-4, "{area}");
+    }
+
+    #[test]
+    fn half_of_the_sphere_is_above_any_plane() {
+        let grid = narrow();
+        let mut stream = Stream::new(5, 0);
+        for _ in 0..4 {
+            let up = stream.direction();
+            let mut lowest: f64 = 1.0;
+            let area: f64 = grid
+                .integrate_above(16, up, |d| {
+                    lowest = lowest.min(d.dot(up));
+                    d.dot(up)
+                })
+                .iter()
+                .sum();
+            assert!(lowest >= 0.0 && (area / PI - 1.0).abs() < 3e-4, "{up}: {area}, {lowest}");
+        }
     }
 
     #[test]
@@ -170,7 +235,7 @@ mod tests {
     #[test]
     fn uniform_directions_pass() {
         let (grid, n) = (narrow(), 100_000);
-        let expected = grid.integrate(16, |_| n as f64 / (4.0 * PI));
+        let expected = grid.integrate(16, |_| f64::from(n) / (4.0 * PI));
         let mut counts = Counts::new(expected);
         let mut stream = Stream::new(3, 0);
         for _ in 0..n {

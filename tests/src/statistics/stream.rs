@@ -1,7 +1,9 @@
 //! Random numbers for inputs of tests: a hash of a seed and a counter, independent of the kernel's own.
-//! Steele, Lea & Flood 2014, "Fast Splittable Pseudorandom Number Generators": the finaliser of SplitMix64.
+//! Steele, Lea & Flood 2014, "Fast Splittable Pseudorandom Number Generators": the finaliser of `SplitMix64`.
 
 use glam::{DVec3, Vec2};
+
+use crate::statistics::index;
 
 /// One stream of numbers, the same on every run.
 #[derive(Clone, Debug)]
@@ -44,7 +46,7 @@ impl Stream {
 
     /// An index below `n`.
     pub fn index(&mut self, n: usize) -> usize {
-        ((self.unit() * n as f64) as usize).min(n - 1)
+        index(self.unit(), n)
     }
 
     /// A uniform direction.

@@ -1,0 +1,40 @@
+//! What scattering models do to energy: never more out than in, the same both ways, and the values that
+//! are known in closed form.
+
+#![expect(clippy::float_cmp, reason = "some answers are exact")]
+
+#[path = "scattering/energy.rs"]
+mod energy;
+#[path = "scattering/weight.rs"]
+mod weight;
+
+use glam::DVec3;
+use runtime::kernel::f64 as double;
+use tests::kernel::Lobe;
+use tests::statistics::grid::{Grid, Shape};
+
+/// Cells that resolve the lobe of `lobe` for light from `wo`.
+fn grid(lobe: &Lobe, wo: DVec3) -> Grid {
+    let mu = lobe.normal.dot(wo);
+    let alpha = f64::from(lobe.roughness * lobe.roughness);
+    if lobe.kind != pack::abi::MaterialKind::Principled || !(1e-3..0.3).contains(&alpha) {
+        return Grid::new(lobe.normal, wo, Shape::HEMISPHERE);
+    }
+    let ring_scale = (alpha * mu.max(0.05)).min(1.0);
+    let shape = Shape { ring_scale, sector_scale: mu.clamp(0.02, 1.0), ..Shape::SPHERE };
+    Grid::new(lobe.mirror(wo), lobe.normal, shape)
+}
+
+/// Share of light from `wo` that is reflected, by quadrature in double precision; a mirror's part is added.
+fn albedo(kernel: &mut double::Kernel<'_>, lobe: &Lobe, wo: DVec3, fine: usize) -> f64 {
+    let s = lobe.double();
+    let rough =
+        grid(lobe, wo).integrate_above(fine, lobe.normal, |wi| kernel.dispatch_eval(s, wo, wi).x);
+    let mut sum: f64 = rough.iter().sum();
+    let smooth = s.roughness * s.roughness < double::PRINCIPLED_SMOOTH;
+    if lobe.kind == pack::abi::MaterialKind::Principled && smooth {
+        let f0 = kernel.principled_f0(s);
+        sum += kernel.fresnel_schlick(f0, lobe.normal.dot(wo)).x;
+    }
+    sum
+}
