@@ -14,7 +14,7 @@ mod show;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand};
 
 use crate::report::{Color, ErrorFormat, Reporter};
 
@@ -42,12 +42,11 @@ Examples:
 /// Compiles a text scene into a render pack.
 #[derive(Debug, Parser)]
 #[command(name = "rtc", version, about, after_help = EXAMPLES, max_term_width = 100)]
-#[command(args_conflicts_with_subcommands = true, arg_required_else_help = true)]
+#[command(override_usage = "rtc [build] [OPTIONS] <SCENE>\n       rtc <COMMAND>")]
+#[command(arg_required_else_help = true)]
 struct Cli {
     #[command(subcommand)]
-    command: Option<Command>,
-    #[command(flatten)]
-    build: build::BuildArgs,
+    command: Command,
 }
 
 #[derive(Debug, Subcommand)]
@@ -114,6 +113,7 @@ where
     I: IntoIterator<Item = T>,
     T: Into<OsString> + Clone,
 {
+    let arguments = with_default_command(arguments.into_iter().map(Into::into).collect());
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
         Err(error) => {
@@ -122,7 +122,7 @@ where
             return if error.use_stderr() { USAGE } else { OK };
         }
     };
-    match cli.command.unwrap_or(Command::Build(cli.build)) {
+    match cli.command {
         Command::Build(args) => build::build(&args),
         Command::Check(args) => build::check(&args),
         Command::Fmt(args) => fmt::fmt(&args),
@@ -131,4 +131,16 @@ where
         Command::Inspect(args) => inspect::inspect(&args),
         Command::Cache(args) => cache::cache(&args),
     }
+}
+
+/// `rtc scene.rts` is short for `rtc build scene.rts`: what is neither a command nor a question about
+/// the program belongs to `build`.
+fn with_default_command(mut arguments: Vec<OsString>) -> Vec<OsString> {
+    let own = ["help", "-h", "--help", "-V", "--version"];
+    let program = Cli::command();
+    let known = |word: &str| own.contains(&word) || program.find_subcommand(word).is_some();
+    if arguments.get(1).is_some_and(|word| !word.to_str().is_some_and(known)) {
+        arguments.insert(1, "build".into());
+    }
+    arguments
 }

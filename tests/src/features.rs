@@ -32,15 +32,36 @@ pub const CASES: &[Case] = &[
     // Materials.
     case("diffuse", &[GRADIENT, CLAY, BALL, FLOOR]),
     case("mirror", &[GRADIENT, "material m: metal { color = linear(0.9) }\n", BALL, TENT, FLOOR]),
-    case("metal", &[SKY, "material m: metal { color = linear(0.9, 0.7, 0.4), fuzz = 0.3 }\n", BALL, FLOOR]),
-    case("metal of the largest ball", &[SKY, "material m: metal { color = linear(0.9), fuzz = 1 }\n", BALL]),
+    case(
+        "metal",
+        &[SKY, "material m: metal { color = linear(0.9, 0.7, 0.4), fuzz = 0.3 }\n", BALL, FLOOR],
+    ),
+    case(
+        "metal of the largest ball",
+        &[SKY, "material m: metal { color = linear(0.9), fuzz = 1 }\n", BALL],
+    ),
     case("dielectric", &[GRADIENT, "material m: dielectric { ior = 1.5 }\n", BALL, TENT, FLOOR]),
-    case("dielectric that hardly bends", &[SKY, "material m: dielectric { ior = 1.0001 }\n", BALL, FLOOR]),
+    case(
+        "dielectric that hardly bends",
+        &[SKY, "material m: dielectric { ior = 1.0001 }\n", BALL, FLOOR],
+    ),
     case("emissive, both sides", &[LAMP_BOTH, PANEL, CLAY, BALL, FLOOR]),
-    case("smooth plastic", &[GRADIENT, "material m: principled { roughness = 0, ior = 1.8 }\n", BALL, FLOOR]),
-    case("rough plastic", &[GRADIENT, "material m: principled { roughness = 0.35 }\n", BALL, TENT, FLOOR]),
-    case("smooth metal", &[SKY, "material m: principled { metallic = 1, roughness = 0.02 }\n", BALL, FLOOR]),
-    case("rough metal", &[GRADIENT, "material m: principled { metallic = 1, roughness = 1 }\n", BALL, FLOOR]),
+    case(
+        "smooth plastic",
+        &[GRADIENT, "material m: principled { roughness = 0, ior = 1.8 }\n", BALL, FLOOR],
+    ),
+    case(
+        "rough plastic",
+        &[GRADIENT, "material m: principled { roughness = 0.35 }\n", BALL, TENT, FLOOR],
+    ),
+    case(
+        "smooth metal",
+        &[SKY, "material m: principled { metallic = 1, roughness = 0.02 }\n", BALL, FLOOR],
+    ),
+    case(
+        "rough metal",
+        &[GRADIENT, "material m: principled { metallic = 1, roughness = 1 }\n", BALL, FLOOR],
+    ),
     case("half metal that glows", &[SKY, GLOWING, BALL, FLOOR]),
     // Lights, seen by each sort of lobe.
     case("sphere light on plastic", &[SPHERE_LIGHT, PLASTIC, BALL, FLOOR]),
@@ -48,7 +69,10 @@ pub const CASES: &[Case] = &[
     case("rectangle light on plastic", &[LAMP, PANEL, PLASTIC, BALL, FLOOR]),
     case("rectangle light on metal", &[LAMP, PANEL, GRADIENT, FUZZY, BALL, FLOOR]),
     case("triangle lights", &[LAMP, GLOWING_TENT, PLASTIC, BALL, FLOOR]),
-    case("lights of every kind", &[LAMP, PANEL, GLOWING_TENT, SPHERE_LIGHT, SKY, PLASTIC, BALL, FLOOR]),
+    case(
+        "lights of every kind",
+        &[LAMP, PANEL, GLOWING_TENT, SPHERE_LIGHT, SKY, PLASTIC, BALL, FLOOR],
+    ),
     case("light with a picture and holes", &[WEAR, PAINT, LACE_LAMP, PANEL, CLAY, BALL, FLOOR]),
     // Textures.
     case("sRGB texture, repeated", &[SKY, PAINT, PAINTED, BALL, QUILT]),
@@ -63,7 +87,19 @@ pub const CASES: &[Case] = &[
     case("mirrored instances", &[GRADIENT, SPHERE_LIGHT, PLASTIC, MIRRORED, FLOOR]),
     Case {
         name: "all",
-        parts: &[GRADIENT, SPHERE_LIGHT, LAMP, PANEL, GLOWING_TENT, WEAR, PAINT, GLOW, MANY, ALL_THINGS, FLOOR],
+        parts: &[
+            GRADIENT,
+            SPHERE_LIGHT,
+            LAMP,
+            PANEL,
+            GLOWING_TENT,
+            WEAR,
+            PAINT,
+            GLOW,
+            MANY,
+            ALL_THINGS,
+            FLOOR,
+        ],
         camera: LENS,
     },
 ];
@@ -77,9 +113,9 @@ const GRADIENT: &str = "sky day: gradient {
   disc.color = linear(20)
 }\n";
 
-const SPHERE_LIGHT: &str =
-    "light bulb: sphere { center = (2, 4, 2)m, radius = 30cm, color = blackbody(3200K), strength = 20 }\n";
-const LAMP: &str = "material lamp: emissive { color = linear(1, 0.9, 0.7), strength = 8, sides = front }\n";
+const SPHERE_LIGHT: &str = "light bulb: sphere { center = (2, 4, 2)m, radius = 30cm, color = blackbody(3200K), strength = 20 }\n";
+const LAMP: &str =
+    "material lamp: emissive { color = linear(1, 0.9, 0.7), strength = 8, sides = front }\n";
 const LAMP_BOTH: &str = "material lamp: emissive { color = linear(0.7, 0.9, 1), strength = 8 }\n";
 const PANEL: &str = "instance panel {
   shape = rectangle(size: (2, 1)m)
@@ -100,8 +136,7 @@ const LACE_LAMP: &str = "material lamp: principled {
 const FLOOR: &str = "material grey: diffuse { color = linear(0.6) }
 instance floor { shape = rectangle(size: (20, 20)m), material = grey }\n";
 const BALL: &str = "instance ball { shape = sphere(radius: 1m), material = m, at = (0, 1, 0)m }\n";
-const BOX: &str =
-    "instance crate { shape = box(size: (1, 1, 1)m), material = m, rotate = (0, 30, 0)deg, at = (0, 0.7, 1)m }\n";
+const BOX: &str = "instance crate { shape = box(size: (1, 1, 1)m), material = m, rotate = (0, 30, 0)deg, at = (0, 0.7, 1)m }\n";
 const TENT: &str = "asset tent = obj(\"tent.obj\", unit: m, up: +y)
 instance canvas { shape = tent, material = m, at = (1.2, 0, 1.6)m, scale = (1, 1.5, 1) }\n";
 const MIRRORED: &str = "asset tent = obj(\"tent.obj\", unit: m, up: +y)
@@ -122,13 +157,15 @@ const GLOWING: &str = "material m: principled {
 }\n";
 
 const PAINT: &str = "texture paint = image(\"paint.png\", space: srgb)\n";
-const MIXED: &str = "texture paint = image(\"paint.png\", space: srgb, wrap_u: clamp, wrap_v: mirror)\n";
+const MIXED: &str =
+    "texture paint = image(\"paint.png\", space: srgb, wrap_u: clamp, wrap_v: mirror)\n";
 const WEAR: &str = "texture wear = image(\"wear.png\", space: data, wrap: mirror)\n";
 const GLOW: &str = "texture glow = image(\"glow.exr\", space: linear, wrap: clamp)\n";
 const PAINTED: &str = "material m: diffuse { color = paint.rgb }\n";
 const WORN: &str = "material m: principled { roughness = wear.g, metallic = wear.b }\n";
 const NEON: &str = "material m: emissive { color = glow.rgb, strength = 2 }\n";
-const LACE: &str = "material m: principled { color = linear(0.4, 0.7, 0.3), alpha = wear.a, alpha.clip = 50% }\n";
+const LACE: &str =
+    "material m: principled { color = linear(0.4, 0.7, 0.3), alpha = wear.a, alpha.clip = 50% }\n";
 const MANY: &str = "material m: principled {
   color = paint.rgb
   roughness = wear.g
@@ -208,7 +245,8 @@ fn write_files(dir: &Path) {
     save("paint.png", |x, y| [x * 19, y * 31, (x ^ y) * 16, 255]);
     save("wear.png", |x, y| [0, 60 + x * 12, y * 30, if (x + y) % 3 == 0 { 0 } else { 255 }]);
     let glow = |x: usize, y: usize| (x as f32 * 0.25, y as f32 * 0.5, 1.5_f32);
-    exr::prelude::write_rgb_file(dir.join("glow.exr"), 6, 5, glow).expect("an image can be written");
+    exr::prelude::write_rgb_file(dir.join("glow.exr"), 6, 5, glow)
+        .expect("an image can be written");
     for (name, text) in [("tent.obj", TENT_OBJ), ("quilt.obj", QUILT_OBJ)] {
         std::fs::write(dir.join(name), text).expect("a mesh can be written");
     }

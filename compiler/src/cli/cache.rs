@@ -23,11 +23,8 @@ pub(super) fn cache(args: &CacheArgs) -> u8 {
         reporter.output("there is no cache: neither RTC_CACHE_DIR nor a home directory is set");
         return OK;
     };
-    let (result, what) = if args.clear {
-        (cache.clear(), "deleted")
-    } else {
-        (cache.stats(), "cached")
-    };
+    let (result, what) =
+        if args.clear { (cache.clear(), "deleted") } else { (cache.stats(), "cached") };
     match result {
         Ok(stats) => {
             let megabytes = stats.bytes as f64 / 1e6;

@@ -160,7 +160,8 @@ impl Placer<'_, '_> {
         let emits = self.placement.emits(material, self.materials);
         for [corner, edge1, edge2] in faces {
             let origin = self.transform.point(*corner);
-            let (mut edge1, mut edge2) = (self.transform.linear * *edge1, self.transform.linear * *edge2);
+            let (mut edge1, mut edge2) =
+                (self.transform.linear * *edge1, self.transform.linear * *edge2);
             let mut uv = [DVec2::X, DVec2::Y];
             if self.transform.mirrors {
                 (edge1, edge2) = (edge2, edge1);
@@ -200,8 +201,9 @@ impl Placer<'_, '_> {
         };
         for part in parts {
             let part = &file.parts[part];
-            let own = part.material.map_or(MaterialRef::Default, |material| {
-                MaterialRef::Asset { asset, material: material as usize }
+            let own = part.material.map_or(MaterialRef::Default, |material| MaterialRef::Asset {
+                asset,
+                material: material as usize,
             });
             let material = self.material(own);
             self.part(part, material);
@@ -211,9 +213,8 @@ impl Placer<'_, '_> {
     fn part(&mut self, part: &Part, material: u32) {
         let emits = self.placement.emits(material, self.materials);
         for tri_idx in 0..part.triangles.len() {
-            let corners = part.corners(tri_idx).map(|p| {
-                self.transform.point(DVec3::from(p.map(f64::from)))
-            });
+            let corners =
+                part.corners(tri_idx).map(|p| self.transform.point(DVec3::from(p.map(f64::from))));
             let normals = part.corner_normals(tri_idx).map(|normals| {
                 normals.map(|n| octahedral(self.transform.normal * DVec3::from(n.map(f64::from))))
             });
@@ -234,8 +235,7 @@ impl Placer<'_, '_> {
                 });
             }
             self.placement.corners.push(corners);
-            let shade =
-                abi::TriShade { normals, material, uv0, uv1, uv2, light: NONE, flags };
+            let shade = abi::TriShade { normals, material, uv0, uv1, uv2, light: NONE, flags };
             self.placement.shades.push(shade);
         }
     }
@@ -283,7 +283,8 @@ impl Placement {
             if emitter.kind == LightKind::Sphere {
                 return true;
             }
-            let (first, end) = (emitter.primitive as usize, (emitter.primitive + emitter.count) as usize);
+            let (first, end) =
+                (emitter.primitive as usize, (emitter.primitive + emitter.count) as usize);
             emitter.primitive = left[first];
             left[end] - left[first] == emitter.count
         });

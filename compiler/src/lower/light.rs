@@ -61,10 +61,7 @@ fn shares(powers: &[f64]) -> Vec<Option<u64>> {
 
 /// The records, and for each emitter the index of its light or `NONE`. `triangles` and `spheres`
 /// are in leaf order; `triangle_at` and `sphere_at` say where a primitive went.
-pub(super) fn table(
-    emitters: &[Emitter],
-    geometry: &Geometry<'_>,
-) -> (Vec<abi::Light>, Vec<u32>) {
+pub(super) fn table(emitters: &[Emitter], geometry: &Geometry<'_>) -> (Vec<abi::Light>, Vec<u32>) {
     let powers: Vec<f64> = emitters.iter().map(|e| e.power).collect();
     let mut lights = Vec::new();
     let mut ids = vec![NONE; emitters.len()];

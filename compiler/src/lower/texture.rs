@@ -209,7 +209,8 @@ fn half_words(bits: &[u16], decode: fn(f64) -> f64) -> (Vec<u32>, [f64; 4]) {
 
 /// The texel of `image` at the place of texel `at` of a picture of `size`, one channel as a byte.
 fn nearest(image: &Image, at: [u32; 2], size: [u32; 2], channel: u8) -> u8 {
-    let scale = |x: u32, to: u32, from: u32| (u64::from(x) * u64::from(to) / u64::from(from)) as usize;
+    let scale =
+        |x: u32, to: u32, from: u32| (u64::from(x) * u64::from(to) / u64::from(from)) as usize;
     let (x, y) = (scale(at[0], image.width, size[0]), scale(at[1], image.height, size[1]));
     let index = 4 * (y * image.width as usize + x) + usize::from(channel);
     match &image.data {

@@ -50,7 +50,9 @@ pub(super) fn load(
         if let Some(file) = &file {
             report(&file.report, asset.path_span, diagnostics);
             let read = file.report.files.iter();
-            files.extend(read.map(|f| FileRead { name: relative(&f.path, options.root), hash: f.hash }));
+            files.extend(
+                read.map(|f| FileRead { name: relative(&f.path, options.root), hash: f.hash }),
+            );
         }
         loaded.assets.push(file);
     }
@@ -121,11 +123,7 @@ impl Used {
     }
 }
 
-fn read_asset(
-    asset: &Asset,
-    path: &Path,
-    options: &Options<'_>,
-) -> Result<MeshFile, ImportError> {
+fn read_asset(asset: &Asset, path: &Path, options: &Options<'_>) -> Result<MeshFile, ImportError> {
     match asset.format {
         AssetFormat::Obj { metres_per_unit, up } => {
             load_obj(path, metres_per_unit, up, &options.limits)
@@ -170,8 +168,10 @@ fn failed(error: &ImportError, span: Span, written: &str) -> Diagnostic {
         ErrorKind::Limit => "E0509",
         ErrorKind::Image => "E0602",
     };
+    let itself = Path::new(&error.place).ends_with(written);
     let message = match error.kind {
-        ErrorKind::Missing => format!("there is no file `{written}`"),
+        ErrorKind::Missing if itself => format!("there is no file `{written}`"),
+        ErrorKind::Missing => format!("`{written}` needs a file that is not there"),
         _ => format!("`{written}` cannot be used"),
     };
     let found = Diagnostic::error(Code(code), message).at(span, "named here");
@@ -199,7 +199,8 @@ fn report(report: &ImportReport, span: Span, diagnostics: &mut Vec<Diagnostic>) 
     let needles = &report.needles;
     if needles.count > 0 {
         let what = plural(needles.count, "triangle is", "triangles are");
-        let message = format!("{what} a needle, more than 1e5 times as long as high: expect noise there");
+        let message =
+            format!("{what} a needle, more than 1e5 times as long as high: expect noise there");
         warn("W0521", "needles", message, &needles.first);
     }
     let normals = &report.zero_normals;
@@ -209,7 +210,12 @@ fn report(report: &ImportReport, span: Span, diagnostics: &mut Vec<Diagnostic>) 
     }
     if report.clamped_texels > 0 {
         let what = plural(report.clamped_texels, "texel channel was", "texel channels were");
-        warn("W0523", "clamped_texels", format!("{what} clamped to what a half float holds"), &None);
+        warn(
+            "W0523",
+            "clamped_texels",
+            format!("{what} clamped to what a half float holds"),
+            &None,
+        );
     }
     for warning in &report.warnings {
         let message = format!("{}: {}", warning.place, warning.message);

@@ -23,7 +23,8 @@ pub(super) fn render(sources: &SourceSet, diagnostic: &Diagnostic) -> String {
             object
         })
         .collect();
-    let remark = |level: &str, text: &String| json!({ "level": level, "message": text, "spans": [] });
+    let remark =
+        |level: &str, text: &String| json!({ "level": level, "message": text, "spans": [] });
     let notes = diagnostic.notes.iter().map(|note| remark("note", note));
     let helps = diagnostic.helps.iter().map(|help| remark("help", help));
     let fixes = diagnostic.fixes.iter().map(|fix| suggestion(sources, fix));

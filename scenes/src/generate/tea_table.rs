@@ -115,12 +115,12 @@ fn lamp(glb: &mut Glb) -> usize {
         "doubleSided": true,
         "emissiveFactor": [1.0, 1.0, 1.0],
         "emissiveTexture": { "index": paper },
-        "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 9.0 } },
+        "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 5.0 } },
         "pbrMetallicRoughness": {
             "baseColorFactor": [0.8, 0.72, 0.6, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.8,
         },
     })));
-    glb.mesh("lamp", &lathe(&smooth_profile(&points, 6), 48), material)
+    glb.mesh("lamp", &lathe(&smooth_profile(&points, 4), 32), material)
 }
 
 /// Calls `texel(u, v)` at each texel centre; u right, v down, both 0..1.

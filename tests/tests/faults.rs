@@ -1,0 +1,119 @@
+//! Faults of files: every page of `rtc explain` whose example needs files fails with its code, and
+//! the program ends with one clear line and the right exit code, never a panic.
+
+use std::path::Path;
+
+use compiler::cache::Cache;
+use compiler::import::Limits;
+use compiler::pipeline::{self, Options};
+use lang::diagnostic::{self, Diagnostic};
+use lang::source::{LoadError, Loader, SourceSet};
+
+/// What the examples read.
+const FILES: &[(&str, &str)] = &[
+    ("good.obj", "g rock\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+    ("not_a_mesh.obj", "v 0 0\nf 1 2 3\n"),
+    ("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"),
+    ("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"),
+    ("empty.obj", "# nothing\n"),
+    ("not_an_image.png", "this is text\n"),
+    ("accessor.gltf", ACCESSOR),
+    (
+        "extension.gltf",
+        r#"{"asset":{"version":"2.0"},"extensionsRequired":["EXT_meshopt_compression"],"extensionsUsed":["EXT_meshopt_compression"]}"#,
+    ),
+    ("huge.hdr", HUGE),
+];
+
+/// Ten positions in a buffer of twelve bytes.
+const ACCESSOR: &str = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":10,"type":"VEC3","min":[0,0,0],"max":[1,1,1]}],
+"bufferViews":[{"buffer":0,"byteLength":12}],
+"buffers":[{"byteLength":12,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAA"}]}"#;
+
+/// A header that claims ten thousand million pixels.
+const HUGE: &str = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 100000 +X 100000\n";
+
+const TAIL: &str = "sky tail_sky: constant { }
+material tail_material: diffuse { color = linear(0.5) }
+instance tail { shape = sphere(radius: 1m), material = tail_material }
+camera tail_camera: perspective { from = (0, 1, 5)m, to = (0, 1, 0)m }
+render tail_render: path { camera = tail_camera, sky = tail_sky }
+";
+
+struct NoImports;
+
+impl Loader for NoImports {
+    fn load(&mut self, _: &str, _: &str) -> Result<(String, String), LoadError> {
+        Err(LoadError::NotFound)
+    }
+}
+
+fn findings(dir: &Path, text: &str) -> (SourceSet, Vec<Diagnostic>) {
+    let name = dir.join("scene.rts").display().to_string();
+    let analysis = lang::analyze(&name, text, &mut NoImports, &lang::Options::default());
+    let mut diagnostics = analysis.diagnostics;
+    if let Some(scene) = &analysis.scene {
+        let cache = Cache::disabled();
+        let limits = Limits::default();
+        let options = Options { root: dir, cache: &cache, limits, defines: &[] };
+        // Only what was found counts here; that nothing was written follows from it.
+        let _ = pipeline::compile(scene, &analysis.sources, &options, &mut diagnostics);
+    }
+    (analysis.sources, diagnostics)
+}
+
+fn folder() -> tempfile::TempDir {
+    let dir = tempfile::tempdir().expect("a temporary directory can be made");
+    for (name, content) in FILES {
+        std::fs::write(dir.path().join(name), content).expect("writable");
+    }
+    dir
+}
+
+#[test]
+fn every_page_about_files_has_an_example_that_fails_as_it_says() {
+    let dir = folder();
+    let mut n_pages = 0;
+    for code in lang::codes() {
+        let page = lang::explain(code).expect("codes() lists pages");
+        let Some((_, rest)) = page.split_once("```rts files\n") else { continue };
+        n_pages += 1;
+        let (example, _) = rest.split_once("```").expect("a block of code ends");
+        let (sources, found) = findings(dir.path(), &format!("rts 1\n{example}{TAIL}"));
+        let codes: Vec<&str> = found.iter().filter(|d| d.is_error()).map(|d| d.code.0).collect();
+        let shown: Vec<String> = found.iter().map(|d| diagnostic::short(&sources, d)).collect();
+        // `shape = rock` without a material is fine for meshes and E0207 for spheres.
+        let codes: Vec<&str> = codes.into_iter().filter(|c| *c != "E0207").collect();
+        assert_eq!(codes, [code], "{shown:#?}");
+    }
+    assert!(n_pages >= 10, "{n_pages} pages");
+}
+
+#[test]
+fn the_programs_end_with_the_exit_codes_that_they_document() {
+    let dir = folder();
+    let path = |name: &str| dir.path().join(name).display().to_string();
+    let write = |name: &str, text: &str| std::fs::write(path(name), text).expect("writable");
+    write("good.rts", &format!("rts 1\n{TAIL}"));
+    write("bad.rts", &format!("rts 1\nmaterial m: difuse {{ }}\n{TAIL}"));
+    let rtc = |arguments: &[&str]| {
+        compiler::cli::run(std::iter::once("rtc").chain(arguments.iter().copied()))
+    };
+    assert_eq!(rtc(&[&path("good.rts"), "-o", &path("good.pack"), "--no-cache"]), 0);
+    assert_eq!(rtc(&["inspect", &path("good.pack"), "--verify"]), 0);
+    assert_eq!(rtc(&["check", &path("good.rts")]), 0);
+    assert_eq!(rtc(&["fmt", "--check", &path("bad.rts")]), 1, "not tidy");
+    assert_eq!(rtc(&["show", "--resolved", &path("good.rts")]), 0);
+    assert_eq!(rtc(&["explain", "E0301"]), 0);
+    for format in ["human", "short", "json"] {
+        assert_eq!(rtc(&["check", &path("bad.rts"), "--error-format", format]), 1);
+    }
+    assert_eq!(rtc(&["--no-such-flag"]), 2);
+    assert_eq!(rtc(&["explain", "E9999"]), 2);
+    assert_eq!(rtc(&[&path("absent.rts"), "-o", &path("x.pack")]), 3);
+    assert_eq!(rtc(&[&path("good.rts"), "-o", &path("no/such/dir/x.pack")]), 3);
+    assert_eq!(rtc(&["inspect", &path("good.obj")]), 3);
+    assert!(!Path::new(&path("x.pack")).exists(), "a failed run leaves no pack");
+}
