@@ -1,7 +1,7 @@
 // Sine and cosine of a fraction of a turn. The WGSL built-ins promise only 2^-11 absolute error and
 // differ between devices.
 
-// (sin, cos)(2 pi u), u in [0, 1]. Largest absolute error 8.9e-8, |s^2 + c^2 - 1| <= 2.1e-7.
+// (sin, cos)(2 pi u), u in [0, 1]. Largest absolute error 8.9e-8, |s^2 + c^2 - 1| <= 2.2e-7.
 // Quarter turns are folded off exactly; the rest is a least-maximum polynomial on |x| <= 1/4.
 fn sincos_2pi(u: f32) -> vec2f {
     let k = floor(4.0 * u + 0.5);

@@ -10,7 +10,7 @@ const RAY_FAR: f32 = 1e30;
 
 struct Ray {
     origin: vec3f,
-    // Nothing at this distance or beyond is hit.
+    // Nothing beyond this distance is hit.
     t_max: f32,
     // Unit.
     dir: vec3f,
