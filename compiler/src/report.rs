@@ -58,8 +58,8 @@ impl Reporter {
         Self { format, color, max_errors }
     }
 
-    /// Prints all diagnostics and a summary; returns the number of errors.
-    pub fn diagnostics(&self, sources: &SourceSet, diagnostics: &[Diagnostic]) -> usize {
+    /// Prints all diagnostics and a summary.
+    pub fn diagnostics(&self, sources: &SourceSet, diagnostics: &[Diagnostic]) {
         let n_errors = diagnostics.iter().filter(|d| d.is_error()).count();
         let n_warnings = diagnostics.len() - n_errors;
         let mut shown = 0;
@@ -81,7 +81,6 @@ impl Reporter {
                 self.status(&line);
             }
         }
-        n_errors
     }
 
     fn diagnostic(&self, sources: &SourceSet, diagnostic: &Diagnostic) {

@@ -3,6 +3,11 @@
 //! The same code gives the same bytes on every machine: all transcendental functions are `libm`'s,
 //! and nothing depends on time, threads or directories. It does not know the renderer.
 
+#![expect(
+    clippy::cast_possible_truncation,
+    reason = "files hold f32, u32 and bytes; the numbers written here are small"
+)]
+
 mod glb;
 mod knot;
 mod lathe;

@@ -34,7 +34,9 @@ fn describe(film: &Film) -> String {
     let mut hasher = blake3::Hasher::new();
     let means = film.means();
     for value in means.iter().flatten() {
-        hasher.update(&(*value as f32).to_bits().to_le_bytes());
+        #[expect(clippy::cast_possible_truncation, reason = "as the EXR stores it")]
+        let value = *value as f32;
+        hasher.update(&value.to_bits().to_le_bytes());
     }
     let mut text = format!("blake3 {}\n", hasher.finalize().to_hex());
     for (name, k) in [("red", 0), ("green", 1), ("blue", 2)] {

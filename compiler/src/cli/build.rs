@@ -1,5 +1,6 @@
 //! `rtc build` and `rtc check`: a scene text becomes a pack, or a list of what is wrong with it.
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -113,7 +114,7 @@ pub(super) fn analyze(scene: &SceneArgs, reporter: &Reporter) -> Result<Analysis
             TextError::NotText(_) => SCENE,
         }
     })?;
-    let options = lang::Options { defines: scene.define.clone(), ..lang::Options::default() };
+    let options = lang::Options { defines: scene.define.clone() };
     Ok(lang::analyze(&shown, &text, &mut DiskLoader, &options))
 }
 
@@ -194,7 +195,7 @@ fn done(output: &Path, compiled: &Compiled, time: Duration) -> String {
 fn timings(phases: &[Phase], compiled: &Compiled) -> String {
     let mut text = String::from("phase                               ms\n");
     for Phase { name, time } in phases {
-        text += &format!("{name:<30} {:>7.1}\n", time.as_secs_f64() * 1e3);
+        let _ = writeln!(text, "{name:<30} {:>7.1}", time.as_secs_f64() * 1e3);
     }
     let trees = &compiled.lowered.trees;
     let ms = |time: Duration| time.as_secs_f64() * 1e3;

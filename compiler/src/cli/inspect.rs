@@ -51,11 +51,11 @@ fn table(pack: &Pack<Checked>) -> String {
     );
     let _ = writeln!(
         text,
-        "{:<9} {:>12} {:>6} {:>15}  {}",
-        "section", "elements", "size", "bytes", "blake3"
+        "{:<9} {:>12} {:>6} {:>15}  blake3",
+        "section", "elements", "size", "bytes"
     );
     for row in pack::describe(pack) {
-        let kind = row.kind.to_string();
+        let kind = row.kind;
         let _ = writeln!(
             text,
             "{kind:<9} {:>12} {:>6} {:>15}  {}",
@@ -66,5 +66,8 @@ fn table(pack: &Pack<Checked>) -> String {
 }
 
 fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+    bytes.iter().fold(String::new(), |mut text, byte| {
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
 }

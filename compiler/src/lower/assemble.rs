@@ -222,7 +222,7 @@ fn declared(name: &Name) -> (String, Option<Span>) {
 }
 
 fn normalization(placement: &Placement) -> Normalization {
-    let corners = placement.corners.iter().flatten().map(|p| p.to_array());
+    let corners = placement.corners.iter().flatten().map(DVec3::to_array);
     let balls = placement.spheres.iter().flat_map(|(center, radius)| {
         [(*center - *radius).to_array(), (*center + *radius).to_array()]
     });

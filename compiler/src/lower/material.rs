@@ -154,7 +154,7 @@ impl<'a> MaterialTable<'a> {
             let emission = from.color.map(|c| c as f32);
             abi::Material { emission, emission_texture: map, ..blank(MaterialKind::Emissive) }
         } else {
-            let kind = if from.diffuse_only && from.emission == [0.0; 3] {
+            let kind = if from.diffuse_only && from.emission.iter().all(|&c| c <= 0.0) {
                 MaterialKind::Diffuse
             } else {
                 MaterialKind::Principled

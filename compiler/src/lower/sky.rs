@@ -13,11 +13,15 @@ pub(super) fn sky(sky: &Sky) -> Option<abi::Sky> {
                 return None;
             }
             let plain = is_black(glow) && is_black(disc);
-            let flat = bands[..4].iter().all(|color| *color == zenith);
+            let flat = bands[..4].iter().all(|color| same(color, zenith));
             // A gradient without a gradient needs no gradient code.
             Some(if plain && flat { constant(*zenith) } else { gradient(&sky.model) })
         }
     }
+}
+
+fn same(a: &Rgb, b: &Rgb) -> bool {
+    a.map(f64::to_bits) == b.map(f64::to_bits)
 }
 
 fn is_black(color: &Rgb) -> bool {

@@ -10,7 +10,10 @@ use crate::lower::Lowered;
 /// The features that the records use.
 pub(super) fn of(lowered: &Lowered) -> FeatureSet {
     let materials = &lowered.materials;
-    let words = |bytes: usize| (bytes / 16).div_ceil(WINDOW_WORDS as usize).max(1) as u32;
+    let words = |bytes: usize| {
+        let windows = (bytes / 16).div_ceil(WINDOW_WORDS as usize).max(1);
+        u32::try_from(windows).expect("sections hold at most 2^33 words")
+    };
     FeatureSet {
         triangles: !lowered.triangles.is_empty(),
         spheres: !lowered.spheres.is_empty(),

@@ -1,5 +1,6 @@
 //! A diagnostic as a picture of the source, drawn by annotate-snippets.
 
+use std::fmt::Write as _;
 use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Patch, Renderer, Snippet};
@@ -30,7 +31,7 @@ pub(super) fn render(sources: &SourceSet, diagnostic: &Diagnostic, color: bool) 
     groups.extend(diagnostic.fixes.iter().map(|fix| proposal(sources, fix)));
     let renderer = if color { Renderer::styled() } else { Renderer::plain() };
     let mut text = renderer.render(&groups);
-    text.push_str(&format!("\n   = for more: rtc explain {}", diagnostic.code.0));
+    let _ = write!(text, "\n   = for more: rtc explain {}", diagnostic.code.0);
     text
 }
 

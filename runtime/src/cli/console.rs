@@ -7,6 +7,7 @@ use crate::control::{Control, Progress};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::error::Error;
 use std::io::IsTerminal as _;
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Once};
 use std::time::{Duration, Instant};
@@ -61,17 +62,15 @@ impl Console {
 
     /// One line for an error and its causes.
     pub(super) fn fail(&self, error: &dyn Error, exit: Exit) -> Exit {
-        let mut text = error.to_string();
-        let mut cause = error.source();
-        while let Some(inner) = cause {
-            let inner_text = inner.to_string();
-            // Some errors repeat their cause in their own text.
-            if !text.contains(&inner_text) {
-                text = format!("{text}: {inner_text}");
-            }
-            cause = inner.source();
-        }
-        self.warn(&format!("error: {text}"));
+        self.warn(&format!("error: {}", with_causes(error)));
+        exit
+    }
+
+    /// As `fail`, with the file that it is about, unless the error names it itself.
+    pub(super) fn fail_about(&self, path: &Path, error: &dyn Error, exit: Exit) -> Exit {
+        let (path, text) = (path.display().to_string(), with_causes(error));
+        let about = if text.contains(&path) { String::new() } else { format!("{path}: ") };
+        self.warn(&format!("error: {about}{text}"));
         exit
     }
 
@@ -195,4 +194,19 @@ mod tests {
         assert_eq!(text(65.0), "1m05s");
         assert_eq!(text(7500.0), "2h05m");
     }
+}
+
+/// The error with its causes, each said once.
+fn with_causes(error: &dyn Error) -> String {
+    let mut text = error.to_string();
+    let mut cause = error.source();
+    while let Some(inner) = cause {
+        let inner_text = inner.to_string();
+        // Some errors repeat their cause in their own text.
+        if !text.contains(&inner_text) {
+            text = format!("{text}: {inner_text}");
+        }
+        cause = inner.source();
+    }
+    text
 }

@@ -34,8 +34,7 @@ pub(super) fn command(args: &RenderArgs) -> Exit {
     let scene = match Pack::open(path, mode) {
         Ok(pack) => Scene::new(pack),
         Err(error) => {
-            console.note(&format!("in {}:", path.display()));
-            return console.fail(&error, Exit::World);
+            return console.fail_about(path, &error, Exit::World);
         }
     };
     let job = job(args, &scene);
