@@ -6,6 +6,12 @@
 //! [`validate`] runs naga over the result and translates its errors back to our files;
 //! [`check_layouts`] compares the structs in it with the Rust records of `pack::abi`.
 //!
+//! # Bits
+//! The same WGSL also becomes the CPU kernel, and both give the same bits wherever the driver computes
+//! what is written. WGSL lets a driver reorder products and sums, and Mesa does; so the modules keep
+//! to forms that it leaves alone: a constant goes onto one factor and not onto a product,
+//! `(a * C) * b`, and onto one term and not onto a sum, `(a + C) + b`. The tests refuse the others.
+//!
 //! It does not know the scene language, wgpu, or what is in a pack besides its records.
 
 mod declaration;
