@@ -76,6 +76,7 @@ pub const CASES: &[Case] = &[
     case("light with a picture and holes", &[WEAR, PAINT, LACE_LAMP, PANEL, CLAY, BALL, FLOOR]),
     // Textures.
     case("sRGB texture, repeated", &[SKY, PAINT, PAINTED, BALL, QUILT]),
+    case("texture on spheres alone", &[SKY, PAINT, PAINTED, BALL]),
     case("linear texture, mirrored", &[SKY, WEAR, WORN, BALL, QUILT]),
     case("half-float texture, clamped", &[SKY, GLOW, NEON, BALL, QUILT]),
     case("mixed wraps, without spheres", &[SKY, MIXED, PAINTED, QUILT]),
