@@ -49,11 +49,8 @@ fn table(pack: &Pack<Checked>) -> String {
         render.max_depth,
         render.stack_need,
     );
-    let _ = writeln!(
-        text,
-        "{:<9} {:>12} {:>6} {:>15}  blake3",
-        "section", "elements", "size", "bytes"
-    );
+    let _ =
+        writeln!(text, "{:<9} {:>12} {:>6} {:>15}  blake3", "section", "elements", "size", "bytes");
     for row in pack::describe(pack) {
         let kind = row.kind;
         let _ = writeln!(

@@ -53,5 +53,6 @@ fn sphere_surface(i: u32, origin: vec3f, dir: vec3f, t: f32) -> Surface {
 // as seen from outside with y up, 0.5 at +z; v is the latitude, 0 at -y and 1 at +y.
 fn sphere_uv(n: vec3f) -> vec2f {
     let latitude = atan_turns(n.y, sqrt(n.x * n.x + n.z * n.z));
+    // Not 0.5 + 2 latitude: texture lookups take 1 - v, and drivers fold the constants of 1 - (0.5 + x).
     return vec2f(0.5 + atan_turns(n.x, n.z), 2.0 * (0.25 + latitude));
 }
