@@ -38,6 +38,8 @@ const SEEDS: u32 = 8;
 #[test]
 fn all_estimators_agree() {
     let mut found: Vec<(String, Estimate)> = Vec::new();
+    // Independent seeds for each estimator: equal ones would hide differences.
+    let mut first_seed = 1000;
     for (roulette, depth) in [("roulette", None), ("no roulette", Some(64))] {
         let mut compiled = scene::compile(ROOM);
         if let Some(depth) = depth {
@@ -55,12 +57,12 @@ fn all_estimators_agree() {
                         let outcome = picture::cpu(pack, |job| {
                             job.estimator = estimator;
                             job.precision = precision;
-                            // Independent for each estimator: equal seeds would hide differences.
-                            job.seed = 1000 * (found.len() as u32 + 1) + seed;
+                            job.seed = first_seed + seed;
                         });
                         Estimate::of(&picture::channel(outcome.film(), 1)).mean
                     })
                     .collect();
+                first_seed += 1000;
                 let label = format!("{name}, {roulette}, {}", precision.name());
                 let estimate = Estimate::of(&means);
                 console::line(&format!(

@@ -50,9 +50,9 @@ fn the_balance_heuristic_is_never_much_worse_than_the_better_technique() {
             assert!(both.mean > 0.0, "the mirror looks at the light: {line}");
             let z = |a: &Estimate, b: &Estimate| (a.mean - b.mean) / a.error.hypot(b.error);
             // A technique that has found the light in too few pixels has no error bar to speak of.
-            let agree = [&light, &bsdf].into_iter().all(|other| {
-                other.error > 0.1 * other.mean || z(&both, other).abs() < 4.5
-            });
+            let agree = [&light, &bsdf]
+                .into_iter()
+                .all(|other| other.error > 0.1 * other.mean || z(&both, other).abs() < 4.5);
             let better = light.error.min(bsdf.error);
             let efficient = both.error * both.error <= 2.0 * better * better + 1e-18;
             if !agree || !efficient {
