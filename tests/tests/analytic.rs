@@ -5,7 +5,8 @@
 //! degree), so pixels are independent estimates of one number. Fixed seeds: a run that passes
 //! always passes.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::fmt::Write as _;
 
 use pack::Pack;
 use pack::abi::material_flag;
@@ -91,7 +92,7 @@ fn a_sphere_light_over_a_plane_gives_its_form_factor() {
         (0.0_f64, 0.1, None),
         (0.9, 0.05, None),
         (0.3, 0.7, None),
-        (1.5708, 0.5, Some(0.028_834_4)),
+        (FRAC_PI_2, 0.5, Some(0.028_834_4)),
         (1.8, 0.5, Some(0.007_545_0)),
         (1.5, 0.5, Some(0.038_366_3)),
         (1.4, 0.9, Some(0.304_028_9)),
@@ -192,8 +193,9 @@ instance wall {{
 "
         );
         for i in 0..n {
-            text += &format!(
-                "instance pane_{i} {{ shape = box(size: (40, 40, 0.1)m), material = glass, at = (0, 0, {})m }}\n",
+            let _ = writeln!(
+                text,
+                "instance pane_{i} {{ shape = box(size: (40, 40, 0.1)m), material = glass, at = (0, 0, {})m }}",
                 -0.5 * f64::from(i),
             );
         }
@@ -269,6 +271,7 @@ instance spark {{ shape = sphere(radius: 1mm), material = lamp, at = (0, 5, 0)m 
         let pack = Pack::from_bytes(scene::bytes(&compiled)).expect("valid");
         let name = format!("closed sphere, albedo {rho}");
         // The record holds the albedo in f32, and 1 / (1 - rho) magnifies its rounding.
+        #[expect(clippy::cast_possible_truncation, reason = "as the compiler rounds it")]
         let expected = 1.0 / (1.0 - f64::from(rho as f32));
         let check = Check::new(name, expected, "").samples(samples);
         failures.extend(check.judge(pack).err());
