@@ -1,5 +1,6 @@
 //! Reads the files that instances use; what cannot be read becomes a diagnostic at its path.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use lang::diagnostic::{Code, Diagnostic, Fix};
@@ -149,11 +150,15 @@ fn beside(sources: &SourceSet, at: Span, path: &str) -> PathBuf {
     dir.join(path)
 }
 
-/// The path as seen from `root`, with `/` between its parts.
+/// The path as seen from `root`, with `/` between its parts: the same wherever both lie.
 pub(super) fn relative(path: &Path, root: &Path) -> String {
-    let path = path.strip_prefix(root).unwrap_or(path);
-    let parts: Vec<_> = path.components().map(|part| part.as_os_str().to_string_lossy()).collect();
-    parts.join("/")
+    let (mut path, mut root) = (path.components().peekable(), root.components().peekable());
+    while path.peek().is_some() && path.peek() == root.peek() {
+        (path.next(), root.next());
+    }
+    let up = root.map(|_| Cow::Borrowed(".."));
+    let down = path.map(|part| part.as_os_str().to_string_lossy());
+    up.chain(down).collect::<Vec<_>>().join("/")
 }
 
 fn failed(error: &ImportError, span: Span, written: &str) -> Diagnostic {
@@ -254,5 +259,19 @@ fn listed(names: &[&str]) -> String {
         0 => "the file names no parts; use the asset as a whole".to_owned(),
         n if n <= MOST => format!("its parts: {}", names.join(", ")),
         n => format!("its parts: {}, and {} more", names[..MOST].join(", "), n - MOST),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_do_not_depend_on_where_the_scene_lies() {
+        let of = |path: &str, root: &str| relative(Path::new(path), Path::new(root));
+        assert_eq!(of("a/b/c.obj", "a/b"), "c.obj");
+        assert_eq!(of("/x/a/parts/lamp.rts", "/x/a"), "parts/lamp.rts");
+        assert_eq!(of("a/parts/lamp.rts", "a/b"), "../parts/lamp.rts");
+        assert_eq!(of("c.obj", ""), "c.obj");
     }
 }

@@ -35,7 +35,7 @@
 //! and theirs, `determinant` of four columns, and NaN, which every driver rounds as it likes.
 //!
 //! Nor can bits agree where a driver rewrites what stands in the WGSL. Mesa does: `x * c1 * c2` and
-//! `x + c1 + c2` (constants are folded first), `a*b + a*c`, `(a + b) - a`, `1 - (1 - a)`,
+//! `x + c1 + c2` (constants are folded first), `(a * b) * c1`, `(a + b) + c1`, `a*b + a*c`, `(a + b) - a`, `1 - (1 - a)`,
 //! `sqrt(a) * sqrt(a)`, `1 / (1 / a)`, `a * 0.0`, `a - a`, and `a != a`, which is false to it even
 //! for NaN. A kernel that wants the same bits everywhere does not write these.
 //!
