@@ -154,7 +154,8 @@ fn beside(sources: &SourceSet, at: Span, path: &str) -> PathBuf {
 pub(super) fn relative(path: &Path, root: &Path) -> String {
     let (mut path, mut root) = (path.components().peekable(), root.components().peekable());
     while path.peek().is_some() && path.peek() == root.peek() {
-        (path.next(), root.next());
+        path.next();
+        root.next();
     }
     let up = root.map(|_| Cow::Borrowed(".."));
     let down = path.map(|part| part.as_os_str().to_string_lossy());
