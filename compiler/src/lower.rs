@@ -25,7 +25,7 @@ pub use texture::{TextureTable, srgb_table};
 use crate::import::{Image, MeshFile};
 
 /// What the files of a scene turned out to contain, in the order of `Scene::assets` and
-/// `Scene::textures`; an entry is `None` when nothing uses it.
+/// `Scene::textures`; an entry is `None` when its file could not be read.
 #[derive(Debug, Default)]
 pub struct Loaded {
     /// Mesh files.

@@ -157,7 +157,7 @@ impl Placer<'_, '_> {
 
     fn rectangles(&mut self, faces: &[Parallelogram]) {
         let material = self.material(MaterialRef::Default);
-        let emits = self.placement.emits(material, self.materials);
+        let emits = emits(material, self.materials);
         for [corner, edge1, edge2] in faces {
             let origin = self.transform.point(*corner);
             let (mut edge1, mut edge2) =
@@ -211,7 +211,7 @@ impl Placer<'_, '_> {
     }
 
     fn part(&mut self, part: &Part, material: u32) {
-        let emits = self.placement.emits(material, self.materials);
+        let emits = emits(material, self.materials);
         for tri_idx in 0..part.triangles.len() {
             let corners =
                 part.corners(tri_idx).map(|p| self.transform.point(DVec3::from(p.map(f64::from))));
@@ -249,7 +249,7 @@ impl Placement {
         material: u32,
         materials: &MaterialTable<'_>,
     ) {
-        if let Some(radiance) = self.emits(material, materials) {
+        if let Some(radiance) = emits(material, materials) {
             self.emitters.push(Emitter {
                 kind: LightKind::Sphere,
                 primitive: self.spheres.len() as u32,
@@ -260,15 +260,6 @@ impl Placement {
         }
         self.spheres.push((center, radius));
         self.sphere_materials.push(material);
-    }
-
-    /// Luminance of a material's mean radiance, counted for each emitting side; `None` if dark.
-    #[expect(clippy::unused_self, reason = "reads as a question about what is being placed")]
-    fn emits(&self, material: u32, materials: &MaterialTable<'_>) -> Option<f64> {
-        let flags = materials.records()[material as usize].flags;
-        let sides = if flags & material_flag::EMIT_BOTH_SIDES != 0 { 2.0 } else { 1.0 };
-        let radiance = luminance(materials.mean_emission(material));
-        (radiance > 0.0).then_some(sides * radiance)
     }
 
     /// Takes triangles out. A rectangle that loses one of its two is no longer a rectangle light.
@@ -313,6 +304,14 @@ impl Placement {
             self.groups.push(end);
         }
     }
+}
+
+/// Luminance of a material's mean radiance, counted for each emitting side; `None` if dark.
+fn emits(material: u32, materials: &MaterialTable<'_>) -> Option<f64> {
+    let flags = materials.records()[material as usize].flags;
+    let sides = if flags & material_flag::EMIT_BOTH_SIDES != 0 { 2.0 } else { 1.0 };
+    let radiance = luminance(materials.mean_emission(material));
+    (radiance > 0.0).then_some(sides * radiance)
 }
 
 /// A direction as two 16-bit signed normalised integers, x in the low half (Cigolle et al. 2014,

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use lang::diagnostic::{Code, Diagnostic, Fix};
-use lang::scene::{Asset, AssetFormat, Color, MaterialModel, Scalar, Scene, Shape};
+use lang::scene::{Asset, AssetFormat, Scene, Shape};
 use lang::source::{SourceSet, Span};
 use rayon::prelude::*;
 
@@ -23,31 +23,32 @@ pub struct FileRead {
     pub hash: [u8; 32],
 }
 
-/// Loads every asset and texture that is used, in parallel; results are in declaration order.
+/// Loads every asset and texture, in parallel; results are in declaration order. A `Scene` holds only
+/// those that some instance uses.
 pub(super) fn load(
     scene: &Scene,
     sources: &SourceSet,
     options: &Options<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> (Loaded, Vec<FileRead>) {
-    let used = Used::of(scene);
-    let assets: Vec<_> = (scene.assets.par_iter().zip(&used.assets))
-        .map(|(asset, used)| {
-            used.then(|| read_asset(asset, &beside(sources, asset.path_span, &asset.path), options))
-        })
+    let assets: Vec<_> = scene
+        .assets
+        .par_iter()
+        .map(|asset| read_asset(asset, &beside(sources, asset.path_span, &asset.path), options))
         .collect();
-    let textures: Vec<_> = (scene.textures.par_iter().zip(&used.textures))
-        .map(|(texture, used)| {
+    let textures: Vec<_> = scene
+        .textures
+        .par_iter()
+        .map(|texture| {
             let path = beside(sources, texture.path_span, &texture.path);
-            used.then(|| load_image(&path, &options.limits).map(|image| (image, path)))
+            load_image(&path, &options.limits).map(|image| (image, path))
         })
         .collect();
     let mut files = Vec::new();
     let mut loaded = Loaded::default();
     for (asset, result) in scene.assets.iter().zip(assets) {
-        let file = result.and_then(|r| {
-            r.map_err(|e| diagnostics.push(failed(&e, asset.path_span, &asset.path))).ok()
-        });
+        let fault = |e| diagnostics.push(failed(&e, asset.path_span, &asset.path));
+        let file = result.map_err(fault).ok();
         if let Some(file) = &file {
             report(&file.report, asset.path_span, diagnostics);
             let read = file.report.files.iter();
@@ -58,9 +59,8 @@ pub(super) fn load(
         loaded.assets.push(file);
     }
     for (texture, result) in scene.textures.iter().zip(textures) {
-        let image = result.and_then(|r| {
-            r.map_err(|e| diagnostics.push(failed(&e, texture.path_span, &texture.path))).ok()
-        });
+        let fault = |e| diagnostics.push(failed(&e, texture.path_span, &texture.path));
+        let image = result.map_err(fault).ok();
         loaded.textures.push(image.map(|(image, path)| {
             files.push(FileRead { name: relative(&path, options.root), hash: content(&image) });
             image
@@ -70,58 +70,6 @@ pub(super) fn load(
     files.sort_by(|a, b| a.name.cmp(&b.name));
     files.dedup();
     (loaded, files)
-}
-
-/// Which assets and textures something asks for.
-struct Used {
-    assets: Vec<bool>,
-    textures: Vec<bool>,
-}
-
-impl Used {
-    fn of(scene: &Scene) -> Self {
-        let mut used = Self {
-            assets: vec![false; scene.assets.len()],
-            textures: vec![false; scene.textures.len()],
-        };
-        let mut materials = vec![false; scene.materials.len()];
-        for instance in &scene.instances {
-            if let Shape::Mesh { asset, .. } = &instance.shape {
-                used.assets[*asset] = true;
-            }
-            if let Some(material) = instance.material {
-                materials[material] = true;
-            }
-        }
-        for (material, _) in scene.materials.iter().zip(materials).filter(|(_, used)| *used) {
-            used.material(&material.model);
-        }
-        used
-    }
-
-    fn material(&mut self, model: &MaterialModel) {
-        match model {
-            MaterialModel::Diffuse { color }
-            | MaterialModel::Metal { color, .. }
-            | MaterialModel::Emissive { color, .. } => self.color(*color),
-            MaterialModel::Dielectric { .. } => {}
-            MaterialModel::Principled(p) => {
-                self.color(p.color);
-                self.color(p.emission);
-                for scalar in [p.metallic, p.roughness, p.alpha] {
-                    if let Scalar::Texture { texture, .. } = scalar {
-                        self.textures[texture] = true;
-                    }
-                }
-            }
-        }
-    }
-
-    fn color(&mut self, color: Color) {
-        if let Color::Texture(texture) = color {
-            self.textures[texture] = true;
-        }
-    }
 }
 
 fn read_asset(asset: &Asset, path: &Path, options: &Options<'_>) -> Result<MeshFile, ImportError> {
