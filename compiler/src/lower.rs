@@ -14,6 +14,7 @@ mod camera;
 mod geometry;
 mod light;
 mod material;
+mod object;
 mod order;
 mod sky;
 mod texture;

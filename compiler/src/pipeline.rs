@@ -133,6 +133,7 @@ impl Compiled {
             .records(&lowered.shades)
             .records(&lowered.spheres)
             .records(&lowered.materials)
+            .records(&lowered.objects)
             .records(&lowered.lights)
             .records(&lowered.textures)
             .texels(&lowered.texels)

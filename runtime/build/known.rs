@@ -14,16 +14,19 @@ use std::fmt::Write as _;
 
 /// A family: the feature bits that vary, and every member with its bits.
 struct Family {
-    mask: u32,
-    members: Vec<(u32, FeatureSet)>,
+    mask: u64,
+    members: Vec<(u64, FeatureSet)>,
 }
 
-/// Texts of a declaration, each with the (family, bits) in which it occurs.
-type Texts = BTreeMap<String, BTreeSet<(usize, u32)>>;
+/// Index of the family of [`materials`].
+const MATERIALS: usize = 0;
 
-/// Rust source of `KNOWN: &[Known]`, sorted by text.
+/// Texts of a declaration, each with the (family, bits) in which it occurs.
+type Texts = BTreeMap<String, BTreeSet<(usize, u64)>>;
+
+/// Rust source of `KNOWN: &[Known]`, sorted by text, and of `SWITCHES: &[Switch]`.
 pub(crate) fn table() -> Result<String, Box<dyn Error>> {
-    let families = [materials(), geometry(), views(), formats()];
+    let families = [materials(), geometry(), views(), formats(), asked()];
     let mut declarations: BTreeMap<String, Texts> = BTreeMap::new();
     for (f, family) in families.iter().enumerate() {
         for (bits, features) in &family.members {
@@ -33,18 +36,31 @@ pub(crate) fn table() -> Result<String, Box<dyn Error>> {
         }
     }
     let mut rows: BTreeSet<(String, String)> = readers()?;
+    let mut switching = Vec::new();
     for (name, texts) in &declarations {
         if name.ends_with("_word") {
             continue;
         }
         rows.extend(rows_of(name, texts, &families)?);
+        if varying(texts, families.len()) == [MATERIALS] {
+            switching.push(name.clone());
+        }
     }
     let mut source = String::from("static KNOWN: &[Known] = &[\n");
     for (text, condition) in rows {
         writeln!(source, "    Known {{ text: {text:?}, condition: {condition} }},")?;
     }
     source.push_str("];\n");
+    source += &switches(&switching)?;
     Ok(source)
+}
+
+/// The families in which a declaration has several texts.
+fn varying(texts: &Texts, n_families: usize) -> Vec<usize> {
+    let varies = |f: &usize| {
+        texts.values().filter(|places| places.iter().any(|place| place.0 == *f)).count() > 1
+    };
+    (0..n_families).filter(varies).collect()
 }
 
 /// The rows of one declaration.
@@ -57,12 +73,9 @@ fn rows_of(
     if texts.len() == 1 {
         return Ok(texts.keys().map(any).collect());
     }
-    let varies = |f: &usize| {
-        texts.values().filter(|places| places.iter().any(|place| place.0 == *f)).count() > 1
-    };
-    let varying: Vec<usize> = (0..families.len()).filter(varies).collect();
+    let varying = varying(texts, families.len());
     let &[family] = varying.as_slice() else {
-        let masks: Vec<u32> = varying.iter().map(|f| families[*f].mask).collect();
+        let masks: Vec<u64> = varying.iter().map(|f| families[*f].mask).collect();
         return Err(format!("`{name}` depends on several groups of features: {masks:#x?}").into());
     };
     let mask = families[family].mask;
@@ -109,22 +122,65 @@ fn subsets<T: Copy + Ord>(all: &[T]) -> Vec<BTreeSet<T>> {
         .collect()
 }
 
-fn materials() -> Family {
-    let of = |kind: &MaterialKind| match kind {
+fn material_bit(kind: MaterialKind) -> u64 {
+    match kind {
         MaterialKind::Diffuse => bit::MATERIAL_DIFFUSE,
         MaterialKind::Metal => bit::MATERIAL_METAL,
         MaterialKind::Dielectric => bit::MATERIAL_DIELECTRIC,
         MaterialKind::Emissive => bit::MATERIAL_EMISSIVE,
         MaterialKind::Principled => bit::MATERIAL_PRINCIPLED,
-    };
-    let mask = MaterialKind::ALL.iter().map(of).sum();
-    let member = |materials: BTreeSet<MaterialKind>| {
-        (materials.iter().map(of).sum(), FeatureSet { materials, ..FeatureSet::full() })
-    };
-    Family { mask, members: subsets(&MaterialKind::ALL).into_iter().map(member).collect() }
+    }
 }
 
-fn skies_and_lens() -> Vec<(u32, FeatureSet)> {
+fn materials_mask() -> u64 {
+    MaterialKind::ALL.into_iter().map(material_bit).sum()
+}
+
+/// No material, and each alone: these dispatch without a `switch`.
+fn materials() -> Family {
+    let none = FeatureSet { materials: BTreeSet::new(), ..FeatureSet::full() };
+    let mut members = vec![(0, none)];
+    members.extend(MaterialKind::ALL.into_iter().map(|kind| {
+        (material_bit(kind), FeatureSet { materials: [kind].into(), ..FeatureSet::full() })
+    }));
+    Family { mask: materials_mask(), members }
+}
+
+/// Rust source of `SWITCHES: &[Switch]`: the functions that switch over the kinds of materials. With
+/// two kinds or more their text is the head, the cases of those kinds, the foot; there are far too many
+/// subsets to list their texts.
+fn switches(switching: &[String]) -> Result<String, Box<dyn Error>> {
+    let full = declarations_of(&FeatureSet::full())?;
+    let mut source = String::from("static SWITCHES: &[Switch] = &[\n");
+    for name in switching {
+        let text = &full.iter().find(|(known, _)| known == name).ok_or("no such function")?.1;
+        let at = |part: &str| text.find(part).ok_or(format!("`{name}` has no `{part}`"));
+        let (first, last) = (at("        case ")?, at("        default:")?);
+        let (head, foot) = (&text[..first], &text[last..]);
+        let mut cases = Vec::new();
+        for (kind, line) in MaterialKind::ALL.iter().zip(text[first..last].split_inclusive('\n')) {
+            cases.push((material_bit(*kind), line));
+        }
+        let lines = text[first..last].lines().count();
+        if lines != MaterialKind::ALL.len() {
+            return Err(format!("`{name}` has {lines} cases").into());
+        }
+        writeln!(source, "    Switch {{ head: {head:?}, cases: &{cases:?}, foot: {foot:?} }},")?;
+    }
+    source.push_str("];\n");
+    Ok(source)
+}
+
+/// What materials ask of a surface point. Tangents depend on the shapes too.
+fn asked() -> Family {
+    let members = [(0, false), (bit::OBJECTS, true)].into_iter();
+    let members = members
+        .map(|(bits, objects)| (bits, FeatureSet { objects, ..FeatureSet::full() }))
+        .collect();
+    Family { mask: bit::OBJECTS, members }
+}
+
+fn skies_and_lens() -> Vec<(u64, FeatureSet)> {
     let of = |sky: &SkyKind| match sky {
         SkyKind::Constant => bit::SKY_CONSTANT,
         SkyKind::Gradient => bit::SKY_GRADIENT,
@@ -132,7 +188,7 @@ fn skies_and_lens() -> Vec<(u32, FeatureSet)> {
     let mut members = Vec::new();
     for lens in [false, true] {
         for skies in subsets(&[SkyKind::Constant, SkyKind::Gradient]) {
-            let bits = skies.iter().map(of).sum::<u32>() | if lens { bit::LENS } else { 0 };
+            let bits = skies.iter().map(of).sum::<u64>() | if lens { bit::LENS } else { 0 };
             members.push((bits, FeatureSet { lens, skies, ..FeatureSet::full() }));
         }
     }
@@ -144,7 +200,7 @@ fn views() -> Family {
     Family { mask, members: skies_and_lens() }
 }
 
-const FORMATS: [(TextureFormat, u32); 3] = [
+const FORMATS: [(TextureFormat, u64); 3] = [
     (TextureFormat::Rgba8Srgb, bit::TEXTURE_RGBA8_SRGB),
     (TextureFormat::Rgba8Linear, bit::TEXTURE_RGBA8_LINEAR),
     (TextureFormat::Rgba16Float, bit::TEXTURE_RGBA16_FLOAT),
@@ -173,7 +229,7 @@ fn geometry() -> Family {
         LightKind::Rectangle => bit::LIGHT_RECTANGLE,
         LightKind::Triangle => bit::LIGHT_TRIANGLE,
     };
-    let format_bits: Vec<u32> =
+    let format_bits: Vec<u64> =
         subsets(&FORMATS.map(|row| row.1)).iter().map(|rows| rows.iter().sum()).collect();
     let mut members = Vec::new();
     for (triangles, smooth_normals, spheres) in [
@@ -184,12 +240,20 @@ fn geometry() -> Family {
         (true, false, true),
         (true, true, true),
     ] {
-        for (textures, alpha_clip) in [(false, false), (true, false), (true, true)] {
+        for (textures, alpha_clip, tangents) in [
+            (false, false, false),
+            (true, false, false),
+            (true, true, false),
+            (false, false, true),
+            (true, false, true),
+            (true, true, true),
+        ] {
             for lights in subsets(&lights) {
-                let mut bits = lights.iter().map(of).sum::<u32>();
+                let mut bits = lights.iter().map(of).sum::<u64>();
                 bits |= if triangles { bit::TRIANGLES } else { 0 };
                 bits |= if spheres { bit::SPHERES } else { 0 };
                 bits |= if alpha_clip { bit::ALPHA_CLIP } else { 0 };
+                bits |= if tangents { bit::TANGENTS } else { 0 };
                 let possible = lights.iter().all(|kind| match kind {
                     LightKind::Sphere => spheres,
                     LightKind::Rectangle | LightKind::Triangle => triangles,
@@ -205,6 +269,7 @@ fn geometry() -> Family {
                     spheres,
                     lights,
                     alpha_clip,
+                    tangents,
                     textures: formats,
                     ..full
                 };
@@ -220,7 +285,8 @@ fn geometry() -> Family {
         | bit::LIGHT_RECTANGLE
         | bit::LIGHT_TRIANGLE
         | bit::ALPHA_CLIP
-        | FORMATS.iter().map(|row| row.1).sum::<u32>();
+        | bit::TANGENTS
+        | FORMATS.iter().map(|row| row.1).sum::<u64>();
     Family { mask, members }
 }
 

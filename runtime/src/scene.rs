@@ -20,8 +20,16 @@ const BOUND: [(u32, Kind); 5] = [
 ];
 
 /// Small tables that share one buffer, in this order.
-const HEAP: [Kind; 6] =
-    [Kind::CAMERA, Kind::SKY, Kind::MATERIAL, Kind::LIGHT, Kind::TEXTURE, Kind::SRGBLUT];
+const HEAP: [Kind; 8] = [
+    Kind::CAMERA,
+    Kind::SKY,
+    Kind::MATERIAL,
+    Kind::OBJECT,
+    Kind::MEDIUM,
+    Kind::LIGHT,
+    Kind::TEXTURE,
+    Kind::SRGBLUT,
+];
 
 /// Bytes of one window of a section: the largest binding that every device has. Window `w` of binding
 /// `b` is binding `b + 8 w`.
@@ -98,7 +106,8 @@ impl Scene {
             }
             at
         });
-        let [camera_at, sky_at, material_at, light_at, texture_at, srgb_at] = at;
+        let [camera_at, sky_at, material_at, object_at, medium_at, light_at, texture_at, srgb_at] =
+            at;
         // The full kernel asks this number whether there is a sky; a specialised one knows.
         let sky_at = if self.pack.sky().is_some() { sky_at } else { NONE };
         let frame = Frame {
@@ -110,6 +119,8 @@ impl Scene {
             camera_at,
             sky_at,
             material_at,
+            object_at,
+            medium_at,
             light_at,
             texture_at,
             srgb_at,
@@ -167,7 +178,7 @@ impl Setup<'_> {
 
     /// Bits of `pack::features`.
     #[cfg(feature = "gpu")]
-    pub(crate) fn features(&self) -> u32 {
+    pub(crate) fn features(&self) -> u64 {
         self.scene.pack.features()
     }
 

@@ -25,9 +25,9 @@ enum Condition {
     /// For scenes whose feature bits under `mask` are `bits`.
     Features {
         /// The bits that matter.
-        mask: u32,
+        mask: u64,
         /// Their values.
-        bits: u32,
+        bits: u64,
     },
     /// For scenes where the section of this binding has `n` windows.
     Windows {
@@ -42,6 +42,26 @@ enum Condition {
 struct Known {
     text: &'static str,
     condition: Condition,
+}
+
+/// A function that switches over the kinds of materials that a scene has, where there are several: its text
+/// is `head`, the lines of the kinds in order, `foot`.
+struct Switch {
+    head: &'static str,
+    /// Feature bit and line of each kind.
+    cases: &'static [(u64, &'static str)],
+    foot: &'static str,
+}
+
+impl Switch {
+    /// Whether `text` is this function for a scene with `features`.
+    fn is(&self, text: &str, features: u64) -> bool {
+        let mut rest = text.strip_prefix(self.head);
+        for (_, line) in self.cases.iter().filter(|(bit, _)| features & bit != 0) {
+            rest = rest.and_then(|rest| rest.strip_prefix(line));
+        }
+        rest == Some(self.foot)
+    }
 }
 
 include!(concat!(env!("OUT_DIR"), "/known.rs"));
@@ -79,10 +99,13 @@ pub(crate) fn judge(setup: &Setup<'_>) -> Trust {
     Trust::Known
 }
 
-fn is_known(text: &str, features: u32, sections: &[(u32, u64)]) -> bool {
+fn is_known(text: &str, features: u64, sections: &[(u32, u64)]) -> bool {
     // Its size was looked at before.
     if stack_size(text).is_some() {
         return false;
+    }
+    if SWITCHES.iter().any(|switch| switch.is(text, features)) {
+        return true;
     }
     let first = KNOWN.partition_point(|known| known.text < text);
     KNOWN[first..].iter().take_while(|known| known.text == text).any(|known| {
@@ -135,7 +158,7 @@ mod tests {
     #[test]
     fn a_changed_byte_is_noticed() {
         let text = KNOWN.iter().find(|known| known.text.contains("loop")).unwrap().text;
-        let features = (0..1_u32 << 17).find(|features| is_known(text, *features, &[]));
+        let features = (0..1_u64 << 19).find(|features| is_known(text, *features, &[]));
         let features = features.expect("some scene has it");
         assert!(!is_known(&text.replacen("break", "continue", 1), features, &[]));
         assert!(!is_known(&text.replacen(' ', "  ", 1), features, &[]));

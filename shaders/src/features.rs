@@ -29,6 +29,10 @@ pub struct FeatureSet {
     pub textures: BTreeSet<TextureFormat>,
     /// Some material has the flag `ALPHA_CLIP`.
     pub alpha_clip: bool,
+    /// Some material has the flag `TANGENT`.
+    pub tangents: bool,
+    /// Some material has the flag `OBJECT`.
+    pub objects: bool,
     /// Entries of the traversal stack, at least 1: `RenderSettings::stack_need`.
     pub stack_size: u32,
     /// How many bindings each section is split into.
@@ -82,6 +86,8 @@ impl FeatureSet {
             lens: false,
             textures: BTreeSet::new(),
             alpha_clip: false,
+            tangents: false,
+            objects: false,
             stack_size: 1,
             windows: Windows::default(),
         }
@@ -105,6 +111,8 @@ impl FeatureSet {
             ]
             .into(),
             alpha_clip: true,
+            tangents: true,
+            objects: true,
             stack_size: 96,
             windows: Windows::default(),
         }

@@ -20,6 +20,7 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/dispatch_bsdf.wgsl", dispatch::bsdf(features)),
         ("scene/dispatch_light.wgsl", dispatch::light(features)),
         ("scene/leaf.wgsl", traversal::leaf(features)),
+        ("scene/place.wgsl", dispatch::place(features)),
         ("scene/records.wgsl", records::text()),
         ("scene/texel.wgsl", dispatch::texel(features)),
         ("scene/texture.wgsl", dispatch::texture(features)),

@@ -1,8 +1,8 @@
 //! Hand-made records → the generated kernel, in both precisions, so that tests can call any WGSL function.
 
 use bytemuck::Pod;
-use glam::{DVec3, UVec4, Vec3};
-use pack::abi::{Camera, Frame, Light, MaterialKind, NONE, Sphere, TriShade, Triangle};
+use glam::{DVec2, DVec3, UVec4, Vec3};
+use pack::abi::{Camera, Frame, Light, Material, MaterialKind, NONE, Sphere, TriShade, Triangle};
 use runtime::kernel::{f32 as single, f64 as double};
 
 /// What a kernel reads.
@@ -59,6 +59,14 @@ impl Bench {
         self.frame.light_at = self.heap_end();
         self.frame.n_lights = u32::try_from(lights.len()).expect("tests have few lights");
         self.heap.extend(words(lights));
+        self.framed()
+    }
+
+    /// With a table of materials; a [`Lobe`] is the material with index 0.
+    #[must_use]
+    pub fn materials(mut self, materials: &[Material]) -> Self {
+        self.frame.material_at = self.heap_end();
+        self.heap.extend(words(materials));
         self.framed()
     }
 
@@ -145,6 +153,12 @@ pub struct Lobe {
     pub normal: DVec3,
     /// The path comes from the front side.
     pub front: bool,
+    /// Texture coordinates.
+    pub uv: DVec2,
+    /// Where in its object, metres.
+    pub place: DVec3,
+    /// Key of the object.
+    pub key: u32,
 }
 
 impl Lobe {
@@ -160,7 +174,16 @@ impl Lobe {
             ior: 1.5,
             normal: DVec3::new(0.36, -0.48, 0.8),
             front: true,
+            uv: DVec2::new(0.3, 0.6),
+            place: DVec3::new(0.1, -0.7, 0.4),
+            key: 0x9e37_79b9,
         }
+    }
+
+    /// The direction in which u grows: some direction at a right angle to the normal.
+    #[must_use]
+    pub fn tangent(&self) -> DVec3 {
+        self.normal.any_orthonormal_vector()
     }
 
     /// Lambert.
@@ -205,6 +228,11 @@ impl Lobe {
             ns: self.normal.as_vec3(),
             color: Vec3::splat(self.color),
             kind: self.kind as u32,
+            material: 0,
+            tangent: self.tangent().as_vec3(),
+            handed: 1.0,
+            uv: self.uv.as_vec2(),
+            place: single::Place { q: self.place.as_vec3(), key: self.key },
             fuzz: self.fuzz,
             roughness: self.roughness,
             metallic: self.metallic,
@@ -222,6 +250,11 @@ impl Lobe {
             ns: self.normal,
             color: DVec3::splat(f64::from(self.color)),
             kind: self.kind as u32,
+            material: 0,
+            tangent: self.tangent(),
+            handed: 1.0,
+            uv: self.uv,
+            place: double::Place { q: self.place, key: self.key },
             fuzz: f64::from(self.fuzz),
             roughness: f64::from(self.roughness),
             metallic: f64::from(self.metallic),

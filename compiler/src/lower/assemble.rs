@@ -10,11 +10,11 @@ use glam::DVec3;
 use lang::diagnostic::{Code, Diagnostic};
 use lang::scene::{Name, Scene, ToneMap};
 use lang::source::Span;
-use pack::abi;
+use pack::abi::{self, TRI_SMOOTH, material_flag};
 
 use super::geometry::{self, Placement};
 use super::material::{MaterialRef, MaterialTable};
-use super::order::{Declared, order};
+use super::order::{Declared, Ordered, order};
 use super::{Loaded, camera, sky};
 use crate::bvh::{self, BuildReport, BvhError, Joined, Primitives};
 use crate::cache::Cache;
@@ -64,6 +64,8 @@ pub struct Lowered {
     pub shades: Vec<abi::TriShade>,
     /// Spheres in leaf order.
     pub spheres: Vec<abi::Sphere>,
+    /// Things in the world; empty when no material depends on them.
+    pub objects: Vec<abi::Object>,
     /// Materials in use.
     pub materials: Vec<abi::Material>,
     /// Name and place of each material.
@@ -131,7 +133,7 @@ pub fn lower(
 
     let start = Instant::now();
     let declared = Declared { corners, welded, balls };
-    let ordered = order(&placement, &declared, &joined);
+    let mut ordered = order(&placement, &declared, &joined);
     drop(declared);
     counters.triangles = ordered.triangles.len() as u64;
     counters.spheres = ordered.spheres.len() as u64;
@@ -145,6 +147,8 @@ pub fn lower(
     let material_names = names(scene, loaded, materials.refs());
     let render = settings(scene, &frame, &joined, ordered.lights.len());
     let (materials, textures) = materials.into_records();
+    let objects = objects(&placement, &materials, &frame);
+    forget_objects(&objects, &mut ordered);
     let (textures, texels) = textures.into_records();
     Ok(Lowered {
         render,
@@ -154,6 +158,7 @@ pub fn lower(
         triangles: ordered.triangles,
         shades: ordered.shades,
         spheres: ordered.spheres,
+        objects,
         materials,
         material_names,
         lights: ordered.lights,
@@ -163,6 +168,26 @@ pub fn lower(
         times,
         trees,
     })
+}
+
+/// The things of the scene, if any material asks about them.
+fn objects(
+    placement: &Placement,
+    materials: &[abi::Material],
+    frame: &Normalization,
+) -> Vec<abi::Object> {
+    if materials.iter().all(|material| material.flags & material_flag::OBJECT == 0) {
+        return Vec::new();
+    }
+    placement.things.iter().map(|thing| thing.record(frame)).collect()
+}
+
+/// Without a table, every primitive says 0.
+fn forget_objects(objects: &[abi::Object], ordered: &mut Ordered) {
+    if objects.is_empty() {
+        ordered.shades.iter_mut().for_each(|shade| shade.object &= TRI_SMOOTH);
+        ordered.spheres.iter_mut().for_each(|sphere| sphere.object = 0);
+    }
 }
 
 fn darkness(scene: &Scene) -> Diagnostic {

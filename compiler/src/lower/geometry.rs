@@ -6,15 +6,13 @@
 use glam::{DMat3, DVec2, DVec3};
 use lang::diagnostic::{Code, Diagnostic};
 use lang::scene::{Instance, Scene, Shape};
-use pack::abi::{self, LightKind, NONE, material_flag};
+use pack::abi::{self, LightKind, NONE, TRI_SMOOTH, material_flag};
 
 use super::Loaded;
 use super::light::{Emitter, luminance};
 use super::material::{MaterialRef, MaterialTable};
+use super::object::Thing;
 use crate::import::{MeshFile, Part};
-
-/// Bit 0 of `TriShade::flags`.
-const SMOOTH: u32 = 1;
 
 /// Geometry of the whole scene before normalisation, in order of declaration.
 #[derive(Debug, Default)]
@@ -29,6 +27,10 @@ pub struct Placement {
     pub spheres: Vec<(DVec3, f64)>,
     /// Material of every sphere.
     pub sphere_materials: Vec<u32>,
+    /// Object of every sphere.
+    pub sphere_objects: Vec<u32>,
+    /// Things in the world: their instances, then the lights.
+    pub things: Vec<Thing>,
     /// What emits, in order of declaration.
     pub(super) emitters: Vec<Emitter>,
 }
@@ -42,7 +44,10 @@ pub(super) fn place(
 ) -> Placement {
     let mut placement = Placement::default();
     for instance in &scene.instances {
+        let object = placement.things.len() as u32;
+        placement.things.push(Thing::of(instance));
         let mut placer = Placer {
+            object,
             transform: Transform::of(instance),
             instance,
             materials: &mut *materials,
@@ -61,7 +66,10 @@ pub(super) fn place(
     }
     for (index, light) in scene.lights.iter().enumerate() {
         let material = materials.index(MaterialRef::Light(index));
-        placement.add_sphere(DVec3::from(light.center), light.radius, material, materials);
+        let object = placement.things.len() as u32;
+        placement.things.push(Thing::at(light.name.text.clone(), DVec3::from(light.center)));
+        let ball = Ball { center: light.center.into(), radius: light.radius, material, object };
+        placement.add_sphere(&ball, materials);
     }
     placement
 }
@@ -125,8 +133,20 @@ impl Transform {
     }
 }
 
+/// A sphere in the world, metres.
+#[derive(Clone, Copy)]
+struct Ball {
+    center: DVec3,
+    radius: f64,
+    material: u32,
+    /// Index into `Placement::things`.
+    object: u32,
+}
+
 /// One instance on its way into the world.
 struct Placer<'a, 'b> {
+    /// Index into `Placement::things`.
+    object: u32,
     instance: &'a Instance,
     transform: Transform,
     materials: &'a mut MaterialTable<'b>,
@@ -152,7 +172,8 @@ impl Placer<'_, '_> {
         };
         let material = self.material(MaterialRef::Default);
         let center = self.transform.point(DVec3::ZERO);
-        self.placement.add_sphere(center, radius * scale, material, self.materials);
+        let ball = Ball { center, radius: radius * scale, material, object: self.object };
+        self.placement.add_sphere(&ball, self.materials);
     }
 
     fn rectangles(&mut self, faces: &[Parallelogram]) {
@@ -177,6 +198,7 @@ impl Placer<'_, '_> {
                     uv1: uvs[b].as_vec2().to_array(),
                     uv2: uvs[c].as_vec2().to_array(),
                     light: NONE,
+                    object: self.object,
                     ..Default::default()
                 };
                 self.placement.corners.push([corners[a], corners[b], corners[c]]);
@@ -222,7 +244,8 @@ impl Placer<'_, '_> {
             let order = if self.transform.mirrors { [0, 2, 1] } else { [0, 1, 2] };
             let corners = order.map(|k| corners[k]);
             let [uv0, uv1, uv2] = order.map(|k| uvs[k]);
-            let flags = if normals.is_some() { SMOOTH } else { 0 };
+            let smooth = if normals.is_some() { TRI_SMOOTH } else { 0 };
+            let object = self.object | smooth;
             let normals = normals.map_or([0; 3], |normals| order.map(|k| normals[k]));
             if let Some(radiance) = emits {
                 let [a, b, c] = corners;
@@ -235,20 +258,15 @@ impl Placer<'_, '_> {
                 });
             }
             self.placement.corners.push(corners);
-            let shade = abi::TriShade { normals, material, uv0, uv1, uv2, light: NONE, flags };
+            let shade = abi::TriShade { normals, material, uv0, uv1, uv2, light: NONE, object };
             self.placement.shades.push(shade);
         }
     }
 }
 
 impl Placement {
-    fn add_sphere(
-        &mut self,
-        center: DVec3,
-        radius: f64,
-        material: u32,
-        materials: &MaterialTable<'_>,
-    ) {
+    fn add_sphere(&mut self, ball: &Ball, materials: &MaterialTable<'_>) {
+        let Ball { center, radius, material, object } = *ball;
         if let Some(radiance) = emits(material, materials) {
             self.emitters.push(Emitter {
                 kind: LightKind::Sphere,
@@ -260,6 +278,7 @@ impl Placement {
         }
         self.spheres.push((center, radius));
         self.sphere_materials.push(material);
+        self.sphere_objects.push(object);
     }
 
     /// Takes triangles out. A rectangle that loses one of its two is no longer a rectangle light.

@@ -240,6 +240,13 @@ fn blank(kind: MaterialKind) -> abi::Material {
         emission_texture: NONE,
         metallic_roughness_texture: NONE,
         alpha_texture: NONE,
+        normal_texture: NONE,
+        normal_strength: 1.0,
+        medium: NONE,
+        specular: 1.0,
+        specular_texture: NONE,
+        coat_texture: NONE,
+        transmission_texture: NONE,
         ..Default::default()
     };
     with_ior(base, 1.5)

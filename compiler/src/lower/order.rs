@@ -32,7 +32,8 @@ pub(super) fn order(placement: &Placement, declared: &Declared, joined: &Joined)
     let sphere = |&i: &u32| {
         let (center, radius) = declared.balls[i as usize];
         let material = placement.sphere_materials[i as usize];
-        abi::Sphere { center, radius, material, light: NONE, _pad0: 0, _pad1: 0 }
+        let object = placement.sphere_objects[i as usize];
+        abi::Sphere { center, radius, material, light: NONE, object, _pad0: 0 }
     };
     let shade = |&i: &u32| placement.shades[i as usize];
     let mut ordered = Ordered {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use pack::abi::{LightKind, MaterialKind, SkyKind, TextureFormat, material_flag};
+use pack::abi::{LightKind, MaterialKind, SkyKind, TRI_SMOOTH, TextureFormat, material_flag};
 use shaders::{FeatureSet, WINDOW_WORDS, Windows};
 
 use crate::lower::Lowered;
@@ -17,7 +17,7 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
     FeatureSet {
         triangles: !lowered.triangles.is_empty(),
         spheres: !lowered.spheres.is_empty(),
-        smooth_normals: lowered.shades.iter().any(|shade| shade.flags & 1 != 0),
+        smooth_normals: lowered.shades.iter().any(|shade| shade.object & TRI_SMOOTH != 0),
         materials: MaterialKind::ALL
             .into_iter()
             .filter(|kind| materials.iter().any(|m| m.kind == *kind as u32))
@@ -33,6 +33,8 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
             .filter(|format| lowered.textures.iter().any(|t| t.format == *format as u32))
             .collect(),
         alpha_clip: materials.iter().any(|m| m.flags & material_flag::ALPHA_CLIP != 0),
+        tangents: materials.iter().any(|m| m.flags & material_flag::TANGENT != 0),
+        objects: materials.iter().any(|m| m.flags & material_flag::OBJECT != 0),
         stack_size: lowered.render.stack_need.max(1),
         windows: Windows {
             node: words(size_of_val(lowered.nodes.as_slice())),
@@ -62,6 +64,8 @@ pub(super) fn explain(features: &FeatureSet, lowered: &Lowered) -> (Reasons, Rea
         row("lens", features.lens, "the aperture is open".to_owned()),
         row("alpha clip", features.alpha_clip, "a material cuts out by alpha".to_owned()),
     ];
+    rows.push(row("tangents", features.tangents, "a material has a direction".to_owned()));
+    rows.push(row("objects", features.objects, "a material depends on the thing".to_owned()));
     for kind in MaterialKind::ALL {
         let users: Vec<&str> = (lowered.materials.iter().zip(&lowered.material_names))
             .filter(|(material, _)| material.kind == kind as u32)

@@ -14,6 +14,8 @@ mod frame;
 mod geometry;
 mod light;
 mod material;
+mod medium;
+mod object;
 mod render;
 mod sky;
 mod texture;
@@ -23,10 +25,13 @@ pub use field::{AbiRecord, Field, FieldType};
 pub use film::FilmPixel;
 pub use frame::Frame;
 pub use geometry::{
-    CHILD_INNER, CHILD_SPHERES, ChildRef, MAX_DEPTH, MAX_LEAF, Node, Sphere, TriShade, Triangle,
+    CHILD_INNER, CHILD_SPHERES, ChildRef, MAX_DEPTH, MAX_LEAF, Node, Sphere, TRI_SMOOTH, TriShade,
+    Triangle,
 };
 pub use light::{Light, LightKind};
 pub use material::{Material, MaterialKind, material_flag};
+pub use medium::Medium;
+pub use object::Object;
 pub use render::{RenderSettings, ToneMap, f64_bits, f64_from_bits};
 pub use sky::{Sky, SkyKind};
 pub use texture::{Texture, TextureFormat, Wrap};
@@ -57,7 +62,9 @@ pub fn records() -> Vec<(&'static str, &'static [Field], usize)> {
         row::<Triangle>(),
         row::<TriShade>(),
         row::<Sphere>(),
+        row::<Object>(),
         row::<Material>(),
+        row::<Medium>(),
         row::<Light>(),
         row::<Texture>(),
         row::<FilmPixel>(),

@@ -24,7 +24,7 @@ use rules::{Broken, Ruled};
 const CHUNK: usize = 1 << 14;
 
 /// Checks everything; `features` are the header's.
-pub(crate) fn contents(contents: &Contents<'_>, features: u32) -> Result<(), PackError> {
+pub(crate) fn contents(contents: &Contents<'_>, features: u64) -> Result<(), PackError> {
     sections(contents)?;
     let (records, tree) = rayon::join(|| records(contents), || tree::check(contents));
     records.and(tree)?;
@@ -89,6 +89,8 @@ fn records(contents: &Contents<'_>) -> Result<(), PackError> {
     each(contents.shades, contents)?;
     each(contents.spheres, contents)?;
     each(contents.materials, contents)?;
+    each(contents.objects, contents)?;
+    each(contents.media, contents)?;
     each(contents.lights, contents)?;
     light_table(contents)?;
     each(contents.textures, contents)?;

@@ -4,7 +4,8 @@
 //! through this view, so both check and derive the same things. It judges nothing.
 
 use crate::abi::{
-    Camera, Light, Material, Node, RenderSettings, Sky, Sphere, Texture, TriShade, Triangle,
+    Camera, Light, Material, Medium, Node, Object, RenderSettings, Sky, Sphere, Texture, TriShade,
+    Triangle,
 };
 use crate::error::PackError;
 use crate::kind::{Kind, PackRecord};
@@ -20,6 +21,8 @@ pub(crate) struct Contents<'a> {
     pub(crate) shades: &'a [TriShade],
     pub(crate) spheres: &'a [Sphere],
     pub(crate) materials: &'a [Material],
+    pub(crate) objects: &'a [Object],
+    pub(crate) media: &'a [Medium],
     pub(crate) lights: &'a [Light],
     pub(crate) textures: &'a [Texture],
     pub(crate) texels: &'a [[u32; 4]],
@@ -43,6 +46,8 @@ impl<'a> Contents<'a> {
             shades: records(&find),
             spheres: records(&find),
             materials: records(&find),
+            objects: records(&find),
+            media: records(&find),
             lights: records(&find),
             textures: records(&find),
             texels: find(Kind::TEXEL).map_or(&[], bytemuck::cast_slice),
@@ -59,6 +64,8 @@ impl<'a> Contents<'a> {
             Kind::TRISHADE => self.shades.len(),
             Kind::SPHERE => self.spheres.len(),
             Kind::MATERIAL => self.materials.len(),
+            Kind::OBJECT => self.objects.len(),
+            Kind::MEDIUM => self.media.len(),
             Kind::LIGHT => self.lights.len(),
             Kind::TEXTURE => self.textures.len(),
             Kind::TEXEL => self.texels.len(),

@@ -36,18 +36,18 @@ pub enum HeaderFault {
         expected: u16,
     },
     /// Unknown feature bits.
-    #[error("unknown features {bits:#010x}: the pack needs a newer program")]
+    #[error("unknown features {bits:#018x}: the pack needs a newer program")]
     UnknownFeatures {
         /// The unknown ones.
-        bits: u32,
+        bits: u64,
     },
     /// Features that are not those of the contents.
-    #[error("features are {found:#010x}, but the contents have {expected:#010x}")]
+    #[error("features are {found:#018x}, but the contents have {expected:#018x}")]
     Features {
         /// In the header.
-        found: u32,
+        found: u64,
         /// Derived.
-        expected: u32,
+        expected: u64,
     },
     /// Other records.
     #[error(

@@ -1,6 +1,6 @@
 //! Feature bits of the header: which kinds of things a pack holds.
 //!
-//! Turns the contents into 32 bits. The bits are derived, never chosen: writer and reader compute
+//! Turns the contents into 64 bits. The bits are derived, never chosen: writer and reader compute
 //! them with the same function, so a pack cannot claim what it does not hold. A reader refuses
 //! bits that it does not know.
 
@@ -8,42 +8,46 @@ use crate::abi::{LightKind, MaterialKind, SkyKind, TextureFormat, material_flag}
 use crate::contents::Contents;
 
 /// Has triangles.
-pub const TRIANGLES: u32 = 1 << 0;
+pub const TRIANGLES: u64 = 1 << 0;
 /// Has spheres.
-pub const SPHERES: u32 = 1 << 1;
+pub const SPHERES: u64 = 1 << 1;
 /// Has a sphere among its lights.
-pub const LIGHT_SPHERE: u32 = 1 << 2;
+pub const LIGHT_SPHERE: u64 = 1 << 2;
 /// Has a rectangle among its lights.
-pub const LIGHT_RECTANGLE: u32 = 1 << 3;
+pub const LIGHT_RECTANGLE: u64 = 1 << 3;
 /// Has a triangle among its lights.
-pub const LIGHT_TRIANGLE: u32 = 1 << 4;
+pub const LIGHT_TRIANGLE: u64 = 1 << 4;
 /// Has a constant sky.
-pub const SKY_CONSTANT: u32 = 1 << 5;
+pub const SKY_CONSTANT: u64 = 1 << 5;
 /// Has a gradient sky.
-pub const SKY_GRADIENT: u32 = 1 << 6;
+pub const SKY_GRADIENT: u64 = 1 << 6;
 /// Has a texture in 8-bit sRGB.
-pub const TEXTURE_RGBA8_SRGB: u32 = 1 << 7;
+pub const TEXTURE_RGBA8_SRGB: u64 = 1 << 7;
 /// Has a texture in linear 8-bit.
-pub const TEXTURE_RGBA8_LINEAR: u32 = 1 << 8;
+pub const TEXTURE_RGBA8_LINEAR: u64 = 1 << 8;
 /// Has a texture in half floats.
-pub const TEXTURE_RGBA16_FLOAT: u32 = 1 << 9;
+pub const TEXTURE_RGBA16_FLOAT: u64 = 1 << 9;
 /// Has a diffuse material.
-pub const MATERIAL_DIFFUSE: u32 = 1 << 10;
+pub const MATERIAL_DIFFUSE: u64 = 1 << 10;
 /// Has a metal material.
-pub const MATERIAL_METAL: u32 = 1 << 11;
+pub const MATERIAL_METAL: u64 = 1 << 11;
 /// Has a dielectric material.
-pub const MATERIAL_DIELECTRIC: u32 = 1 << 12;
+pub const MATERIAL_DIELECTRIC: u64 = 1 << 12;
 /// Has an emissive material.
-pub const MATERIAL_EMISSIVE: u32 = 1 << 13;
+pub const MATERIAL_EMISSIVE: u64 = 1 << 13;
 /// Has a principled material.
-pub const MATERIAL_PRINCIPLED: u32 = 1 << 14;
+pub const MATERIAL_PRINCIPLED: u64 = 1 << 14;
 /// Has a material with alpha clipping.
-pub const ALPHA_CLIP: u32 = 1 << 15;
+pub const ALPHA_CLIP: u64 = 1 << 15;
 /// The camera has a lens with a radius.
-pub const LENS: u32 = 1 << 16;
+pub const LENS: u64 = 1 << 16;
+/// Has a material that depends on the tangent.
+pub const TANGENTS: u64 = 1 << 17;
+/// Has a material that depends on the object.
+pub const OBJECTS: u64 = 1 << 18;
 
 /// Every bit with its name, in bit order.
-pub const NAMES: [(u32, &str); 17] = [
+pub const NAMES: [(u64, &str); 19] = [
     (TRIANGLES, "triangles"),
     (SPHERES, "spheres"),
     (LIGHT_SPHERE, "sphere lights"),
@@ -61,21 +65,23 @@ pub const NAMES: [(u32, &str); 17] = [
     (MATERIAL_PRINCIPLED, "principled"),
     (ALPHA_CLIP, "alpha clipping"),
     (LENS, "lens"),
+    (TANGENTS, "tangents"),
+    (OBJECTS, "objects"),
 ];
 
 /// All bits that this reader knows.
-pub const KNOWN: u32 = (1 << NAMES.len()) - 1;
+pub const KNOWN: u64 = (1 << NAMES.len()) - 1;
 
 /// Names of the bits that are set, in bit order; unknown bits are left out.
 #[must_use]
-pub fn names(features: u32) -> Vec<&'static str> {
+pub fn names(features: u64) -> Vec<&'static str> {
     NAMES.iter().filter(|(bit, _)| features & bit != 0).map(|(_, name)| *name).collect()
 }
 
 /// The bits of these contents; unknown tags, which the checks refuse, set none.
-pub(crate) fn of(contents: &Contents<'_>) -> u32 {
+pub(crate) fn of(contents: &Contents<'_>) -> u64 {
     let mut bits = 0;
-    let mut set = |bit: u32, present: bool| bits |= if present { bit } else { 0 };
+    let mut set = |bit: u64, present: bool| bits |= if present { bit } else { 0 };
     set(TRIANGLES, !contents.triangles.is_empty());
     set(SPHERES, !contents.spheres.is_empty());
     set(LENS, contents.camera.lens_radius > 0.0);
@@ -100,6 +106,8 @@ pub(crate) fn of(contents: &Contents<'_>) -> u32 {
         set(MATERIAL_EMISSIVE, material.kind == MaterialKind::Emissive as u32);
         set(MATERIAL_PRINCIPLED, material.kind == MaterialKind::Principled as u32);
         set(ALPHA_CLIP, material.flags & material_flag::ALPHA_CLIP != 0);
+        set(TANGENTS, material.flags & material_flag::TANGENT != 0);
+        set(OBJECTS, material.flags & material_flag::OBJECT != 0);
     }
     bits
 }

@@ -10,7 +10,7 @@ use crate::abi::{self, AbiRecord, Field};
 /// transfers that are not 8-bit clean or that rewrite line ends.
 pub const MAGIC: [u8; 8] = *b"\x89RTP\r\n\x1a\n";
 /// Refused when different: layout or meaning changed, compile the scene again.
-pub const FORMAT_MAJOR: u16 = 1;
+pub const FORMAT_MAJOR: u16 = 2;
 /// A newer minor format only adds sections that may be skipped.
 pub const FORMAT_MINOR: u16 = 0;
 
@@ -39,10 +39,10 @@ pub(crate) struct Header {
     pub(crate) entry_len: u32,
     pub(crate) table_off: u64,
     pub(crate) section_count: u32,
-    pub(crate) features: u32,
-    pub(crate) file_len: u64,
     pub(crate) layout_id: u32,
-    pub(crate) zero: [u32; 3],
+    pub(crate) file_len: u64,
+    pub(crate) features: u64,
+    pub(crate) zero: [u32; 2],
     pub(crate) render_id: [u8; 32],
     pub(crate) recipe_id: [u8; 32],
 }
@@ -93,7 +93,7 @@ fn layout_listing() -> String {
 }
 
 /// The name of what is rendered: everything that can change a pixel, and nothing else.
-pub(crate) fn render_id(features: u32, entries: &[Entry]) -> [u8; 32] {
+pub(crate) fn render_id(features: u64, entries: &[Entry]) -> [u8; 32] {
     let mut hasher = blake3::Hasher::new();
     hasher.update(&FORMAT_MAJOR.to_le_bytes());
     hasher.update(&features.to_le_bytes());
@@ -135,9 +135,9 @@ mod tests {
             offset_of!(Header, endian),
             offset_of!(Header, table_off),
             offset_of!(Header, section_count),
-            offset_of!(Header, features),
-            offset_of!(Header, file_len),
             offset_of!(Header, layout_id),
+            offset_of!(Header, file_len),
+            offset_of!(Header, features),
             offset_of!(Header, render_id),
             offset_of!(Header, recipe_id),
         ];
@@ -166,7 +166,7 @@ mod tests {
     #[test]
     fn the_listing_names_every_field_of_every_record() {
         let listing = layout_listing();
-        assert!(listing.starts_with("Frame 80\n  0 tile_origin vec2<u32>\n"));
+        assert!(listing.starts_with("Frame 96\n  0 tile_origin vec2<u32>\n"));
         assert!(listing.contains("\nRenderSettings 96\n  0 image_size vec2<u32>\n"));
     }
 }

@@ -28,6 +28,10 @@ impl Kind {
     pub const SPHERE: Self = Self(*b"SPHERE  ");
     /// [`abi::Material`]s.
     pub const MATERIAL: Self = Self(*b"MATERIAL");
+    /// [`abi::Object`]s; absent when nothing depends on them.
+    pub const OBJECT: Self = Self(*b"OBJECT  ");
+    /// [`abi::Medium`]s.
+    pub const MEDIUM: Self = Self(*b"MEDIUM  ");
     /// [`abi::Light`]s: the selection table.
     pub const LIGHT: Self = Self(*b"LIGHT   ");
     /// [`abi::Texture`]s.
@@ -118,7 +122,7 @@ pub(crate) const MAX_META: usize = 16 << 20;
 pub(crate) const SRGB_WORDS: u64 = 64;
 
 /// Every section of this format, in file order.
-pub const SECTIONS: [SectionSpec; 14] = [
+pub const SECTIONS: [SectionSpec; 16] = [
     one(Kind::RENDER, size_of::<abi::RenderSettings>(), true),
     one(Kind::CAMERA, size_of::<abi::Camera>(), true),
     one(Kind::SKY, size_of::<abi::Sky>(), false),
@@ -128,6 +132,8 @@ pub const SECTIONS: [SectionSpec; 14] = [
     table(Kind::TRISHADE, size_of::<abi::TriShade>(), MAX_PRIMITIVES),
     table(Kind::SPHERE, size_of::<abi::Sphere>(), MAX_PRIMITIVES),
     table(Kind::MATERIAL, size_of::<abi::Material>(), 1 << 24),
+    table(Kind::OBJECT, size_of::<abi::Object>(), 1 << 24),
+    table(Kind::MEDIUM, size_of::<abi::Medium>(), 1 << 16),
     table(Kind::LIGHT, size_of::<abi::Light>(), 1 << 24),
     table(Kind::TEXTURE, size_of::<abi::Texture>(), 1 << 20),
     // `Texture::offset` is a `u32` that counts words.
@@ -150,5 +156,6 @@ macro_rules! pack_records {
 }
 pack_records! {
     RenderSettings => RENDER, Camera => CAMERA, Sky => SKY, Node => NODE, Triangle => TRIANGLE,
-    TriShade => TRISHADE, Sphere => SPHERE, Material => MATERIAL, Light => LIGHT, Texture => TEXTURE,
+    TriShade => TRISHADE, Sphere => SPHERE, Material => MATERIAL, Object => OBJECT,
+    Medium => MEDIUM, Light => LIGHT, Texture => TEXTURE,
 }

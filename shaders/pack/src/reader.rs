@@ -158,7 +158,7 @@ impl Pack<Checked> {
 
     /// Bits of [`crate::features`].
     #[must_use]
-    pub fn features(&self) -> u32 {
+    pub fn features(&self) -> u64 {
         self.state.table.header.features
     }
 

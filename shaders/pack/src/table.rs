@@ -62,13 +62,12 @@ fn header_fault(header: &Header, file_len: u64) -> Option<HeaderFault> {
     if header.layout_id != layout_id() {
         return Some(HeaderFault::Layout { found: header.layout_id, expected: layout_id() });
     }
-    let fixed: [(&'static str, u64, u64); 6] = [
+    let fixed: [(&'static str, u64, u64); 5] = [
         ("header_len", header.header_len.into(), HEADER_LEN as u64),
         ("entry_len", header.entry_len.into(), ENTRY_LEN as u64),
         ("table_off", header.table_off, HEADER_LEN as u64),
         ("reserved field 0", header.zero[0].into(), 0),
         ("reserved field 1", header.zero[1].into(), 0),
-        ("reserved field 2", header.zero[2].into(), 0),
     ];
     for (field, found, expected) in fixed {
         if found != expected {

@@ -191,7 +191,7 @@ struct Plan<'a> {
 impl<'a> Plan<'a> {
     fn new(
         sections: Vec<(&'static SectionSpec, &'a [u8])>,
-        features: u32,
+        features: u64,
         recipe_id: [u8; 32],
     ) -> Self {
         let hashes: Vec<[u8; 16]> =
@@ -227,7 +227,7 @@ impl<'a> Plan<'a> {
             features,
             file_len: end,
             layout_id: layout_id(),
-            zero: [0; 3],
+            zero: [0; 2],
             render_id: render_id(features, &entries),
             recipe_id,
         };

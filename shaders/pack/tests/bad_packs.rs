@@ -71,7 +71,7 @@ const fn entry(index: usize) -> usize {
 // Rows of the full pack's table.
 const SKY: usize = 2;
 const NODE: usize = 3;
-const META: usize = 13;
+const META: usize = 15;
 
 /// What the table or the header has wrong.
 fn header_cases() -> Vec<Case> {
@@ -88,25 +88,25 @@ fn header_cases() -> Vec<Case> {
         (Raw(|b| b[12..16].reverse()), "header: byte order tag is 0x04030201, expected 0x01020304"),
         (
             Raw(|b| b[8] = 9),
-            "header: format 9, this program reads format 1: compile the scene again: \
+            "header: format 9, this program reads format 2: compile the scene again: \
              rtc X -o X.pack",
         ),
         (
-            Raw(|b| b[39] = 0x80),
-            "header: unknown features 0x80000000: the pack needs a newer program",
+            Raw(|b| b[55] = 0x80),
+            "header: unknown features 0x8000000000000000: the pack needs a newer program",
         ),
         (Raw(|b| put32(b, 16, 129)), "header: header_len is 129, expected 128"),
         (Raw(|b| put32(b, 20, 65)), "header: entry_len is 65, expected 64"),
         (Raw(|b| put64(b, 24, 1 << 40)), "header: table_off is 1099511627776, expected 128"),
-        (Raw(|b| b[52] = 1), "header: reserved field 0 is 1, expected 0"),
-        (Raw(|b| b[63] = 1), "header: reserved field 2 is 16777216, expected 0"),
+        (Raw(|b| b[56] = 1), "header: reserved field 0 is 1, expected 0"),
+        (Raw(|b| b[63] = 1), "header: reserved field 1 is 16777216, expected 0"),
         (
             Raw(|b| put64(b, 40, 1000)),
-            "header: the header says 1000 bytes, the file has 57398: bytes follow the pack",
+            "header: the header says 1000 bytes, the file has 65590: bytes follow the pack",
         ),
         (
             Raw(|b| b.truncate(8192)),
-            "header: the header says 57398 bytes, the file has 8192: truncated",
+            "header: the header says 65590 bytes, the file has 8192: truncated",
         ),
         (Raw(|b| put32(b, 32, 0)), "header: 0 sections, expected 1 to 256"),
         (Raw(|b| put32(b, 32, u32::MAX)), "header: 4294967295 sections, expected 1 to 256"),
@@ -115,7 +115,7 @@ fn header_cases() -> Vec<Case> {
                 b.truncate(200);
                 put64(b, 40, 200);
             }),
-            "header: the section table needs 1024 bytes, the file has 200",
+            "header: the section table needs 1152 bytes, the file has 200",
         ),
         (
             Table(|b| {
@@ -123,17 +123,17 @@ fn header_cases() -> Vec<Case> {
                 let len = b.len() as u64;
                 put64(b, 40, len);
             }),
-            "header: the last section ends at byte 0xe036, the file at byte 0xe037",
+            "header: the last section ends at byte 0x10036, the file at byte 0x10037",
         ),
         (Raw(|b| b[64] ^= 1), "header: render_id does not match the section table"),
         (Raw(|b| b[entry(NODE) + 48] ^= 1), "header: render_id does not match the section table"),
         (
-            Table(|b| b[36] ^= 1),
-            "header: features are 0x0001ffde, but the contents have 0x0001ffdf",
+            Table(|b| b[48] ^= 1),
+            "header: features are 0x000000000007ffde, but the contents have 0x000000000007ffdf",
         ),
         (
-            Parts(|d| put32(&mut d.header, 36, 0)),
-            "header: features are 0x00000000, but the contents have 0x0001ffdf",
+            Parts(|d| put32(&mut d.header, 48, 0)),
+            "header: features are 0x0000000000000000, but the contents have 0x000000000007ffdf",
         ),
     ]
 }
@@ -148,7 +148,7 @@ fn header_rules() {
 fn another_record_layout_is_refused() {
     let mut bytes = Scene::full().bytes();
     let here = pack::layout_id();
-    put32(&mut bytes, 48, here ^ 1);
+    put32(&mut bytes, 36, here ^ 1);
     let text = Pack::from_bytes(bytes).unwrap_err().to_string();
     let expected = format!(
         "header: record layout {:#010x}, this program has {here:#010x}: compile the scene again: \
@@ -168,11 +168,11 @@ fn name_cases() -> Vec<Case> {
         ),
         (
             Table(|b| put(b, entry(META), *b"MELA    ")),
-            "section MELA (entry 13): unknown section in format 1.0",
+            "section MELA (entry 15): unknown section in format 2.0",
         ),
         (
             Table(|b| b[entry(META)] = 0xff),
-            "section 0x20202020415445ff (entry 13): the name is not ASCII",
+            "section 0x20202020415445ff (entry 15): the name is not ASCII",
         ),
         (
             Parts(|d| d.sections.swap(0, 1)),
@@ -196,7 +196,7 @@ fn name_cases() -> Vec<Case> {
         ),
         (
             Table(|b| put32(b, entry(META) + 12, 1)),
-            "section META (entry 13): flags are 0x1, expected 0x0",
+            "section META (entry 15): flags are 0x1, expected 0x0",
         ),
         (
             Table(|b| b[entry(NODE) + 36] = 1),
@@ -222,15 +222,15 @@ fn range_cases() -> Vec<Case> {
         ),
         (
             Parts(|d| d.section(Kind::SRGBLUT).truncate(16)),
-            "section SRGBLUT (entry 11): 1 elements, expected 64 to 64",
+            "section SRGBLUT (entry 13): 1 elements, expected 64 to 64",
         ),
         (
             Parts(|d| d.section(Kind::KERNEL).resize((4 << 20) + 1, b' ')),
-            "section KERNEL (entry 12): 4194305 elements, expected 1 to 4194304",
+            "section KERNEL (entry 14): 4194305 elements, expected 1 to 4194304",
         ),
         (
             Parts(|d| d.section(Kind::META).resize((16 << 20) + 1, 0)),
-            "section META (entry 13): 16777217 elements, expected 1 to 16777216",
+            "section META (entry 15): 16777217 elements, expected 1 to 16777216",
         ),
         (
             Table(|b| put64(b, entry(NODE) + 40, 1 << 62)),
@@ -254,9 +254,9 @@ fn range_cases() -> Vec<Case> {
                 put64(b, entry(NODE) + 40, 1 << 20);
             }),
             "section NODE (entry 3): 67108864 bytes at 0x4000 reach beyond the end of the file at \
-             0xe036",
+             0x10036",
         ),
-        (Table(|b| b[1024] = 7), "byte 0x400: padding must be zero, found 0x07"),
+        (Table(|b| b[1152] = 7), "byte 0x480: padding must be zero, found 0x07"),
         (Table(|b| b[0xdfff] = 255), "byte 0xdfff: padding must be zero, found 0xff"),
     ]
 }

@@ -147,7 +147,7 @@ fn the_file_has_the_published_layout() {
     assert_eq!(common::get64(&bytes, 24), 128);
     assert_eq!(common::get32(&bytes, 32), 3);
     assert_eq!(common::get64(&bytes, 40), bytes.len() as u64);
-    assert_eq!(common::get32(&bytes, 48), pack::layout_id());
+    assert_eq!(common::get32(&bytes, 36), pack::layout_id());
     assert_eq!(&bytes[128..136], b"RENDER  ");
     assert_eq!(common::get64(&bytes, 128 + 16), 4096);
     assert_eq!(common::get64(&bytes, 128 + 24), 96);

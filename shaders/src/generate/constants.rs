@@ -2,8 +2,8 @@
 
 use crate::FeatureSet;
 use pack::abi::{
-    CHILD_INNER, CHILD_SPHERES, ChildRef, LightKind, MaterialKind, NONE, SkyKind, TextureFormat,
-    Wrap, material_flag,
+    CHILD_INNER, CHILD_SPHERES, ChildRef, LightKind, MaterialKind, NONE, SkyKind, TRI_SMOOTH,
+    TextureFormat, Wrap, material_flag,
 };
 use std::fmt::Write as _;
 
@@ -27,6 +27,9 @@ pub(crate) fn text(features: &FeatureSet) -> String {
         ("MATERIAL_PRINCIPLED", MaterialKind::Principled as u32),
         ("FLAG_EMIT_BOTH_SIDES", material_flag::EMIT_BOTH_SIDES),
         ("FLAG_ALPHA_CLIP", material_flag::ALPHA_CLIP),
+        ("FLAG_TANGENT", material_flag::TANGENT),
+        ("FLAG_OBJECT", material_flag::OBJECT),
+        ("TRI_SMOOTH", TRI_SMOOTH),
         ("LIGHT_SPHERE", LightKind::Sphere as u32),
         ("LIGHT_RECTANGLE", LightKind::Rectangle as u32),
         ("LIGHT_TRIANGLE", LightKind::Triangle as u32),

@@ -39,6 +39,7 @@ pub(crate) fn path(features: &FeatureSet) -> String {
     text += &sky(features);
     if features.geometry() {
         text += &surface(features);
+        text += &tangent(features);
         text += &direct(features);
     }
     text
@@ -104,6 +105,48 @@ fn surface(features: &FeatureSet) -> String {
         "\n// The surface that the ray from `origin` along `dir` has hit.\n\
          fn dispatch_surface(hit: Hit, origin: vec3f, dir: vec3f) -> Surface {{\n{body}}}\n"
     )
+}
+
+fn tangent(features: &FeatureSet) -> String {
+    let mut body = String::new();
+    if features.tangents && features.geometry() {
+        body += "    if ((flags & FLAG_TANGENT) == 0u) {\n        return;\n    }\n";
+        let sphere = "(*s).tangent = sphere_tangent(select(-(*s).ng, (*s).ng, (*s).front));";
+        let triangle = "let t = triangle_tangent(hit.prim);\n    (*s).tangent = t.xyz;\n    \
+                        (*s).handed = select(-t.w, t.w, (*s).front);";
+        body += &match (features.spheres, features.triangles) {
+            (true, true) => format!(
+                "    if ((hit.prim & PRIM_SPHERE) != 0u) {{\n        {sphere}\n        \
+                 (*s).handed = select(-1.0, 1.0, (*s).front);\n        return;\n    }}\n    {triangle}\n"
+            ),
+            (true, false) => {
+                format!("    {sphere}\n    (*s).handed = select(-1.0, 1.0, (*s).front);\n")
+            }
+            _ => format!("    {triangle}\n"),
+        };
+    }
+    format!(
+        "\n// Finds the direction in which u grows, for materials whose flags ask for it.\n\
+         fn dispatch_tangent(s: ptr<function, Surface>, hit: Hit, flags: u32) {{\n{body}}}\n"
+    )
+}
+
+/// Where a point is in its object, if any material asks.
+pub(crate) fn place(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: whether this scene has objects.\n\n");
+    text += &imports(["scene/constants.wgsl", "surface/place.wgsl"]);
+    let body = if features.objects {
+        "    if ((flags & FLAG_OBJECT) != 0u) {\n        return place_at(object, p);\n    }\n"
+    } else {
+        ""
+    };
+    let _ = write!(
+        text,
+        "\n// Point `p` in its object, for materials whose flags ask for it; otherwise the origin.\n\
+         fn dispatch_place(object: u32, flags: u32, p: vec3f) -> Place {{\n{body}    \
+         return Place(vec3f(0.0), 0u);\n}}\n"
+    );
+    text
 }
 
 fn direct(features: &FeatureSet) -> String {

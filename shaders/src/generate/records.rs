@@ -42,6 +42,8 @@ const TABLES: &[Table] = &[
     section("Triangle", "triangle", "tri_word", "abi/triangle.wgsl"),
     section("TriShade", "tri_shade", "shade_word", "abi/tri_shade.wgsl"),
     section("Sphere", "sphere", "sphere_word", "abi/sphere.wgsl"),
+    heap("Object", "object", "abi/object.wgsl", "object_at"),
+    heap("Medium", "medium", "abi/medium.wgsl", "medium_at"),
     heap("Material", "material", "abi/material.wgsl", "material_at"),
     heap("Light", "light", "abi/light.wgsl", "light_at"),
     heap("Texture", "texture", "abi/texture.wgsl", "texture_at"),

@@ -24,6 +24,10 @@ struct Frame {
     sky_at: u32,
     // First heap word of the `Material` table.
     material_at: u32,
+    // First heap word of the `Object` table.
+    object_at: u32,
+    // First heap word of the `Medium` table.
+    medium_at: u32,
     // First heap word of the `Light` table.
     light_at: u32,
     // First heap word of the `Texture` table.
@@ -34,4 +38,5 @@ struct Frame {
     root: u32,
     // Estimator switch for tests: 0 MIS (balance), 1 light samples only, 2 BSDF samples only.
     estimator: u32,
+    _pad0: vec2<u32>,
 }

@@ -8,6 +8,7 @@ struct Sphere {
     material: u32,
     // Index of the `Light`, or `NONE`.
     light: u32,
+    // Index of the `Object`.
+    object: u32,
     _pad0: u32,
-    _pad1: u32,
 }

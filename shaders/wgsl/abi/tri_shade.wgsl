@@ -13,6 +13,7 @@ struct TriShade {
     uv2: vec2<f32>,
     // Index of the `Light` this triangle belongs to, or `NONE`.
     light: u32,
-    // Bit 0: interpolate `normals`; otherwise the triangle is flat.
-    flags: u32,
+    // Bits 0-30: index of the `Object`. Bit 31, `TRI_SMOOTH`: interpolate `normals`;
+    // otherwise the triangle is flat.
+    object: u32,
 }

@@ -2,7 +2,9 @@
 
 #import "abi/material.wgsl"
 #import "math/vector.wgsl"
+#import "scene/place.wgsl"
 #import "scene/texture.wgsl"
+#import "surface/place.wgsl"
 #import "surface/surface.wgsl"
 
 // World frame; colours linear Rec. 709.
@@ -14,8 +16,16 @@ struct Scatter {
     color: vec3f,
     // `MaterialKind`.
     kind: u32,
+    // Index of the `Material`, for what only one model reads.
+    material: u32,
+    // Unit, along which u grows, and the sign of v, as in `Surface`; only for materials that ask.
+    tangent: vec3f,
+    handed: f32,
+    uv: vec2f,
+    // The point in its object, and the object's key; only for materials that ask.
+    place: Place,
     fuzz: f32,
-    // Principled: perceptual roughness and metallic weight, textures applied.
+    // Perceptual roughness and metallic weight, textures applied.
     roughness: f32,
     metallic: f32,
     // Refractive index of the inside over the outside, and the same less one.
@@ -41,7 +51,8 @@ fn scatter_at(m: Material, s: Surface) -> Scatter {
     let color = m.color * texture_fetch(m.color_texture, s.uv).xyz;
     let mr = texture_fetch(m.metallic_roughness_texture, s.uv);
     return Scatter(
-        s.ng, s.ns, color, m.kind, m.fuzz,
+        s.ng, s.ns, color, m.kind, s.material,
+        s.tangent, s.handed, s.uv, dispatch_place(s.object, m.flags, s.p), m.fuzz,
         m.roughness * mr.y, m.metallic * mr.z,
         m.ior, m.ior_minus_1, s.front,
     );

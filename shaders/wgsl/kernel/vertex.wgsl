@@ -15,8 +15,9 @@
 // Moves the path on at `hit`.
 fn vertex_scatter(path: ptr<function, Path>, hit: Hit) {
     let origin = state_origin((*path).point, (*path).gap, (*path).dir);
-    let s = dispatch_surface(hit, origin, (*path).dir);
+    var s = dispatch_surface(hit, origin, (*path).dir);
     let m = load_material(s.material);
+    dispatch_tangent(&s, hit, m.flags);
     vertex_emit(path, s, m);
     if ((*path).segments >= load_frame_max_depth()) {
         (*path).open = false;

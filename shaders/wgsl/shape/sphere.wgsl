@@ -46,6 +46,7 @@ fn sphere_surface(i: u32, origin: vec3f, dir: vec3f, t: f32) -> Surface {
     var s = surface_new(p, out, dir, reach);
     s.material = sphere.material;
     s.light = sphere.light;
+    s.object = sphere.object;
     return s;
 }
 
@@ -55,4 +56,9 @@ fn sphere_uv(n: vec3f) -> vec2f {
     let latitude = atan_turns(n.y, sqrt(n.x * n.x + n.z * n.z));
     // Not 0.5 + 2 latitude: texture lookups take 1 - v, and drivers fold the constants of 1 - (0.5 + x).
     return vec2f(0.5 + atan_turns(n.x, n.z), 2.0 * (0.25 + latitude));
+}
+
+// The direction in which the longitude grows at the outward normal `n`, unit; at the poles it is any.
+fn sphere_tangent(n: vec3f) -> vec3f {
+    return vector_unit_or(vec3f(n.z, 0.0, -n.x), vec3f(1.0, 0.0, 0.0));
 }

@@ -7,6 +7,7 @@
 #import "abi/triangle.wgsl"
 #import "math/vector.wgsl"
 #import "math/octahedral.wgsl"
+#import "scene/constants.wgsl"
 #import "scene/records.wgsl"
 #import "surface/surface.wgsl"
 
@@ -96,13 +97,14 @@ fn triangle_flat_surface(i: u32, b: vec2f, dir: vec3f) -> Surface {
     s.uv = triangle_uv(i, b);
     s.material = load_tri_shade_material(i);
     s.light = load_tri_shade_light(i);
+    s.object = load_tri_shade_object(i) & ~TRI_SMOOTH;
     return s;
 }
 
 // As `triangle_flat_surface`, with the interpolated normal where the triangle has one.
 fn triangle_surface(i: u32, b: vec2f, dir: vec3f) -> Surface {
     var s = triangle_flat_surface(i, b, dir);
-    if ((load_tri_shade_flags(i) & 1u) != 0u) {
+    if ((load_tri_shade_object(i) & TRI_SMOOTH) != 0u) {
         let n = triangle_smooth_normal(load_tri_shade_normals(i), b, s.ng);
         s.ns = surface_shading_normal(s.ng, n, dir);
     }
@@ -134,4 +136,18 @@ fn triangle_weights(i: u32, p: vec3f) -> vec2f {
         return vec2f(0.0);
     }
     return vec2f(dot(vector_cross(r, e2), n), dot(vector_cross(e1, r), n)) / n2;
+}
+
+// The direction in which u grows on triangle `i`, unit, and in w the sign of `Surface::handed` for a front
+// side; where all texture coordinates are the same, the first edge.
+fn triangle_tangent(i: u32) -> vec4f {
+    let tri = load_triangle(i);
+    let shade = load_tri_shade(i);
+    let e1 = tri.v1 - tri.v0;
+    let d1 = shade.uv1 - shade.uv0;
+    let d2 = shade.uv2 - shade.uv0;
+    let area = d1.x * d2.y - d1.y * d2.x;
+    let side = select(-1.0, 1.0, area >= 0.0);
+    let along = (e1 * d2.y - (tri.v2 - tri.v0) * d1.y) * side;
+    return vec4f(vector_unit_or(along, vector_unit_or(e1, vec3f(1.0, 0.0, 0.0))), side);
 }

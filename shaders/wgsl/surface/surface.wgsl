@@ -17,6 +17,13 @@ struct Surface {
     material: u32,
     // Index of the `Light`, or `NONE`.
     light: u32,
+    // Index of the `Object`.
+    object: u32,
+    // Where the material asks for it: unit, the direction in which u grows, at a right angle to `ng` up to
+    // rounding; otherwise 0.
+    tangent: vec3f,
+    // 1 where v grows along cross(ng, tangent), -1 where it grows against it.
+    handed: f32,
     // The ray came from the front side: outside of a sphere, counter-clockwise triangle.
     front: bool,
 }
@@ -30,7 +37,7 @@ fn surface_new(p: vec3f, out: vec3f, dir: vec3f, reach: f32) -> Surface {
     // 16 ulp of the largest coordinate: measured to lose no neighbour and to hit no own primitive for
     // triangles of any size and distance, down to grazing cosines of 1e-4, where the source is skipped.
     let gap = 9.5367432e-7 * reach; // 16 * 2^-24
-    return Surface(p, ng, ng, vec2f(0.0), gap, 0u, NONE, front);
+    return Surface(p, ng, ng, vec2f(0.0), gap, 0u, NONE, 0u, vec3f(0.0), 1.0, front);
 }
 
 // A shading normal that can be used with `ng` (faces the ray) for a ray along `dir`, from an

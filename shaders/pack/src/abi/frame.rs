@@ -29,6 +29,10 @@ abi_struct! {
         pub sky_at: u32,
         /// First heap word of the `Material` table.
         pub material_at: u32,
+        /// First heap word of the `Object` table.
+        pub object_at: u32,
+        /// First heap word of the `Medium` table.
+        pub medium_at: u32,
         /// First heap word of the `Light` table.
         pub light_at: u32,
         /// First heap word of the `Texture` table.
@@ -39,5 +43,7 @@ abi_struct! {
         pub root: u32,
         /// Estimator switch for tests: 0 MIS (balance), 1 light samples only, 2 BSDF samples only.
         pub estimator: u32,
+        /// Unused.
+        pub _pad0: [u32; 2],
     }
 }

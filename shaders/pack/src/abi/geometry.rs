@@ -76,6 +76,9 @@ impl ChildRef {
     }
 }
 
+/// Bit of `TriShade::object`: the triangle interpolates its normals.
+pub const TRI_SMOOTH: u32 = 1 << 31;
+
 abi_struct! {
     /// Inner node of the binary BVH, 64 bytes: the boxes of both children and where they are.
     /// Normalised world frame.
@@ -134,8 +137,9 @@ abi_struct! {
         pub uv2: [f32; 2],
         /// Index of the `Light` this triangle belongs to, or `NONE`.
         pub light: u32,
-        /// Bit 0: interpolate `normals`; otherwise the triangle is flat.
-        pub flags: u32,
+        /// Bits 0-30: index of the `Object`. Bit 31, [`TRI_SMOOTH`]: interpolate `normals`;
+        /// otherwise the triangle is flat.
+        pub object: u32,
     }
 }
 
@@ -150,9 +154,9 @@ abi_struct! {
         pub material: u32,
         /// Index of the `Light`, or `NONE`.
         pub light: u32,
+        /// Index of the `Object`.
+        pub object: u32,
         /// Unused.
         pub _pad0: u32,
-        /// Unused.
-        pub _pad1: u32,
     }
 }

@@ -36,10 +36,17 @@ pub mod material_flag {
     pub const EMIT_BOTH_SIDES: u32 = 1;
     /// Surface points with alpha below `alpha_cutoff` do not exist, for any ray.
     pub const ALPHA_CLIP: u32 = 2;
+    /// Scattering depends on the direction in which texture coordinates grow.
+    pub const TANGENT: u32 = 4;
+    /// Scattering depends on where the point is in its object, or on which object it is.
+    pub const OBJECT: u32 = 8;
+    /// Every bit.
+    pub const ALL: u32 = EMIT_BOTH_SIDES | ALPHA_CLIP | TANGENT | OBJECT;
 }
 
 abi_struct! {
-    /// A material, 96 bytes. Colours are linear Rec. 709.
+    /// A material, 192 bytes: one record for all kinds; a field that a kind does not name is not
+    /// read by it. Colours are linear Rec. 709, lengths and coefficients in normalised units.
     pub struct Material {
         /// Reflectance (diffuse, metal), base colour (principled), 0 ..= 1; factor on `color_texture`.
         pub color: [f32; 3],
@@ -49,9 +56,9 @@ abi_struct! {
         pub emission: [f32; 3],
         /// `material_flag` bits.
         pub flags: u32,
-        /// Metal: radius of the ball, 0 ..= 1.
+        /// Radius of the ball of a mirror direction, 0 ..= 1. Wood: the grain, 1/6 y, 1/2 x, 5/6 z.
         pub fuzz: f32,
-        /// Principled: perceptual roughness, 0 ..= 1 (alpha is its square); factor on the green channel.
+        /// Perceptual roughness, 0 ..= 1 (alpha is its square); factor on the green channel.
         pub roughness: f32,
         /// Principled: 0 dielectric, 1 metal; factor on the blue channel.
         pub metallic: f32,
@@ -63,8 +70,8 @@ abi_struct! {
         pub alpha_cutoff: f32,
         /// Factor on the alpha texture.
         pub alpha: f32,
-        /// Unused.
-        pub _pad0: u32,
+        /// How much narrower the lobe is along the tangent than across it, 0 ..= 1.
+        pub anisotropy: f32,
         /// `Texture` id or `NONE`.
         pub color_texture: u32,
         /// `Texture` id or `NONE`.
@@ -73,7 +80,53 @@ abi_struct! {
         pub metallic_roughness_texture: u32,
         /// `Texture` id or `NONE`; alpha is read from its fourth channel.
         pub alpha_texture: u32,
+        /// `Texture` id or `NONE`; a tangent-space normal in red, green, blue.
+        pub normal_texture: u32,
+        /// Factor on the x and y of `normal_texture`.
+        pub normal_strength: f32,
+        /// Index of the `Medium` inside, or `NONE`.
+        pub medium: u32,
+        /// Which of two overlapping media counts: the greater.
+        pub priority: u32,
+        /// Second colour: what a coat reflects, the specular colour.
+        pub tint: [f32; 3],
+        /// Share of a second lobe: surface fuzz, translucency.
+        pub weight: f32,
+        /// Stretches a pattern: pattern coordinates are metres of the object times this.
+        pub pattern_scale: f32,
+        /// Step of the differences that tilt the normal, metres of the object.
+        pub bump_step: f32,
+        /// Height of the bumps, metres of the object.
+        pub bump_height: f32,
+        /// Share of light that a rough surface reflects as gloss.
+        pub gloss: f32,
+        /// Absorption inside a sheet, per unit of `thickness`.
+        pub sigma_a: [f32; 3],
+        /// Scattering inside a sheet, per unit of `thickness`.
+        pub sigma_s: f32,
+        /// Mean cosine of scattering inside a sheet, -1 ..= 1.
+        pub g: f32,
+        /// Thickness of a sheet at its edge.
+        pub thickness_edge: f32,
+        /// Thickness of a sheet in its middle.
+        pub thickness_middle: f32,
+        /// Share of a sheet that is holes.
+        pub gap: f32,
+        /// Principled: factor on the reflectance of the dielectric part.
+        pub specular: f32,
+        /// Principled: share of the surface under a clear coat.
+        pub coat: f32,
+        /// Principled: perceptual roughness of that coat.
+        pub coat_roughness: f32,
+        /// Principled: share of the light entering that is refracted, not diffused.
+        pub transmission: f32,
+        /// `Texture` id or `NONE`; specular colour in red, green, blue, factor in alpha.
+        pub specular_texture: u32,
+        /// `Texture` id or `NONE`; coat in red, its roughness in green.
+        pub coat_texture: u32,
+        /// `Texture` id or `NONE`; transmission in red.
+        pub transmission_texture: u32,
         /// Unused.
-        pub _pad1: [u32; 4],
+        pub _pad0: u32,
     }
 }

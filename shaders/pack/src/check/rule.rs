@@ -51,6 +51,11 @@ pub(super) fn unit_range(value: impl Lanes) -> Fault {
     range(value, "0 to 1", |lane| (0.0..=1.0).contains(&lane))
 }
 
+/// -1 to 1.
+pub(super) fn cosine(value: impl Lanes) -> Fault {
+    range(value, "-1 to 1", |lane| (-1.0..=1.0).contains(&lane))
+}
+
 /// A probability that is not 0.
 pub(super) fn probability(value: impl Lanes) -> Fault {
     range(value, "a probability greater than 0, at most 1", |lane| lane > 0.0 && lane <= 1.0)
@@ -135,8 +140,8 @@ mod tests {
     #[test]
     fn nan_and_infinity_break_every_float_rule() {
         for bad in [f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
-            let rules: [fn(f32) -> Fault; 6] =
-                [finite, not_negative, positive, unit_range, probability, refractive];
+            let rules: [fn(f32) -> Fault; 7] =
+                [finite, not_negative, positive, unit_range, cosine, probability, refractive];
             for rule in rules {
                 assert!(rule(bad).is_some(), "{bad}");
             }

@@ -4,16 +4,17 @@
 //! field that is not in it may hold any value, and the comment there says why.
 
 use crate::abi::{
-    Camera, Light, LightKind, Material, MaterialKind, Node, RenderSettings, Sky, SkyKind, Sphere,
-    Texture, TextureFormat, ToneMap, TriShade, Triangle, Wrap, material_flag,
+    Camera, Light, LightKind, Material, MaterialKind, Medium, Node, Object, RenderSettings, Sky,
+    SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap, TriShade, Triangle, Wrap,
+    material_flag,
 };
 use crate::contents::Contents;
 use crate::fault::ElementFault;
 use crate::kind::{Kind, PackRecord};
 
 use super::rule::{
-    bits, corner, count, direction, finite, finite64, index, index_or_none, not_negative, positive,
-    power_of_two, probability, refractive, tag, unit_range, unused, unused4,
+    bits, corner, cosine, count, direction, finite, finite64, index, index_or_none, not_negative,
+    positive, power_of_two, probability, refractive, tag, unit_range, unused, unused4,
 };
 
 /// Field and fault.
@@ -114,7 +115,7 @@ rules! { pack;
     TriShade {
         material: index(table(pack, Kind::MATERIAL)),
         light: index_or_none(table(pack, Kind::LIGHT)),
-        flags: bits(1),
+        object: object(pack),
         uv0: finite(),
         uv1: finite(),
         uv2: finite(),
@@ -124,16 +125,38 @@ rules! { pack;
         radius: positive(),
         material: index(table(pack, Kind::MATERIAL)),
         light: index_or_none(table(pack, Kind::LIGHT)),
+        object: object(pack),
         _pad0: unused(),
-        _pad1: unused(),
     }
+    // `key` is any number.
+    Object {
+        row_x: finite(),
+        offset_x: finite(),
+        row_y: finite(),
+        offset_y: finite(),
+        row_z: finite(),
+        offset_z: finite(),
+        motion: finite(),
+    }
+    Medium {
+        sigma_a: not_negative(),
+        g: cosine(),
+        sigma_s: not_negative(),
+        _pad0: unused(),
+    }
+    // `priority` is any number.
     Material and material {
         kind: tag(MaterialKind::ALL.len()),
-        flags: bits(material_flag::EMIT_BOTH_SIDES | material_flag::ALPHA_CLIP),
+        flags: bits(material_flag::ALL),
         color_texture: index_or_none(table(pack, Kind::TEXTURE)),
         emission_texture: index_or_none(table(pack, Kind::TEXTURE)),
         metallic_roughness_texture: index_or_none(table(pack, Kind::TEXTURE)),
         alpha_texture: index_or_none(table(pack, Kind::TEXTURE)),
+        normal_texture: index_or_none(table(pack, Kind::TEXTURE)),
+        specular_texture: index_or_none(table(pack, Kind::TEXTURE)),
+        coat_texture: index_or_none(table(pack, Kind::TEXTURE)),
+        transmission_texture: index_or_none(table(pack, Kind::TEXTURE)),
+        medium: index_or_none(table(pack, Kind::MEDIUM)),
         color: not_negative(),
         emission: not_negative(),
         fuzz: unit_range(),
@@ -143,8 +166,25 @@ rules! { pack;
         ior_minus_1: finite(),
         alpha_cutoff: finite(),
         alpha: not_negative(),
+        anisotropy: unit_range(),
+        normal_strength: finite(),
+        tint: not_negative(),
+        weight: unit_range(),
+        pattern_scale: not_negative(),
+        bump_step: not_negative(),
+        bump_height: not_negative(),
+        gloss: unit_range(),
+        sigma_a: not_negative(),
+        sigma_s: not_negative(),
+        g: cosine(),
+        thickness_edge: not_negative(),
+        thickness_middle: not_negative(),
+        gap: unit_range(),
+        specular: unit_range(),
+        coat: unit_range(),
+        coat_roughness: unit_range(),
+        transmission: unit_range(),
         _pad0: unused(),
-        _pad1: unused4(),
     }
     Light and light {
         kind: tag(LightKind::ALL.len()),
@@ -166,6 +206,13 @@ rules! { pack;
         _pad0: unused(),
         _pad1: unused(),
     }
+}
+
+/// Bits 0-30 are the index of an object. A pack in which nothing depends on objects has none, and 0
+/// stands for them.
+fn object(found: u32, pack: &Contents<'_>) -> Option<ElementFault> {
+    let count = pack.objects.len().max(1);
+    index(found & !TRI_SMOOTH, (Kind::OBJECT, count))
 }
 
 fn at_least_one(value: u32) -> Option<ElementFault> {

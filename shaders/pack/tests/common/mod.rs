@@ -8,9 +8,9 @@
 pub(crate) mod sound;
 
 use pack::abi::{
-    Camera, ChildRef, Light, LightKind, Material, MaterialKind, NONE, Node, RenderSettings, Sky,
-    SkyKind, Sphere, Texture, TextureFormat, ToneMap, TriShade, Triangle, Wrap, f64_bits,
-    material_flag,
+    Camera, ChildRef, Light, LightKind, Material, MaterialKind, Medium, NONE, Node, Object,
+    RenderSettings, Sky, SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap, TriShade,
+    Triangle, Wrap, f64_bits, material_flag,
 };
 use pack::manifest::Named;
 use pack::{Kind, Manifest, PackWriter};
@@ -25,6 +25,8 @@ pub(crate) struct Scene {
     pub(crate) shades: Vec<TriShade>,
     pub(crate) spheres: Vec<Sphere>,
     pub(crate) materials: Vec<Material>,
+    pub(crate) objects: Vec<Object>,
+    pub(crate) media: Vec<Medium>,
     pub(crate) lights: Vec<Light>,
     pub(crate) textures: Vec<Texture>,
     pub(crate) texels: Vec<[u32; 4]>,
@@ -71,6 +73,11 @@ fn material(kind: MaterialKind) -> Material {
         emission_texture: NONE,
         metallic_roughness_texture: NONE,
         alpha_texture: NONE,
+        normal_texture: NONE,
+        medium: NONE,
+        specular_texture: NONE,
+        coat_texture: NONE,
+        transmission_texture: NONE,
         ..Material::default()
     }
 }
@@ -146,7 +153,7 @@ fn materials() -> Vec<Material> {
     materials[3].emission_texture = 2;
     materials[4].metallic_roughness_texture = 1;
     materials[4].alpha_texture = 0;
-    materials[4].flags = material_flag::ALPHA_CLIP;
+    materials[4].flags = material_flag::ALPHA_CLIP | material_flag::TANGENT | material_flag::OBJECT;
     materials[4].alpha_cutoff = 0.5;
     materials
 }
@@ -202,7 +209,7 @@ impl Scene {
             uv1: [1.0, 0.0],
             uv2: [0.0, 1.0],
             light,
-            flags: 1,
+            object: TRI_SMOOTH | 1,
             ..TriShade::default()
         };
         let sphere = |at: f32, material: u32, light: u32| Sphere {
@@ -225,6 +232,8 @@ impl Scene {
             shades: vec![shade(0, NONE), shade(3, 1), shade(4, NONE), shade(3, 2)],
             spheres: vec![sphere(-0.5, 1, NONE), sphere(-0.2, 2, NONE), sphere(0.6, 3, 0)],
             materials: materials(),
+            objects: vec![Object::default(); 2],
+            media: vec![Medium::default()],
             lights: lights(),
             textures: vec![
                 texture(TextureFormat::Rgba8Srgb, [4, 2], 0),
@@ -249,6 +258,8 @@ impl Scene {
             shades: Vec::new(),
             spheres: Vec::new(),
             materials: Vec::new(),
+            objects: Vec::new(),
+            media: Vec::new(),
             lights: Vec::new(),
             textures: Vec::new(),
             texels: Vec::new(),
@@ -268,6 +279,8 @@ impl Scene {
             .records(&self.shades)
             .records(&self.spheres)
             .records(&self.materials)
+            .records(&self.objects)
+            .records(&self.media)
             .records(&self.lights)
             .records(&self.textures)
             .texels(&self.texels)
@@ -394,7 +407,7 @@ impl Draft {
 pub(crate) fn fix_render_id(pack: &mut [u8]) {
     let count = (get32(pack, 32) as usize).min((pack.len() - 128) / 64);
     let mut hasher = blake3::Hasher::new();
-    hasher.update(&pack[8..10]).update(&pack[36..40]).update(&pack[48..52]);
+    hasher.update(&pack[8..10]).update(&pack[48..56]).update(&pack[36..40]);
     for entry in pack[128..128 + 64 * count].chunks(64).filter(|entry| entry[12] & 1 == 1) {
         hasher.update(&entry[..8]).update(&entry[8..12]).update(&entry[32..36]);
         hasher.update(&entry[40..48]).update(&entry[48..64]);

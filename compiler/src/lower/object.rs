@@ -1,0 +1,87 @@
+//! Things in the world become `Object` records: a frame for patterns, and a key.
+
+use glam::{DMat3, DVec3};
+use lang::scene::Instance;
+use pack::abi;
+
+use crate::normalize::Normalization;
+
+/// A thing in the world, metres.
+#[derive(Clone, Debug)]
+pub struct Thing {
+    /// Name, with its index for indexed instances.
+    pub name: String,
+    /// Where its origin is.
+    pub origin: DVec3,
+    /// World from object without scale: columns are unit and at right angles.
+    pub rotation: DMat3,
+}
+
+impl Thing {
+    /// A thing that is not turned.
+    pub(super) fn at(name: String, origin: DVec3) -> Self {
+        Self { name, origin, rotation: DMat3::IDENTITY }
+    }
+
+    /// The frame of an instance. Scale, shear and mirroring are left out: y keeps its direction, x
+    /// is turned to a right angle with it, z completes a right-handed frame.
+    pub(super) fn of(instance: &Instance) -> Self {
+        let m = instance.world_from_object;
+        let column = |k: usize| DVec3::new(m[0][k], m[1][k], m[2][k]);
+        let y = column(1).normalize_or(DVec3::Y);
+        let x = column(0);
+        let x = (x - y * x.dot(y)).normalize_or(y.any_orthonormal_vector());
+        let rotation = DMat3::from_cols(x, y, x.cross(y));
+        Self { name: instance.name.text.clone(), origin: column(3), rotation }
+    }
+
+    /// The record in the normalised frame.
+    pub(super) fn record(&self, frame: &Normalization) -> abi::Object {
+        let metres = 1.0 / frame.scale();
+        let rows = self.rotation.transpose();
+        let offset = rows * (DVec3::from(frame.center) - self.origin);
+        let row = |k: usize| (rows.row(k) * metres).as_vec3().to_array();
+        abi::Object {
+            row_x: row(0),
+            offset_x: offset.x as f32,
+            row_y: row(1),
+            offset_y: offset.y as f32,
+            row_z: row(2),
+            offset_z: offset.z as f32,
+            motion: [0.0; 3],
+            key: key(&self.name),
+        }
+    }
+}
+
+/// A hash of the name: the same in every scene, whatever else is in it.
+fn key(name: &str) -> u32 {
+    let hash = blake3::hash(name.as_bytes());
+    let bytes = hash.as_bytes();
+    u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_of_the_world_is_found_in_the_object() {
+        let rotation = DMat3::from_rotation_z(std::f64::consts::FRAC_PI_2);
+        let thing = Thing { name: "log".to_owned(), origin: DVec3::new(1.0, 2.0, 3.0), rotation };
+        let frame = Normalization::of_points([[-5.0; 3], [3.0, 7.0, 9.0]].into_iter());
+        let object = thing.record(&frame);
+        // 2 m along the object's x, which is the world's y.
+        let p = frame.point([1.0, 4.0, 3.0]).map(f64::from);
+        let dot = |row: [f32; 3]| (0..3).map(|k| f64::from(row[k]) * p[k]).sum::<f64>();
+        let x = dot(object.row_x) + f64::from(object.offset_x);
+        let y = dot(object.row_y) + f64::from(object.offset_y);
+        let z = dot(object.row_z) + f64::from(object.offset_z);
+        assert!((x - 2.0).abs() < 1e-5 && y.abs() < 1e-5 && z.abs() < 1e-5, "{x} {y} {z}");
+    }
+
+    #[test]
+    fn names_that_differ_have_keys_that_differ() {
+        assert_ne!(key("petals[0]"), key("petals[1]"));
+    }
+}
