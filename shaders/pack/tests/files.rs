@@ -189,12 +189,12 @@ fn directories_are_not_packs() {
     }
 }
 
-/// The first 128 bytes of a pack of format 2, frozen here as they might be written one day.
+/// The first 128 bytes of a pack of format 3, frozen here as they might be written one day.
 #[test]
 fn another_major_format_is_refused_politely() {
     const FROZEN: [u8; 128] = {
         let mut bytes = [0x5a; 128];
-        let start = [0x89, b'R', b'T', b'P', 0x0d, 0x0a, 0x1a, 0x0a, 2, 0, 7, 0, 4, 3, 2, 1];
+        let start = [0x89, b'R', b'T', b'P', 0x0d, 0x0a, 0x1a, 0x0a, 3, 0, 7, 0, 4, 3, 2, 1];
         let mut at = 0;
         while at < start.len() {
             bytes[at] = start[at];
@@ -202,7 +202,7 @@ fn another_major_format_is_refused_politely() {
         }
         bytes
     };
-    let expected = "header: format 2, this program reads format 1: compile the scene again: \
+    let expected = "header: format 3, this program reads format 2: compile the scene again: \
                     rtc X -o X.pack";
     assert_eq!(open(&FROZEN).unwrap_err().to_string(), expected);
     let dir = tempfile::tempdir().unwrap();
