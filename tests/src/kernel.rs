@@ -2,7 +2,9 @@
 
 use bytemuck::Pod;
 use glam::{DVec2, DVec3, UVec4, Vec3};
-use pack::abi::{Camera, Frame, Light, Material, MaterialKind, NONE, Sphere, TriShade, Triangle};
+use pack::abi::{
+    Camera, Frame, Light, Material, MaterialKind, NONE, Node, Sphere, TriShade, Triangle,
+};
 use runtime::kernel::{f32 as single, f64 as double};
 
 /// What a kernel reads.
@@ -12,6 +14,7 @@ pub struct Bench {
     pub frame: Frame,
     frame_words: Vec<UVec4>,
     heap: Vec<UVec4>,
+    nodes: Vec<UVec4>,
     triangles: Vec<UVec4>,
     shades: Vec<UVec4>,
     spheres: Vec<UVec4>,
@@ -37,6 +40,7 @@ impl Bench {
             frame,
             frame_words: none(),
             heap: none(),
+            nodes: none(),
             triangles: none(),
             shades: none(),
             spheres: none(),
@@ -92,6 +96,22 @@ impl Bench {
         self.framed()
     }
 
+    /// With Russian roulette from vertex `bounce` of a path on.
+    #[must_use]
+    pub fn roulette_from(mut self, bounce: u32) -> Self {
+        self.frame.roulette_depth = bounce;
+        self.framed()
+    }
+
+    /// With triangles in the leaf order of a tree.
+    #[must_use]
+    pub fn tree(self, triangles: &[Triangle], nodes: &[Node], root: u32) -> Self {
+        let mut bench = self.triangles(triangles);
+        bench.nodes = words(nodes);
+        bench.frame.root = root;
+        bench.framed()
+    }
+
     /// With spheres; the root is a leaf of the first 8 of them.
     #[must_use]
     pub fn spheres(mut self, spheres: &[Sphere]) -> Self {
@@ -110,7 +130,7 @@ impl Bench {
             frame_words: &self.frame_words,
             film_words: &mut [],
             heap_words: &self.heap,
-            node_words: &[],
+            node_words: &self.nodes,
             tri_words: &self.triangles,
             shade_words: &self.shades,
             sphere_words: &self.spheres,
@@ -125,7 +145,7 @@ impl Bench {
             frame_words: &self.frame_words,
             film_words: &mut [],
             heap_words: &self.heap,
-            node_words: &[],
+            node_words: &self.nodes,
             tri_words: &self.triangles,
             shade_words: &self.shades,
             sphere_words: &self.spheres,

@@ -4,6 +4,7 @@
 //! becomes a film, a film becomes a mean with its standard error.
 
 pub mod console;
+pub mod corrections;
 pub mod features;
 pub mod kernel;
 pub mod picture;

@@ -141,8 +141,14 @@ impl Mean {
     /// Standard error of [`Mean::value`].
     #[must_use]
     pub fn error(&self) -> f64 {
+        self.deviation() / (self.n - 1.0).sqrt()
+    }
+
+    /// Standard deviation of the values.
+    #[must_use]
+    pub fn deviation(&self) -> f64 {
         let mean = self.value();
-        ((self.square / self.n - mean * mean).max(0.0) / (self.n - 1.0)).sqrt()
+        (self.square / self.n - mean * mean).max(0.0).sqrt()
     }
 }
 

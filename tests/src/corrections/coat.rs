@@ -1,0 +1,116 @@
+//! A clear coat: an average of two colours (the guide), layers (ours), and the exact energy of both.
+
+#![expect(clippy::cast_possible_truncation, reason = "the kernel computes in f32")]
+
+use glam::{DVec3, Vec3};
+
+use super::{Place, Topic, fresnel, off, row};
+use crate::kernel::{Bench, Lobe};
+
+/// White share of the highlight as the guide's sentence has it; its listing has the rest.
+const WHITE: f64 = 0.7;
+
+/// Schlick with the guide's raised reflectance at normal incidence, index 1.5.
+fn raised_schlick(c: f64) -> f64 {
+    let r0 = 0.04 * 1.5;
+    r0 + (1.0 - r0) * (1.0 - c).powi(5)
+}
+
+/// The guide's mean of white and base; `white`: share of white.
+fn mean_color(base: f64, white: f64) -> f64 {
+    white + (1.0 - white) * base
+}
+
+/// What the coat of the listing reflects, all of it and its highlight alone, lost rays not counted. `c`:
+/// cosine; `base`: reflectance of the wood.
+#[must_use]
+pub fn guide(c: f64, base: f64) -> [f64; 2] {
+    let highlight = raised_schlick(c) * mean_color(base, 1.0 - WHITE);
+    [highlight + (1.0 - raised_schlick(c)) * 0.88 * base, highlight]
+}
+
+/// What a smooth coat of index 1.5 over a Lambert base reflects: through the interface, any number of times
+/// between base and interface, and out; all of it and its highlight alone.
+#[must_use]
+pub fn exact(c: f64, base: f64) -> [f64; 2] {
+    let n = 4000;
+    let at = |i: i32| (f64::from(i) + 0.5) / f64::from(n);
+    let back = (0..n).map(|i| 2.0 * at(i) * fresnel::truth(at(i), -1.0 / 3.0)).sum::<f64>();
+    let back = back / f64::from(n);
+    let highlight = fresnel::truth(c, 0.5);
+    [highlight + (1.0 - highlight) * base * (1.0 - back) / (1.0 - base * back), highlight]
+}
+
+/// What the kernel's principled surface of index 1.5 and roughness 0 reflects.
+#[must_use]
+pub fn ours(c: f64, base: f64) -> [f64; 2] {
+    let bench = Bench::new();
+    let mut kernel = bench.single();
+    let lobe = Lobe { normal: DVec3::Z, color: base as f32, ..Lobe::principled(0.0, 0.0) };
+    let (scatter, wo) = (lobe.single(), lobe.at_cosine(c).as_vec3());
+    let f0 = kernel.principled_f0(scatter);
+    let highlight = f64::from(kernel.fresnel_schlick(f0, c as f32).x);
+    let n = 4000;
+    let at = |i: i32| (f64::from(i) + 0.5) / f64::from(n);
+    // The base depends on the cosine alone.
+    let mut eval = |mu: f64| {
+        let wi = Vec3::new((1.0 - mu * mu).sqrt() as f32, 0.0, mu as f32);
+        f64::from(kernel.principled_eval(scatter, wo, wi).x)
+    };
+    let diffuse = (0..n).map(|i| eval(at(i))).sum::<f64>() * std::f64::consts::TAU / f64::from(n);
+    [highlight + diffuse, highlight]
+}
+
+/// Measures the topic.
+#[must_use]
+pub fn topic() -> Topic {
+    let off = |x: f64, truth: f64| format!("{x:.4} ({})", off(x, truth));
+    let highlight = |c: f64| {
+        let [_, truth] = exact(c, 0.04);
+        row(
+            format!("highlight on dark wood (0.04), cosine {c} (exact {truth:.4})"),
+            off(guide(c, 0.04)[1], truth),
+            off(ours(c, 0.04)[1], truth),
+        )
+    };
+    let white = |c: f64| {
+        let [truth, _] = exact(c, 1.0);
+        row(
+            format!("white base under the coat, cosine {c} (exact {truth:.4})"),
+            off(guide(c, 1.0)[0], truth),
+            off(ours(c, 1.0)[0], truth),
+        )
+    };
+    let [promised, got] = [WHITE, 1.0 - WHITE].map(|white| mean_color(0.04, white));
+    Topic {
+        title: "A coat is a layer, not an average",
+        section: "5.2.1",
+        places: &[Place::File("shaders/wgsl/bsdf/principled.wgsl")],
+        rows: vec![
+            row(
+                format!("colour of the highlight on dark wood (0.04); {promised:.3} is announced"),
+                off(got, promised),
+                "1 (white)",
+            ),
+            highlight(1.0),
+            highlight(0.1),
+            white(1.0),
+            white(0.1),
+        ],
+        says: "With the probability of a raised Schlick term the ray is mirrored and takes 70 % of white and \
+            30 % of the wood's colour; otherwise it is scattered by the wood, times 0.88."
+            .into(),
+        wrong: "The listing mixes with 0.70 from white to the base, which is 30 % white and 70 % base: the \
+            reverse of the sentence. And neither is a coat. The highlight of a clear layer has the colour of \
+            the lamp; averaged with dark wood it loses two thirds and is tinted, most at grazing, where a \
+            coat is a mirror. The constant 0.88 absorbs 12 % of what enters, whatever the base: even a white \
+            one."
+            .into(),
+        right: "The highlight is the interface's reflectance, white; the base gets what is left, once on the \
+            way in and once on the way out: f = F D G / (4 cos cos) + colour / π (1 - F(wo)) (1 - F(wi)). It is \
+            reciprocal and reflects at most 1. What it leaves out is light that bounces between base and \
+            interface, which a white base shows above; the index of 1.5 is not raised, and F is Schlick's, \
+            which is a few percent off here."
+            .into(),
+    }
+}

@@ -1,0 +1,139 @@
+//! Sampling Henyey and Greenstein's phase function: the guide's inverse with its guard, and a form without
+//! a division by g.
+
+use super::{Place, Topic, row, share};
+use crate::statistics::Mean;
+use crate::statistics::stream::Stream;
+
+/// The guide's cosine to the forward direction; `u` in [0, 1).
+#[must_use]
+pub fn guide(g: f32, u: f32) -> f32 {
+    if g.abs() < 0.001 {
+        return 1.0 - 2.0 * u;
+    }
+    let term = (1.0 - g * g) / (1.0 - g + 2.0 * g * u);
+    (1.0 + g * g - term * term) / (2.0 * g.max(0.001))
+}
+
+/// Ours: cosine and sine to the forward direction, and density per steradian; `u` in [0, 1), |g| below 1.
+/// With D = 1 - a + 2 a u and a = |g|, 1 - cos = 2 (1 - a)^2 (1 - u) (1 + a u) / D^2 and
+/// 1 + cos = 2 (1 + a)^2 u (1 - a + a u) / D^2: positive factors throughout.
+#[must_use]
+pub fn ours(g: f32, u: f32) -> [f32; 3] {
+    let a = g.abs();
+    let om = 1.0 - a;
+    let d = om + 2.0 * a * u;
+    let k = 2.0 / (d * d);
+    let less = k * om * om * (1.0 - u) * (1.0 + a * u);
+    let more = k * (1.0 + a) * (1.0 + a) * u * (om + a * u);
+    let cos = if less < 1.0 { 1.0 - less } else { more - 1.0 };
+    let q = om * (1.0 + a);
+    let pdf = d * d * d / (4.0 * std::f32::consts::PI * q * q);
+    [if g < 0.0 { -cos } else { cos }, (less * more).sqrt(), pdf]
+}
+
+/// The cosine in double precision, by the guide's inverse without its guard; for g < 0 with u counted from
+/// the other end, as `backward` says.
+fn truth(g: f64, u: f64, backward: bool) -> f64 {
+    let (a, sign) = if backward { (g.abs(), g.signum()) } else { (g, 1.0) };
+    let d = 1.0 - a + 2.0 * a * u;
+    // 1 - cos, as above: the inverse itself cancels where g is small, in any precision.
+    let less = 2.0 * (1.0 - a).powi(2) * (1.0 - u) * (1.0 + a * u) / (d * d);
+    sign * (1.0 - less)
+}
+
+/// What comes of sampling at one g.
+#[derive(Clone, Copy, Debug)]
+pub struct Sampled {
+    /// Smallest and largest cosine.
+    pub range: [f32; 2],
+    /// Cosines that are none.
+    pub outside: usize,
+    /// Mean cosine, which should be g.
+    pub mean: Mean,
+    /// Largest error of the cosine.
+    pub error: f64,
+}
+
+/// `n` samples of both forms.
+#[must_use]
+pub fn sample(g: f32, n: usize) -> [Sampled; 2] {
+    let start =
+        Sampled { range: [f32::MAX, f32::MIN], outside: 0, mean: Mean::default(), error: 0.0 };
+    let mut found = [start; 2];
+    let mut stream = Stream::new(179, u64::from(g.to_bits()));
+    for _ in 0..n {
+        let u = stream.unit24();
+        let cosines = [(guide(g, u), false), (ours(g, u)[0], true)];
+        for (sampled, (cos, backward)) in found.iter_mut().zip(cosines) {
+            sampled.range = [sampled.range[0].min(cos), sampled.range[1].max(cos)];
+            sampled.outside += usize::from(cos.abs() > 1.0 + 1e-5);
+            sampled.mean.add(f64::from(cos));
+            let exact = truth(f64::from(g), f64::from(u), backward);
+            sampled.error = sampled.error.max((f64::from(cos) - exact).abs());
+        }
+    }
+    found
+}
+
+/// Largest relative error of the twin's density against the phase function at the exact cosine.
+#[must_use]
+pub fn density_error(g: f32, n: usize) -> f64 {
+    let mut stream = Stream::new(181, u64::from(g.to_bits()));
+    let wide = f64::from(g);
+    let mut worst = 0.0_f64;
+    for _ in 0..n {
+        let u = stream.unit24();
+        let d = 1.0 - wide.abs() + 2.0 * wide.abs() * f64::from(u);
+        let base = ((1.0 - wide * wide) / d).powi(2);
+        let exact = (1.0 - wide * wide) / (4.0 * std::f64::consts::PI * base.powf(1.5));
+        worst = worst.max((f64::from(ours(g, u)[2]) / exact - 1.0).abs());
+    }
+    worst
+}
+
+/// Measures the topic.
+#[must_use]
+pub fn topic() -> Topic {
+    let n = 1_000_000;
+    let mut rows = Vec::new();
+    for g in [-0.5, -0.9] {
+        let [guided, ours] = sample(g, n);
+        let range = |s: &Sampled| format!("{:.4} to {:.4}", s.range[0], s.range[1]);
+        rows.push(row(format!("range of the cosine, g = {g}"), range(&guided), range(&ours)));
+        rows.push(row(
+            "the same: cosines beyond ±1; mean cosine",
+            format!("{}; {:.1}", share(guided.outside, n), guided.mean.value()),
+            format!("{}; {:.4}", share(ours.outside, n), ours.mean.value()),
+        ));
+    }
+    for g in [0.001, 0.01, 0.7, 0.9999] {
+        let [guided, ours] = sample(g, n);
+        let error = |s: &Sampled| format!("{:.0e}", s.error);
+        rows.push(row(
+            format!("largest error of the cosine, g = {g}"),
+            error(&guided),
+            error(&ours),
+        ));
+    }
+    Topic {
+        title: "Henyey-Greenstein backwards",
+        section: "4.4.3",
+        places: &[Place::Twin("tests/src/corrections/phase.rs")],
+        rows,
+        says: "The closed inverse for the cosine, isotropic for |g| < 0.001, and max(g, 0.001) in the \
+            divisor."
+            .into(),
+        wrong: "Where the guard of the divisor acts, g is negative: the numerator has -0.5 and the divisor \
+            0.001, and the cosine comes out in the hundreds. Its sine is then 0, so every scattering goes \
+            straight forward or back along a vector hundreds of units long, which the next step \
+            multiplies into its path. The isotropic branch hides the point where the inverse cancels, but \
+            not its neighbourhood: at g = 0.001 a tenth of what g does is rounding."
+            .into(),
+        right: "1 - cos and 1 + cos have closed forms whose factors are all positive; the smaller of \
+            them gives the cosine, their product the sine, and D³ the density. No branch and no division \
+            by g; backward scattering is forward scattering turned round. Its place in the kernel is \
+            `shaders/wgsl/bsdf/phase.wgsl`."
+            .into(),
+    }
+}
