@@ -2,8 +2,8 @@
 
 import math
 
-from model import (Box, Camera, Diffuse, Glass, Lamp, Metal, Rectangle, Scene, Sphere, SphereLight,
-                   Thing, grey)
+from model import (Box, Camera, Diffuse, Glass, Lamp, Mesh, Metal, Rectangle, Scene, Sphere,
+                   SphereLight, Textured, Thing, grey)
 
 
 def checkers(tiles, side):
@@ -125,4 +125,75 @@ VEACH = Scene(
     spp=8192,
 )
 
-ALL = [DIFFUSE, SPHERE_LIGHT, SMOOTH_GLASS, VEACH]
+
+METALS = Scene(
+    name="metals",
+    tests="GGX metal balls of roughness 0.2, 0.4, 0.7 and 1",
+    camera=Camera((0, 1.5, 4), (0, 0.42, 0), 30),
+    materials={
+        **CHECKERS,
+        "metal0": Metal((0.95, 0.75, 0.4), 0.2),
+        "metal1": Metal((0.95, 0.75, 0.4), 0.4),
+        "metal2": Metal((0.95, 0.75, 0.4), 0.7),
+        "metal3": Metal((0.95, 0.75, 0.4), 1),
+    },
+    things=[
+        *checkers(8, 4),
+        Thing(Sphere(0.4), "metal0", at=(-1, 0.4, -0.2)),
+        Thing(Sphere(0.4), "metal1", at=(-0.4, 0.4, 0.6)),
+        Thing(Sphere(0.4), "metal2", at=(0.2, 0.4, -0.4)),
+        Thing(Sphere(0.4), "metal3", at=(0.8, 0.4, 0.5)),
+    ],
+    lights=[SphereLight((1.5, 2.6, 1), 0.4, (12, 11, 10))],
+    sky=(0.35, 0.45, 0.6),
+)
+
+def torus(name, large, small, around, across, repeats):
+    """A ring around y of flat triangles; its texture repeats as often around and across."""
+    def corner(i, j):
+        a, b = 2 * math.pi * i / around, 2 * math.pi * j / across
+        out = large + small * math.cos(b)
+        position = (out * math.sin(a), small * math.sin(b), out * math.cos(a))
+        return position, (repeats[0] * i / around, repeats[1] * j / across)
+
+    corners = []
+    for i in range(around):
+        for j in range(across):
+            p, q, r, s = corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)
+            corners += [(p, q, r), (p, r, s)]
+    return Mesh(name, corners)
+
+
+def octahedron(name, radius):
+    """Eight triangles that face outwards."""
+    corners = []
+    for x in (-radius, radius):
+        for y in (-radius, radius):
+            for z in (-radius, radius):
+                a, b, c = (x, 0, 0), (0, y, 0), (0, 0, z)
+                order = (a, b, c) if x * y * z > 0 else (a, c, b)
+                corners.append(tuple((p, (0, 0)) for p in order))
+    return Mesh(name, corners)
+
+
+# Hues that are unlike in every row and column, so that a flipped or turned image shows.
+PATTERN = [[((37 * x + 90 * y) % 256, (200 - 23 * x) % 256, (60 + 41 * y) % 256) for x in range(8)]
+           for y in range(6)]
+
+MESH = Scene(
+    name="mesh",
+    tests="an OBJ mesh with an image that repeats, lit by a mesh that glows",
+    camera=Camera((0.3, 2, 3), (0, 0.35, 0), 30),
+    materials={"ground": Diffuse(grey(0.5)), "painted": Textured("pattern", PATTERN),
+               "lamp": Lamp((9, 8, 7))},
+    things=[
+        Thing(Rectangle(6, 6), "ground"),
+        Thing(torus("ring", 0.6, 0.25, 20, 10, (3, 1)), "painted", at=(0, 0.35, 0),
+              rotate=(25, 0, 12)),
+        Thing(octahedron("lamp_mesh", 0.3), "lamp", at=(0.9, 1.7, 0.4), rotate=(0, 20, 10)),
+    ],
+    sky=grey(0.15),
+    depth=8,
+)
+
+ALL = [DIFFUSE, SPHERE_LIGHT, MESH, SMOOTH_GLASS, METALS, VEACH]

@@ -60,39 +60,50 @@ def blocks(pictures):
 
 
 @dataclass
-class Comparison:
-    """Ours less theirs. `mean_z` has one entry a channel; `spread`: root mean square of the pixels' z,
-    1 where nothing but noise differs; `worst_block`: largest |z| of a block and channel."""
+class Summary:
+    """Ours against theirs, one entry a channel. `spread`: root mean square of the pixels' z, 1 where
+    nothing but noise differs; `block`: largest |z| of a block and channel; `spp`: samples of a pixel in
+    all replicates; `seconds`: ours and theirs."""
 
-    ours: tuple
-    theirs: tuple
-    mean_z: np.ndarray
+    ours: list
+    ours_error: list
+    theirs: list
+    theirs_error: list
+    z: list
     share: float
     spread: float
-    worst_block: float
-    difference: np.ndarray
+    block: float
+    spp: int
+    seconds: list
 
     def passed(self, scenes):
-        """Whether means, pixels and blocks agree; the means of all `scenes` are one family."""
-        means = np.abs(self.mean_z).max() < sidak(3 * scenes)
-        several = 3 * BLOCKS[0] * BLOCKS[1]
-        return bool(means and self.share >= SHARE and self.worst_block < sidak(several * scenes))
+        """Whether means, pixels and blocks agree; `scenes` are one family of tests."""
+        means = max(abs(z) for z in self.z) < sidak(3 * scenes)
+        blocks = self.block < sidak(3 * BLOCKS[0] * BLOCKS[1] * scenes)
+        return means and self.share >= SHARE and blocks
+
+    def relative(self):
+        """Differences over their means in percent, and the standard errors of that."""
+        rows = zip(self.ours, self.ours_error, self.theirs, self.theirs_error)
+        return [(100 * (a - b) / b, 100 * math.hypot(e, f) / b) for a, e, b, f in rows]
 
 
-def compare(ours, theirs):
+def compare(ours, theirs, spp, seconds):
     n = len(ours)
     assert len(theirs) == n, "one number of replicates for both"
     means = [estimate(p.mean(axis=(1, 2))) for p in (ours, theirs)]
-    pixels = [estimate(p) for p in (ours, theirs)]
-    block = [estimate(blocks(p)) for p in (ours, theirs)]
-    z = normal_score(*pixels, n)
+    z = normal_score(*[estimate(p) for p in (ours, theirs)], n)
     height, width = z.shape[:2]
-    return Comparison(
-        ours=means[0],
-        theirs=means[1],
-        mean_z=normal_score(*means, n),
+    (mean, variance), (other, other_variance) = means
+    return Summary(
+        ours=mean.tolist(),
+        ours_error=np.sqrt(variance).tolist(),
+        theirs=other.tolist(),
+        theirs_error=np.sqrt(other_variance).tolist(),
+        z=normal_score(*means, n).tolist(),
         share=float((np.abs(z) < sidak(height * width)).mean()),
         spread=float(np.sqrt((z**2).mean())),
-        worst_block=float(np.abs(normal_score(*block, n)).max()),
-        difference=pixels[0][0] - pixels[1][0],
+        block=float(np.abs(normal_score(*[estimate(blocks(p)) for p in (ours, theirs)], n)).max()),
+        spp=spp,
+        seconds=seconds,
     )

@@ -19,6 +19,14 @@ class Diffuse:
 
 
 @dataclass(frozen=True)
+class Textured:
+    """Diffuse; `texels`: rows of sRGB bytes from the top, which repeat."""
+
+    name: str
+    texels: list
+
+
+@dataclass(frozen=True)
 class Metal:
     """A metal of the glTF model: GGX with alpha = roughness^2, Schlick's Fresnel from `color`."""
 
@@ -27,8 +35,29 @@ class Metal:
 
 
 @dataclass(frozen=True)
+class Conductor:
+    """One bounce of GGX with alpha = roughness^2, Schlick's Fresnel from `color`."""
+
+    color: tuple
+    roughness: float
+
+
+@dataclass(frozen=True)
+class Medium:
+    """Absorption and scattering in 1/m for red, green, blue; `g`: mean cosine (Henyey-Greenstein)."""
+
+    sigma_a: tuple
+    sigma_s: tuple
+    g: float = 0
+
+
+@dataclass(frozen=True)
 class Glass:
+    """An interface to air; `ior` 1 is none at all. Rough: GGX with alpha = roughness^2."""
+
     ior: float
+    roughness: float = 0
+    interior: Medium | None = None
 
 
 @dataclass(frozen=True)
@@ -54,6 +83,14 @@ class Box:
     x: float
     y: float
     z: float
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Flat triangles; `corners`: three (position, uv) of each, counter-clockwise seen from the front."""
+
+    name: str
+    corners: list
 
 
 @dataclass(frozen=True)

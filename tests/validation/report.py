@@ -1,31 +1,17 @@
 """Comparisons → the page, the strips of pictures, and the statistics that the Rust test reads."""
 
 import math
-import struct
-import zlib
 
 import numpy as np
 
 import compare
+import files
 from model import SIZE
 
 # Gain on the signed difference in the strips.
-GAIN = 20
-
-
-def write_png(path, rgb):
-    """An 8-bit RGB PNG of values in 0 ..= 1, already coded for the screen."""
-    pixels = (np.clip(rgb, 0, 1) * 255 + 0.5).astype(np.uint8)
-    height, width = pixels.shape[:2]
-    rows = b"".join(b"\0" + row.tobytes() for row in pixels)
-
-    def chunk(kind, data):
-        body = kind + data
-        return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
-
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header)
-                     + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
+GAIN = 40
+# Side in pixels of the cells of the difference.
+CELL = 5
 
 
 def srgb(linear):
@@ -34,11 +20,15 @@ def srgb(linear):
 
 
 def strip(path, ours, theirs, scale=2):
-    """Ours, theirs, and half grey plus GAIN times the difference over the mean radiance."""
-    level = theirs.mean()
-    difference = 0.5 + GAIN * (ours - theirs) / level * 0.5
-    row = np.concatenate([srgb(ours), srgb(theirs), difference], axis=1)
-    write_png(path, np.kron(row, np.ones((scale, scale, 1))))
+    """Ours, theirs, and half grey plus GAIN times half the difference over the mean radiance, averaged
+    over cells: single pixels would show their noise."""
+    off = GAIN * (ours - theirs) / theirs.mean() / 2
+    height, width = off.shape[:2]
+    cells = off.reshape(height // CELL, CELL, width // CELL, CELL, 3).mean(axis=(1, 3))
+    row = np.concatenate(
+        [srgb(ours), srgb(theirs), 0.5 + np.kron(cells, np.ones((CELL, CELL, 1)))], axis=1)
+    pixels = np.clip(row, 0, 1) * 255 + 0.5
+    files.write_png(path, np.kron(pixels, np.ones((scale, scale, 1))))
 
 
 def statistics(path, scene, pictures, version):
@@ -56,45 +46,41 @@ def statistics(path, scene, pictures, version):
     path.write_text("\n".join(lines) + "\n")
 
 
-def per_channel(values, form):
-    return " ".join(format(v, form) for v in values)
+def row(scene, s, scenes):
+    """One row of the table; its verdict is that among `scenes` scenes."""
+    def channels(values):
+        return "<br>".join(values)
+
+    ours = channels(f"{m:.5f} ± {e:.5f}" for m, e in zip(s.ours, s.ours_error))
+    theirs = channels(f"{m:.5f} ± {e:.5f}" for m, e in zip(s.theirs, s.theirs_error))
+    off = channels(f"{r:+.3f} ± {e:.3f}" for r, e in s.relative())
+    z = channels(f"{z:+.2f}" for z in s.z)
+    verdict = "agree" if s.passed(scenes) else "**differ**"
+    return (f"| `{scene.name}` | {scene.tests} | {ours} | {theirs} | {off} | {z} | {100 * s.share:.2f} | "
+            f"{s.spread:.3f} | {s.block:.2f} | {s.spp} | {s.seconds[0]:.0f} / {s.seconds[1]:.0f} | "
+            f"{verdict} |")
 
 
-def row(scene, c, spp, seconds, scenes):
-    (ours, var_ours), (theirs, var_theirs) = c.ours, c.theirs
-    relative = 100 * (ours - theirs) / theirs
-    error = 100 * np.sqrt(var_ours + var_theirs) / theirs
-    means = "<br>".join(f"{m:.5f} ± {math.sqrt(v):.5f}" for m, v in zip(ours, var_ours))
-    others = "<br>".join(f"{m:.5f} ± {math.sqrt(v):.5f}" for m, v in zip(theirs, var_theirs))
-    off = "<br>".join(f"{r:+.3f} ± {e:.3f}" for r, e in zip(relative, error))
-    z = "<br>".join(f"{v:+.2f}" for v in c.mean_z)
-    verdict = "agree" if c.passed(scenes) else "**differ**"
-    return (f"| `{scene.name}` | {scene.tests} | {means} | {others} | {off} | {z} | "
-            f"{100 * c.share:.2f} | {c.spread:.3f} | {c.worst_block:.1f} | {spp} | "
-            f"{seconds[0]:.0f} / {seconds[1]:.0f} | {verdict} |")
-
-
-def line(scene, c, scenes):
+def line(scene, s, scenes):
     """One line for the terminal."""
-    relative = 100 * (c.ours[0] - c.theirs[0]) / c.theirs[0]
-    error = 100 * np.sqrt(c.ours[1] + c.theirs[1]) / c.theirs[0]
-    return (f"{scene.name:18} off % {per_channel(relative, '+.3f')} +- {per_channel(error, '.3f')}"
-            f"  z {per_channel(c.mean_z, '+.2f')}  pixels {100 * c.share:.2f} %"
-            f"  rms z {c.spread:.3f}  block {c.worst_block:.2f}"
-            f"  {'agree' if c.passed(scenes) else 'DIFFER'}")
+    off = " ".join(f"{r:+.3f}±{e:.3f}" for r, e in s.relative())
+    z = " ".join(f"{z:+.2f}" for z in s.z)
+    return (f"{scene.name:16} off % {off}  z {z}  pixels {100 * s.share:.2f} %  rms z {s.spread:.3f}  "
+            f"block {s.block:.2f}  {s.seconds[0]:.0f} s / {s.seconds[1]:.0f} s  "
+            f"{'agree' if s.passed(scenes) else 'DIFFER'}")
 
 
-def page(rows, versions, command, replicates, scenes, masking):
+def page(rows, versions, replicates, scenes, masking):
     """`docs/validation.md`."""
     n = len(scenes)
     pixels = SIZE[0] * SIZE[1]
     several = 3 * compare.BLOCKS[0] * compare.BLOCKS[1] * n
     strips = "\n".join(f"| `{s.name}` | ![]({'validation/' + s.name + '.png'}) |" for s in scenes)
     return TEMPLATE.format(
-        ours=versions[0], theirs=versions[1], command=command, replicates=replicates,
+        ours=versions[0], theirs=versions[1], replicates=replicates,
         width=SIZE[0], height=SIZE[1], share=100 * compare.SHARE, pixel_bound=compare.sidak(pixels),
         mean_bound=compare.sidak(3 * n), block_bound=compare.sidak(several), columns=compare.BLOCKS[0],
-        rows=compare.BLOCKS[1], table="\n".join(rows), gain=GAIN, strips=strips, masking=masking)
+        rows=compare.BLOCKS[1], table="\n".join(rows), gain=GAIN, cell=CELL, strips=strips, masking=masking)
 
 
 TEMPLATE = """# Validation against Mitsuba 3
@@ -106,7 +92,7 @@ and as a dictionary for Mitsuba, renders both, and compares: the same camera, bo
 path on both sides, {width} x {height} pixels, {replicates} independent replicates a side, from whose
 spread all errors come.
 
-    {command}
+    python tests/validation/validate.py --rtr-dir target/release
 
 Ours: {ours}. Theirs: {theirs}.
 
@@ -134,7 +120,8 @@ not: {masking}.
 
 ## Pictures
 
-Ours, theirs, and half grey plus {gain} times half the difference over the mean radiance.
+Ours, theirs, and half grey plus {gain} times half the difference over the mean radiance, averaged over
+{cell} x {cell} pixels.
 
 | scene | |
 |---|---|

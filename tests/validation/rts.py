@@ -23,6 +23,8 @@ def material(name, m):
     match m:
         case model.Diffuse():
             body = f"diffuse {{ color = {color(m.color)} }}"
+        case model.Textured():
+            body = f"diffuse {{ color = {m.name}.rgb }}"
         case model.Metal():
             body = f"principled {{ color = {color(m.color)}, metallic = 1, roughness = {m.roughness} }}"
         case model.Glass():
@@ -42,6 +44,8 @@ def shape(s):
             return f"rectangle(size: {numbers((s.x, s.z))}m)"
         case model.Box():
             return f"box(size: {numbers((s.x, s.y, s.z))}m)"
+        case model.Mesh():
+            return s.name
     raise TypeError(s)
 
 
@@ -69,6 +73,10 @@ def camera(c):
 def text(scene):
     """The whole file."""
     lines = ["rts 1", f"/// Written by `tests/validation/validate.py`: {scene.tests}.", ""]
+    meshes = {t.shape.name for t in scene.things if isinstance(t.shape, model.Mesh)}
+    images = [m.name for m in scene.materials.values() if isinstance(m, model.Textured)]
+    lines += [f'asset {name} = obj("{name}.obj", unit: m, up: +y)' for name in sorted(meshes)]
+    lines += [f'texture {name} = image("{name}.png", space: srgb)' for name in images]
     lines += [material(name, m) for name, m in scene.materials.items()]
     lines += [thing(i, t) for i, t in enumerate(scene.things)]
     lines += [light(i, s) for i, s in enumerate(scene.lights)]

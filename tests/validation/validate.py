@@ -5,12 +5,15 @@
     cargo build --release -p compiler -p runtime
     venv/bin/python tests/validation/validate.py --rtr-dir target/release
 
-writes `docs/validation.md`, `docs/validation/*.png`, `tests/validation/scenes/*.rts` and
-`tests/validation/reference/*.txt`. `--only NAME` and `--scale 0.1` are for a look: they print, and
-write the scenes only. Mitsuba's `llvm_ad_rgb` needs LLVM's shared library (Debian: `libllvm19`).
+writes `docs/validation.md`, `docs/validation/*.png`, `tests/validation/scenes/*` and
+`tests/validation/reference/*`. `--only NAME` renews one scene of these; `--scale 0.1` is for a look:
+it prints, and writes the scene and its picture only. Mitsuba's `llvm_ad_rgb` needs LLVM's shared
+library (Debian: `libllvm19`).
 """
 
 import argparse
+import dataclasses
+import json
 import sys
 import tempfile
 from pathlib import Path
@@ -27,6 +30,7 @@ def arguments():
     parser.add_argument("--only", action="append", help="compare this scene only; may be repeated")
     parser.add_argument("--scale", type=float, default=1, help="factor on the samples")
     parser.add_argument("--replicates", type=int, default=64, help="independent pictures a side")
+    parser.add_argument("--look", default=".", help="where pictures go when --scale is not 1")
     parser.add_argument("--threads", type=int, default=2, help="threads of rtr")
     parser.add_argument("--variant", default="llvm_ad_rgb", help="variant of Mitsuba")
     return parser.parse_args()
@@ -36,44 +40,47 @@ def main():
     args = arguments()
     mi.set_variant(args.variant)
     # These need the variant.
-    import bsdf, catalog, compare, peer, report, rts
+    import bsdf, catalog, compare, files, peer, report, rts
 
     bsdf.register()
     masking = bsdf.self_check()
     print(f"plug-ins with separable masking: {masking}")
     chosen = [s for s in catalog.ALL if not args.only or s.name in args.only]
-    whole = len(chosen) == len(catalog.ALL) and args.scale == 1
-    versions = ["", f"Mitsuba {mi.__version__}, `{args.variant}`"]
-    rows, failed = [], 0
-    for folder in (HERE / "scenes", HERE / "reference", ROOT / "docs/validation"):
+    reference, pictures = HERE / "reference", ROOT / "docs/validation"
+    for folder in (HERE / "scenes", reference, pictures):
         folder.mkdir(exist_ok=True)
+    stored = reference / "summary.json"
+    found = json.loads(stored.read_text()) if stored.exists() else {}
+    theirs = f"Mitsuba {mi.__version__}, `{args.variant}`"
+    agree = True
     with tempfile.TemporaryDirectory() as work:
-        ours = rts.Renderer(args.rtr_dir, work, args.threads)
-        versions[0] = f"`{ours.version()}`, CPU kernel"
+        renderer = rts.Renderer(args.rtr_dir, work, args.threads)
         for scene in chosen:
             path = HERE / "scenes" / f"{scene.name}.rts"
-            ours.write(scene, path)
+            files.write(scene, path.parent)
+            renderer.write(scene, path)
             # Our samples come in batches of sixteen.
             spp = max(16, round(scene.spp * args.scale / args.replicates / 16) * 16)
-            mine, seconds = ours.pictures(path, args.replicates, spp)
-            others, other_seconds = peer.pictures(scene, args.replicates, spp)
-            found = compare.compare(mine, others)
-            failed += not found.passed(len(catalog.ALL))
-            print(report.line(scene, found, len(catalog.ALL)),
-                  f" {seconds:.0f} s / {other_seconds:.0f} s", flush=True)
-            total = spp * args.replicates
-            rows.append(report.row(scene, found, total, (seconds, other_seconds), len(catalog.ALL)))
-            means = mine.mean(axis=0), others.mean(axis=0)
-            if whole:
-                report.statistics(HERE / "reference" / f"{scene.name}.txt", scene, others, versions[1])
-                report.strip(ROOT / "docs/validation" / f"{scene.name}.png", *means)
-            else:
-                report.strip(Path(f"/tmp/{scene.name}.png"), *means)
-    if whole:
-        command = "python tests/validation/validate.py --rtr-dir target/release"
-        text = report.page(rows, versions, command, args.replicates, chosen, masking)
+            mine, seconds = renderer.pictures(path, args.replicates, spp)
+            others, other_seconds = peer.pictures(scene, path.parent, args.replicates, spp)
+            summary = compare.compare(
+                mine, others, spp * args.replicates, [seconds, other_seconds])
+            agree &= summary.passed(len(catalog.ALL))
+            print(report.line(scene, summary, len(catalog.ALL)), flush=True)
+            to = pictures if args.scale == 1 else Path(args.look)
+            report.strip(to / f"{scene.name}.png", mine.mean(axis=0), others.mean(axis=0))
+            if args.scale == 1:
+                report.statistics(reference / f"{scene.name}.txt", scene, others, theirs)
+                found[scene.name] = dataclasses.asdict(summary)
+        ours = f"`{renderer.version()}`, CPU kernel"
+    if args.scale == 1:
+        found = {s.name: found[s.name] for s in catalog.ALL if s.name in found}
+        stored.write_text(json.dumps(found, indent=1) + "\n")
+        scenes = [s for s in catalog.ALL if s.name in found]
+        rows = [report.row(s, compare.Summary(**found[s.name]), len(scenes)) for s in scenes]
+        text = report.page(rows, (ours, theirs), args.replicates, scenes, masking)
         (ROOT / "docs/validation.md").write_text(text)
-    return 1 if failed else 0
+    return 0 if agree else 1
 
 
 if __name__ == "__main__":
