@@ -15,7 +15,7 @@ use statrs::distribution::{ContinuousCDF, Normal};
 use tests::picture::Estimate;
 use tests::{console, scene, statistics};
 
-/// Size of our pictures: half that of theirs, so that a block is 5 x 5 pixels and shows the same.
+/// Size of our pictures: half that of theirs, so that a block of 10 x 10 pixels shows the same.
 const SIZE: [u32; 2] = [40, 30];
 /// Pictures whose spread is our error, and samples of each.
 const REPLICATES: u32 = 32;
@@ -47,7 +47,8 @@ struct Blocks {
 }
 
 impl Blocks {
-    /// The stored means of a scene.
+    /// The stored means of a scene, four neighbours made one: the few samples of a small block are
+    /// skewed where light is rare, and then Student's quotient is not Student's.
     fn stored(name: &str) -> Self {
         let path = folder("reference").join(name).with_extension("txt");
         let text = std::fs::read_to_string(path).expect("the scene has a reference");
@@ -66,11 +67,16 @@ impl Blocks {
             means.push([pair(0), pair(1), pair(2)]);
         }
         assert_eq!(means.len(), columns * rows, "{name} is complete");
+        let (small, across) = (means, columns);
+        let (columns, rows) = (columns / 2, rows / 2);
+        let corners = (0..columns * rows).map(|i| i / columns * 2 * across + i % columns * 2);
+        let four = |i: usize| [small[i], small[i + 1], small[i + across], small[i + across + 1]];
+        let means: Vec<[Estimate; 3]> =
+            corners.map(|i| [0, 1, 2].map(|k| mean_of(&four(i).map(|block| block[k])))).collect();
         // Mitsuba's independent sampler was used: the errors of blocks are independent.
-        let n = means.len() as f64;
-        let whole = [0, 1, 2].map(|k| Estimate {
-            mean: means.iter().map(|block| block[k].mean).sum::<f64>() / n,
-            error: means.iter().map(|block| block[k].error.powi(2)).sum::<f64>().sqrt() / n,
+        let whole = [0, 1, 2].map(|k| {
+            let channel: Vec<Estimate> = means.iter().map(|block| block[k]).collect();
+            mean_of(&channel)
         });
         Self { columns, rows, means, whole }
     }
@@ -104,6 +110,13 @@ impl Blocks {
         let means = self.means.iter().map(|block| block.map(scale)).collect();
         Self { means, whole: self.whole.map(scale), ..*self }
     }
+}
+
+/// Mean of estimates whose errors are independent.
+fn mean_of(estimates: &[Estimate]) -> Estimate {
+    let n = estimates.len() as f64;
+    let square: f64 = estimates.iter().map(|e| e.error * e.error).sum();
+    Estimate { mean: estimates.iter().map(|e| e.mean).sum::<f64>() / n, error: square.sqrt() / n }
 }
 
 /// Means of the blocks of one picture.
@@ -202,7 +215,8 @@ fn blocks_of_every_scene_agree_with_an_independent_renderer() {
 #[test]
 fn a_picture_that_is_three_percent_too_bright_is_found_out() {
     for Pair { name, ours, theirs } in pairs() {
-        let found = worst(&ours.brighter(1.03), theirs).into_iter().fold(0.0, f64::max);
+        // Of the picture: a block without noise would find out anything.
+        let [_, found] = worst(&ours.brighter(1.03), theirs);
         console::line(&format!("{name:16} 3 % brighter: |z| {found:.2}"));
         assert!(found > bound(pairs().len(), theirs.means.len()), "{name}: |z| is {found:.2} only");
     }

@@ -121,7 +121,7 @@ VEACH = Scene(
         SphereLight((0.4, *VEACH_LIGHTS[1:]), 0.2, (8, 10, 12)),
         SphereLight((1.2, *VEACH_LIGHTS[1:]), 0.3, (6, 4, 5)),
     ],
-    depth=6,
+    depth=2,
     spp=8192,
 )
 
@@ -144,7 +144,7 @@ METALS = Scene(
         Thing(Sphere(0.4), "metal2", at=(0.2, 0.4, -0.4)),
         Thing(Sphere(0.4), "metal3", at=(0.8, 0.4, 0.5)),
     ],
-    lights=[SphereLight((1.5, 2.6, 1), 0.4, (12, 11, 10))],
+    lights=[SphereLight((1.5, 2.6, 1), 0.9, (3, 2.7, 2.4))],
     sky=(0.35, 0.45, 0.6),
 )
 
