@@ -149,7 +149,8 @@ fn materials_carry_factors_maps_and_extensions() {
     document.json["materials"] = json!([
         {"name": "unused", "emissiveTexture": {"index": 1}},
         {"name": "wood", "alphaMode": "MASK", "alphaCutoff": 0.25, "doubleSided": true,
-         "emissiveFactor": [1, 0.5, 0], "normalTexture": {"index": 1},
+         "emissiveFactor": [1, 0.5, 0], "normalTexture": {"index": 0, "scale": 0.5, "extensions":
+            {"KHR_texture_transform": {"offset": [0.5, 0], "scale": [2, 1], "rotation": 1.570_796_4}}},
          "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.6, 0.7, 0.8], "metallicFactor": 0.1,
             "roughnessFactor": 0.3, "baseColorTexture": {"index": 0, "extensions":
                 {"KHR_texture_transform": {"offset": [0.5, 0], "scale": [2, 1], "rotation": 1.570_796_4}}}},
@@ -170,7 +171,9 @@ fn materials_carry_factors_maps_and_extensions() {
     // (1, 0) scaled (2, 0), turned counter-clockwise in the image (v downwards) (0, -2), moved, flipped.
     let [_, uv, _] = mesh.parts[0].corner_uvs(0).expect("uvs");
     assert!((uv[0] - 0.5).abs() < 1e-6 && (uv[1] - 3.0).abs() < 1e-6, "{uv:?}");
-    assert_eq!(mesh.report.warnings[0].message, "1 materials have normal maps, which are not used");
+    let normal = wood.normal_map.expect("map");
+    assert_eq!((normal.space, wood.normal_strength), (ColorSpace::Data, 0.5));
+    assert_eq!(mesh.report.warnings, [], "looked up like the colour");
 }
 
 #[test]

@@ -41,7 +41,11 @@ fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
         )?;
     }
     for material in &scene.materials {
-        let (kind, fields) = model(scene, &material.model);
+        let (kind, mut fields) = model(scene, &material.model);
+        if let Some(map) = &material.normal {
+            fields.push(("normal", format!("{}.rgb", texture_name(scene, map.texture))));
+            fields.push(("normal.strength", number(map.strength)));
+        }
         block(out, &format!("material {}: {kind}", material.name.text), &fields)?;
     }
     for instance in &scene.instances {

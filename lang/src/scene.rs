@@ -156,6 +156,17 @@ pub struct Material {
     pub name: Name,
     /// Model and parameters.
     pub model: MaterialModel,
+    /// Tilts the shading normal.
+    pub normal: Option<NormalMap>,
+}
+
+/// An image of tangent-space normals, green up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NormalMap {
+    /// Index into `Scene::textures`.
+    pub texture: usize,
+    /// Factor on the tilt, 0 ..= 10.
+    pub strength: f64,
 }
 
 /// How a material scatters and emits.

@@ -234,6 +234,8 @@ pub enum FieldType {
     ColorSlot(f64),
     /// A number, or one channel of a texture.
     ScalarSlot(Bounds),
+    /// A texture that holds tangent-space normals.
+    NormalSlot,
     /// One of these words.
     Word(&'static [Word]),
     /// The name of a declaration.
@@ -380,6 +382,7 @@ pub fn type_text(ty: FieldType) -> String {
         FieldType::Color(_) => "colour".to_owned(),
         FieldType::ColorSlot(_) => "colour or texture".to_owned(),
         FieldType::ScalarSlot(_) => "number or texture channel".to_owned(),
+        FieldType::NormalSlot => "texture".to_owned(),
         FieldType::Word(words) => {
             words.iter().map(|(word, _)| format!("`{word}`")).collect::<Vec<_>>().join(" or ")
         }

@@ -26,7 +26,7 @@ type Texts = BTreeMap<String, BTreeSet<(usize, u64)>>;
 
 /// Rust source of `KNOWN: &[Known]`, sorted by text, and of `SWITCHES: &[Switch]`.
 pub(crate) fn table() -> Result<String, Box<dyn Error>> {
-    let families = [materials(), geometry(), views(), formats(), asked()];
+    let families = [materials(), geometry(), views(), formats(), asked(), normals()];
     let mut declarations: BTreeMap<String, Texts> = BTreeMap::new();
     for (f, family) in families.iter().enumerate() {
         for (bits, features) in &family.members {
@@ -178,6 +178,15 @@ fn asked() -> Family {
         .map(|(bits, objects)| (bits, FeatureSet { objects, ..FeatureSet::full() }))
         .collect();
     Family { mask: bit::OBJECTS, members }
+}
+
+/// What tilts shading normals.
+fn normals() -> Family {
+    let members = [(0, false), (bit::NORMAL_MAPS, true)].into_iter();
+    let members = members
+        .map(|(bits, normal_maps)| (bits, FeatureSet { normal_maps, ..FeatureSet::full() }))
+        .collect();
+    Family { mask: bit::NORMAL_MAPS, members }
 }
 
 fn skies_and_lens() -> Vec<(u64, FeatureSet)> {

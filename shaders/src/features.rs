@@ -33,6 +33,8 @@ pub struct FeatureSet {
     pub tangents: bool,
     /// Some material has the flag `OBJECT`.
     pub objects: bool,
+    /// Some material has a normal map.
+    pub normal_maps: bool,
     /// Entries of the traversal stack, at least 1: `RenderSettings::stack_need`.
     pub stack_size: u32,
     /// How many bindings each section is split into.
@@ -88,6 +90,7 @@ impl FeatureSet {
             alpha_clip: false,
             tangents: false,
             objects: false,
+            normal_maps: false,
             stack_size: 1,
             windows: Windows::default(),
         }
@@ -113,6 +116,7 @@ impl FeatureSet {
             alpha_clip: true,
             tangents: true,
             objects: true,
+            normal_maps: true,
             stack_size: 96,
             windows: Windows::default(),
         }

@@ -58,6 +58,7 @@ const MODULES: &[(&str, &str)] = modules![
     "shape/triangle.wgsl",
     "sky/constant.wgsl",
     "sky/gradient.wgsl",
+    "surface/normal_map.wgsl",
     "surface/place.wgsl",
     "surface/surface.wgsl",
     "texture/bilinear.wgsl",

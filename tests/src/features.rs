@@ -80,12 +80,23 @@ pub const CASES: &[Case] = &[
     case("linear texture, mirrored", &[SKY, WEAR, WORN, BALL, QUILT]),
     case("half-float texture, clamped", &[SKY, GLOW, NEON, BALL, QUILT]),
     case("mixed wraps, without spheres", &[SKY, MIXED, PAINTED, QUILT]),
-    case("all formats", &[GRADIENT, PAINT, WEAR, GLOW, MANY, BALL, QUILT, FLOOR]),
+    case("all formats", &[GRADIENT, PAINT, WEAR, GLOW, BUMPS, MANY, BALL, QUILT, FLOOR]),
     // Cut out, mirrored, interpolated.
     case("alpha on spheres", &[SKY, WEAR, LACE, BALL, FLOOR]),
     case("alpha on triangles", &[GRADIENT, SPHERE_LIGHT, WEAR, LACE, TENT, FLOOR]),
     case("smooth normals", &[GRADIENT, SPHERE_LIGHT, PLASTIC, TENT, FLOOR]),
     case("mirrored instances", &[GRADIENT, SPHERE_LIGHT, PLASTIC, MIRRORED, FLOOR]),
+    // Normal maps: steep, over mirrored coordinates and interpolated normals, from both sides.
+    case(
+        "normal map on plastic",
+        &[GRADIENT, SPHERE_LIGHT, BUMPS, BUMPY_PLASTIC, BALL, TENT, QUILT, FLOOR],
+    ),
+    case(
+        "normal map, mirrored",
+        &[GRADIENT, SPHERE_LIGHT, BUMPS, BUMPY_CLAY, MIRRORED, QUILT_BACK],
+    ),
+    case("normal map on a mirror", &[GRADIENT, BUMPS, BUMPY_MIRROR, BALL, TENT]),
+    case("normal map on glass", &[GRADIENT, BUMPS, BUMPY_GLASS, BALL, FLOOR]),
     Case {
         name: "all",
         parts: &[
@@ -97,6 +108,7 @@ pub const CASES: &[Case] = &[
             WEAR,
             PAINT,
             GLOW,
+            BUMPS,
             MANY,
             ALL_THINGS,
             FLOOR,
@@ -147,6 +159,17 @@ instance two { shape = tent, material = m, at = (-1, 0.9, 1)m, scale = (-1.5, -1
 const QUILT: &str = "asset quilt = obj(\"quilt.obj\", unit: m, up: +y)
 instance spread { shape = quilt, material = m, rotate = (70, 0, 0)deg, at = (-1.6, 1, 1)m }\n";
 
+/// The back of the quilt.
+const QUILT_BACK: &str = "asset quilt = obj(\"quilt.obj\", unit: m, up: +y)
+instance under { shape = quilt, material = m, rotate = (-110, 0, 0)deg, at = (-1.2, 1, 1)m, scale = (-1, 1, 1) }\n";
+
+const BUMPS: &str = "texture bumps = image(\"bumps.png\", space: data)\n";
+const BUMPY_PLASTIC: &str = "material m: principled { color = linear(0.1, 0.3, 0.8), roughness = 0.3, normal = bumps.rgb }\n";
+const BUMPY_CLAY: &str = "material m: diffuse { color = linear(0.7, 0.4, 0.2), normal = bumps.rgb, normal.strength = 4 }\n";
+const BUMPY_MIRROR: &str =
+    "material m: metal { color = linear(0.9), normal = bumps.rgb, normal.strength = 0.5 }\n";
+const BUMPY_GLASS: &str = "material m: dielectric { ior = 1.5, normal = bumps.rgb }\n";
+
 const CLAY: &str = "material m: diffuse { color = linear(0.7, 0.4, 0.2) }\n";
 const PLASTIC: &str = "material m: principled { color = linear(0.1, 0.3, 0.8), roughness = 0.3 }\n";
 const FUZZY: &str = "material m: metal { color = linear(0.8), fuzz = 0.2 }\n";
@@ -169,6 +192,7 @@ const LACE: &str =
     "material m: principled { color = linear(0.4, 0.7, 0.3), alpha = wear.a, alpha.clip = 50% }\n";
 const MANY: &str = "material m: principled {
   color = paint.rgb
+  normal = bumps.rgb
   roughness = wear.g
   metallic = wear.b
   emission.color = glow.rgb
@@ -244,6 +268,7 @@ fn write_files(dir: &Path) {
         image.save(dir.join(name)).expect("an image can be written");
     };
     save("paint.png", |x, y| [x * 19, y * 31, (x ^ y) * 16, 255]);
+    save("bumps.png", |x, y| [50 + x * 14, 240 - y * 27, 150 + (x ^ y) * 7, 255]);
     save("wear.png", |x, y| [0, 60 + x * 12, y * 30, if (x + y) % 3 == 0 { 0 } else { 255 }]);
     let glow = |x: usize, y: usize| (x as f32 * 0.25, y as f32 * 0.5, 1.5_f32);
     exr::prelude::write_rgb_file(dir.join("glow.exr"), 6, 5, glow)

@@ -23,6 +23,7 @@ const FILES: &[(&str, &str)] = &[
         r#"{"asset":{"version":"2.0"},"extensionsRequired":["EXT_meshopt_compression"],"extensionsUsed":["EXT_meshopt_compression"]}"#,
     ),
     ("huge.hdr", HUGE),
+    ("tiny.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\nabcd"),
 ];
 
 /// Ten positions in a buffer of twelve bytes.

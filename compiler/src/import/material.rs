@@ -51,6 +51,10 @@ pub struct ImportedMaterial {
     pub emission: Rgb,
     /// Red, green and blue of this image are factors on `emission`.
     pub emission_map: Option<MapUse>,
+    /// Tangent-space normals, green up.
+    pub normal_map: Option<MapUse>,
+    /// Factor on the tilt of `normal_map`, finite.
+    pub normal_strength: f64,
     /// Coverage, 0 ..= 1; 1 when the file says that alpha is to be ignored.
     pub alpha: f64,
     /// The fourth channel of this image is a factor on `alpha`.
@@ -77,6 +81,8 @@ impl ImportedMaterial {
             ior: 1.5,
             emission: [0.0; 3],
             emission_map: None,
+            normal_map: None,
+            normal_strength: 1.0,
             alpha: 1.0,
             alpha_map: None,
             alpha_clip: None,

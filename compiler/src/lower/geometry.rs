@@ -12,7 +12,7 @@ use super::Loaded;
 use super::light::{Emitter, luminance};
 use super::material::{MaterialRef, MaterialTable};
 use super::object::Thing;
-use crate::import::{MeshFile, Part};
+use crate::import::{Attribute, MeshFile, Part};
 
 /// Geometry of the whole scene before normalisation, in order of declaration.
 #[derive(Debug, Default)]
@@ -59,7 +59,7 @@ pub(super) fn place(
             Shape::Box { size } => placer.rectangles(&box_faces(*size)),
             Shape::Mesh { asset, part } => {
                 let file = loaded.assets[*asset].as_ref().expect("used assets are loaded");
-                placer.mesh(*asset, file, part.as_deref());
+                placer.mesh(*asset, file, part.as_deref(), diagnostics);
             }
         }
         placement.close_group();
@@ -216,7 +216,14 @@ impl Placer<'_, '_> {
         }
     }
 
-    fn mesh(&mut self, asset: usize, file: &MeshFile, part: Option<&str>) {
+    fn mesh(
+        &mut self,
+        asset: usize,
+        file: &MeshFile,
+        part: Option<&str>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
+        let mut bare = None;
         let parts = match part {
             None => (0..file.parts.len()).collect(),
             Some(name) => file.find_parts(name),
@@ -228,7 +235,31 @@ impl Placer<'_, '_> {
                 material: material as usize,
             });
             let material = self.material(own);
+            if part.uvs == Attribute::Absent
+                && reads_textures(&self.materials.records()[material as usize])
+            {
+                bare = bare.or(Some(part));
+            }
             self.part(part, material);
+        }
+        diagnostics.extend(bare.map(|part| self.without_uvs(part)));
+    }
+
+    /// Textures are to be read where there are no texture coordinates. A file that says both itself is taken
+    /// as it is: its textures are read at one point.
+    fn without_uvs(&self, part: &Part) -> Diagnostic {
+        let name = match part.name.as_str() {
+            "" => format!("the mesh of `{}`", self.instance.name.text),
+            name => format!("`{name}`"),
+        };
+        let text = format!("{name} has no texture coordinates, but its material reads textures");
+        let mesh = self.instance.shape_span;
+        match self.instance.material_span {
+            None => Diagnostic::warning(Code("W0524"), "import", text).at(mesh, "this mesh"),
+            Some(span) => Diagnostic::error(Code("E0520"), text)
+                .at(span, "reads textures")
+                .because(mesh, "has no texture coordinates")
+                .with_help("unwrap the mesh where it was made, or use a material without textures"),
         }
     }
 
@@ -323,6 +354,21 @@ impl Placement {
             self.groups.push(end);
         }
     }
+}
+
+/// Whether any texture belongs to the material.
+fn reads_textures(material: &abi::Material) -> bool {
+    let textures = [
+        material.color_texture,
+        material.emission_texture,
+        material.metallic_roughness_texture,
+        material.alpha_texture,
+        material.normal_texture,
+        material.specular_texture,
+        material.coat_texture,
+        material.transmission_texture,
+    ];
+    textures.iter().any(|texture| *texture != NONE)
 }
 
 /// Luminance of a material's mean radiance, counted for each emitting side; `None` if dark.

@@ -49,7 +49,7 @@ impl<'a> MaterialTable<'a> {
             return index as u32;
         }
         let record = match of {
-            MaterialRef::Scene(index) => self.declared(&self.scene.materials[index].model),
+            MaterialRef::Scene(index) => self.declared(&self.scene.materials[index]),
             MaterialRef::Asset { asset, material } => self.imported(asset, material),
             MaterialRef::Light(index) => {
                 let emission = self.scene.lights[index].radiance.map(|c| c as f32);
@@ -87,7 +87,16 @@ impl<'a> MaterialTable<'a> {
         (self.records, self.textures)
     }
 
-    fn declared(&mut self, model: &MaterialModel) -> abi::Material {
+    fn declared(&mut self, material: &scene::Material) -> abi::Material {
+        let mut record = self.model(&material.model);
+        if let Some(map) = &material.normal {
+            let (_, image) = self.color(Color::Texture(map.texture));
+            set_normal_map(&mut record, image, map.strength);
+        }
+        record
+    }
+
+    fn model(&mut self, model: &MaterialModel) -> abi::Material {
         match model {
             MaterialModel::Diffuse { color } => {
                 let (color, color_texture) = self.color(*color);
@@ -162,6 +171,10 @@ impl<'a> MaterialTable<'a> {
             self.imported_surface(asset, from, kind)
         };
         record.flags |= material_flag::EMIT_BOTH_SIDES;
+        if !from.unlit {
+            let image = self.map(asset, from.normal_map);
+            set_normal_map(&mut record, image, from.normal_strength);
+        }
         if let Some(cutoff) = from.alpha_clip {
             record.flags |= material_flag::ALPHA_CLIP;
             record.alpha_cutoff = cutoff as f32;
@@ -250,6 +263,15 @@ fn blank(kind: MaterialKind) -> abi::Material {
         ..Default::default()
     };
     with_ior(base, 1.5)
+}
+
+/// Gives the material a normal map, unless it has no effect.
+fn set_normal_map(material: &mut abi::Material, image: u32, strength: f64) {
+    if image != NONE && strength.abs() > 0.0 {
+        material.normal_texture = image;
+        material.normal_strength = strength as f32;
+        material.flags |= material_flag::TANGENT;
+    }
 }
 
 fn with_ior(material: abi::Material, ior: f64) -> abi::Material {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use pack::abi::{LightKind, MaterialKind, SkyKind, TRI_SMOOTH, TextureFormat, material_flag};
+use pack::abi::{LightKind, MaterialKind, NONE, SkyKind, TRI_SMOOTH, TextureFormat, material_flag};
 use shaders::{FeatureSet, WINDOW_WORDS, Windows};
 
 use crate::lower::Lowered;
@@ -34,6 +34,7 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
             .collect(),
         alpha_clip: materials.iter().any(|m| m.flags & material_flag::ALPHA_CLIP != 0),
         tangents: materials.iter().any(|m| m.flags & material_flag::TANGENT != 0),
+        normal_maps: materials.iter().any(|m| m.normal_texture != NONE),
         objects: materials.iter().any(|m| m.flags & material_flag::OBJECT != 0),
         stack_size: lowered.render.stack_need.max(1),
         windows: Windows {
@@ -66,6 +67,7 @@ pub(super) fn explain(features: &FeatureSet, lowered: &Lowered) -> (Reasons, Rea
     ];
     rows.push(row("tangents", features.tangents, "a material has a direction".to_owned()));
     rows.push(row("objects", features.objects, "a material depends on the thing".to_owned()));
+    rows.push(row("normal maps", features.normal_maps, "a material has one".to_owned()));
     for kind in MaterialKind::ALL {
         let users: Vec<&str> = (lowered.materials.iter().zip(&lowered.material_names))
             .filter(|(material, _)| material.kind == kind as u32)

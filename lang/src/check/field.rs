@@ -166,6 +166,12 @@ impl Evaluator<'_> {
                 Value::TextureColor(_) | Value::Item(Kind::Texture, _) => self.which_channel(slot),
                 other => self.fit_number(slot, other, bounds),
             },
+            FieldType::NormalSlot => match value {
+                Value::TextureColor(id) | Value::Item(Kind::Texture, id) => {
+                    self.fit_texture(slot, id, Value::TextureColor(id), false)
+                }
+                other => self.wrong_kind(slot, &other, "a normal map: `.rgb` of a texture"),
+            },
             FieldType::Name(kind) => match value {
                 Value::Item(own, _) if own == kind => value,
                 other => self.wrong_kind(slot, &other, kind.with_article()),

@@ -5,7 +5,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::eval::value::Value;
 use crate::resolve::ItemId;
-use crate::scene::{Color, MaterialModel, Principled, Scalar};
+use crate::scene::{Color, MaterialModel, NormalMap, Principled, Scalar};
 
 /// Above this no real surface is white: fresh snow and barium sulphate stay below.
 const WHITEST: f64 = 0.95;
@@ -60,6 +60,12 @@ pub(super) fn model(fields: &Fields, textures: &dyn Fn(ItemId) -> usize) -> Opti
             alpha_clip: fields.number("alpha.clip"),
         }),
     })
+}
+
+/// The normal map, if there is one.
+pub(super) fn normal(fields: &Fields, textures: &dyn Fn(ItemId) -> usize) -> Option<NormalMap> {
+    let Some(Value::TextureColor(id)) = fields.get("normal") else { return None };
+    Some(NormalMap { texture: textures(id), strength: fields.number("normal.strength")? })
 }
 
 /// The textures that a material reads.

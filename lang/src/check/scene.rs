@@ -41,8 +41,10 @@ impl Checker {
             .iter()
             .map(|(name, id)| {
                 let texture = |id: ItemId| texture_at.get(&id).copied().unwrap_or(0);
-                let model = material::model(self.sound(*id)?, &texture)?;
-                Some(Material { name: name.clone(), model })
+                let fields = self.sound(*id)?;
+                let model = material::model(fields, &texture)?;
+                let normal = material::normal(fields, &texture);
+                Some(Material { name: name.clone(), model, normal })
             })
             .collect::<Option<Vec<Material>>>()?;
         let scene = Scene {

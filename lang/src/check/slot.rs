@@ -70,9 +70,13 @@ impl Evaluator<'_> {
             ColorSpace::Linear => "linear colour",
             ColorSpace::Data => "data",
         };
+        let used = match slot.field.ty {
+            FieldType::NormalSlot => "a normal map",
+            _ => wants,
+        };
         let text = format!("{} wants {wants}, but this image is tagged {tagged}", slot.name());
         let mut error = Diagnostic::error(Code("E0601"), text)
-            .at(slot.span(), format!("used as {wants} here"))
+            .at(slot.span(), format!("used as {used} here"))
             .because(info.space_span, "tagged here")
             .with_fix(Fix::guess(format!("write `space: {write}`"), info.space_value, write));
         if let Some(import) = self.program.import_span(slot.module, id.module) {

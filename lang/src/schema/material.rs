@@ -51,6 +51,31 @@ const IOR: Field = Field::new(
 .typical("water 1.333, window glass 1.52, diamond 2.42")
 .foreign(IOR_NAMES);
 
+/// A tangent-space normal map.
+const NORMAL: Field = Field::new(
+    "normal",
+    FieldType::NormalSlot,
+    Default::Absent("the surface's own normal"),
+    "Normal map: red is the tilt along u, green along v (up in the image, as in glTF), blue out of the surface.",
+)
+.foreign(&[
+    ("normalTexture", "glTF"),
+    ("normalmap", "pbrt-v4 and Mitsuba"),
+    ("normaltex", "LuxCore"),
+    ("norm", "OBJ/MTL"),
+    ("Normal", "Blender"),
+    ("normal_map", "common use"),
+]);
+
+const NORMAL_STRENGTH: Field = Field::new(
+    "normal.strength",
+    FieldType::Number(Bounds::number(0.0, 10.0)),
+    Default::Number(1.0),
+    "Factor on the tilt of `normal`; 0 leaves the surface as it is.",
+)
+.typical("1 as the map was made, 0.5 for half as steep")
+.foreign(&[("normalScale", "glTF"), ("normal_strength", "common use")]);
+
 const fn reflectance(default: Default) -> Field {
     Field::new("color", FieldType::ColorSlot(1.0), default, "Share of the light that is reflected.")
         .typical("charcoal 0.04, clay 0.4, fresh snow 0.9")
@@ -62,7 +87,7 @@ const DIFFUSE: TypeSchema = TypeSchema {
     name: "diffuse",
     doc: "Scatters light evenly in all directions (Lambert): chalk, clay, matt paint.",
     example: "material clay: diffuse { color = srgb(#b5651d) }",
-    fields: &[reflectance(Default::Required)],
+    fields: &[reflectance(Default::Required), NORMAL, NORMAL_STRENGTH],
     foreign: &[
         ("lambertian", "common use"),
         ("lambert", "common use"),
@@ -90,6 +115,8 @@ const METAL: TypeSchema = TypeSchema {
             ("uroughness", "pbrt-v3 and LuxCore"),
             ("Ns", "OBJ/MTL"),
         ]),
+        NORMAL,
+        NORMAL_STRENGTH,
     ],
     foreign: &[
         ("conductor", "pbrt-v4 and Mitsuba"),
@@ -104,7 +131,7 @@ const DIELECTRIC: TypeSchema = TypeSchema {
     name: "dielectric",
     doc: "Smooth glass or water: reflects and refracts, and absorbs nothing.",
     example: "material glass: dielectric { ior = 1.52 }",
-    fields: &[IOR],
+    fields: &[IOR, NORMAL, NORMAL_STRENGTH],
     foreign: &[("glass", "pbrt-v3, LuxCore and Blender"), ("refraction", "Blender")],
 };
 
@@ -229,6 +256,8 @@ const PRINCIPLED: TypeSchema = TypeSchema {
         )
         .typical("50% for leaves and petals")
         .foreign(&[("alphaCutoff", "glTF"), ("alphaMode", "glTF")]),
+        NORMAL,
+        NORMAL_STRENGTH,
     ],
     foreign: &[
         ("disney", "pbrt-v3 and LuxCore"),

@@ -4,7 +4,7 @@
 //! them with the same function, so a pack cannot claim what it does not hold. A reader refuses
 //! bits that it does not know.
 
-use crate::abi::{LightKind, MaterialKind, SkyKind, TextureFormat, material_flag};
+use crate::abi::{LightKind, MaterialKind, NONE, SkyKind, TextureFormat, material_flag};
 use crate::contents::Contents;
 
 /// Has triangles.
@@ -45,9 +45,11 @@ pub const LENS: u64 = 1 << 16;
 pub const TANGENTS: u64 = 1 << 17;
 /// Has a material that depends on the object.
 pub const OBJECTS: u64 = 1 << 18;
+/// Has a material with a normal map.
+pub const NORMAL_MAPS: u64 = 1 << 21;
 
 /// Every bit with its name, in bit order.
-pub const NAMES: [(u64, &str); 19] = [
+pub const NAMES: [(u64, &str); 20] = [
     (TRIANGLES, "triangles"),
     (SPHERES, "spheres"),
     (LIGHT_SPHERE, "sphere lights"),
@@ -67,10 +69,19 @@ pub const NAMES: [(u64, &str); 19] = [
     (LENS, "lens"),
     (TANGENTS, "tangents"),
     (OBJECTS, "objects"),
+    (NORMAL_MAPS, "normal maps"),
 ];
 
 /// All bits that this reader knows.
-pub const KNOWN: u64 = (1 << NAMES.len()) - 1;
+pub const KNOWN: u64 = {
+    let mut known = 0;
+    let mut row = 0;
+    while row < NAMES.len() {
+        known |= NAMES[row].0;
+        row += 1;
+    }
+    known
+};
 
 /// Names of the bits that are set, in bit order; unknown bits are left out.
 #[must_use]
@@ -108,6 +119,7 @@ pub(crate) fn of(contents: &Contents<'_>) -> u64 {
         set(ALPHA_CLIP, material.flags & material_flag::ALPHA_CLIP != 0);
         set(TANGENTS, material.flags & material_flag::TANGENT != 0);
         set(OBJECTS, material.flags & material_flag::OBJECT != 0);
+        set(NORMAL_MAPS, material.normal_texture != NONE);
     }
     bits
 }

@@ -12,6 +12,7 @@ pub(crate) fn path(features: &FeatureSet) -> String {
     let mut text =
         String::from("// Generated: camera, sky, shapes and direct light of this scene.\n\n");
     let mut modules = vec![
+        "abi/material.wgsl",
         "bsdf/scatter.wgsl",
         "camera/film_plane.wgsl",
         "camera/pinhole.wgsl",
@@ -27,6 +28,9 @@ pub(crate) fn path(features: &FeatureSet) -> String {
     if features.lens {
         modules.push("camera/thin_lens.wgsl");
     }
+    if features.normal_maps {
+        modules.push("surface/normal_map.wgsl");
+    }
     if !features.lights.is_empty() {
         modules.push("kernel/direct.wgsl");
     }
@@ -40,6 +44,7 @@ pub(crate) fn path(features: &FeatureSet) -> String {
     if features.geometry() {
         text += &surface(features);
         text += &tangent(features);
+        text += &shading_normal(features);
         text += &direct(features);
     }
     text
@@ -128,6 +133,19 @@ fn tangent(features: &FeatureSet) -> String {
     format!(
         "\n// Finds the direction in which u grows, for materials whose flags ask for it.\n\
          fn dispatch_tangent(s: ptr<function, Surface>, hit: Hit, flags: u32) {{\n{body}}}\n"
+    )
+}
+
+fn shading_normal(features: &FeatureSet) -> String {
+    let map = if features.normal_maps {
+        "    if (m.normal_texture != NONE) {\n        \
+         normal_map_tilt(s, m.normal_texture, m.normal_strength, dir);\n    }\n"
+    } else {
+        ""
+    };
+    format!(
+        "\n// Tilts the shading normal of `s`, seen along `dir`, as the material says.\n\
+         fn dispatch_shading_normal(s: ptr<function, Surface>, m: Material, dir: vec3f) {{\n{map}}}\n"
     )
 }
 

@@ -26,6 +26,9 @@ const FEATURES: &[(&str, Switch)] = &[
     ("linear textures", |f| _ = f.textures.insert(TextureFormat::Rgba8Linear)),
     ("half textures", |f| _ = f.textures.insert(TextureFormat::Rgba16Float)),
     ("alpha clip", |f| f.alpha_clip = true),
+    ("tangents", |f| f.tangents = true),
+    ("objects", |f| f.objects = true),
+    ("normal maps", |f| f.normal_maps = true),
 ];
 
 /// Nothing, everything, every single feature and every pair, each alone and on top of each way to have

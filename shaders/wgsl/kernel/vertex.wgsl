@@ -18,6 +18,7 @@ fn vertex_scatter(path: ptr<function, Path>, hit: Hit) {
     var s = dispatch_surface(hit, origin, (*path).dir);
     let m = load_material(s.material);
     dispatch_tangent(&s, hit, m.flags);
+    dispatch_shading_normal(&s, m, (*path).dir);
     vertex_emit(path, s, m);
     if ((*path).segments >= load_frame_max_depth()) {
         (*path).open = false;

@@ -5,10 +5,10 @@ use super::super::image_set::{Alpha, ImageSet};
 use super::super::material::{ImportedMaterial, MapUse};
 use super::super::report::ImportReport;
 use super::container::Images;
-use ::gltf::json::Index;
-use ::gltf::json::material::{AlphaMode, Material};
+use ::gltf::json::material::{AlphaMode, Material, NormalTexture};
 use ::gltf::json::texture::{Info, WrappingMode};
 use ::gltf::json::validation::Checked;
+use ::gltf::json::{Index, Value, deserialize};
 use lang::scene::{ColorSpace, Wrap};
 
 /// A material with what its UVs need.
@@ -75,7 +75,6 @@ pub(super) fn convert<'a>(
 #[derive(Default)]
 struct Notes {
     blended: u64,
-    normal_maps: u64,
     transmission_maps: u64,
     uv_sets: u64,
 }
@@ -84,7 +83,6 @@ impl Notes {
     fn report(&self, file: &str, report: &mut ImportReport) {
         let notes = [
             (self.blended, "blend with what is behind them; coverage is cut at one half instead"),
-            (self.normal_maps, "have normal maps, which are not used"),
             (self.transmission_maps, "have transmission maps, which are not used"),
             (
                 self.uv_sets,
@@ -130,7 +128,13 @@ fn convert_one(
     }
     out.unlit = extensions.is_some_and(|e| e.unlit.is_some());
     out.double_sided = material.double_sided;
-    notes.normal_maps += u64::from(material.normal_texture.is_some());
+    if let Some(normal) = &material.normal_texture {
+        if !normal.scale.is_finite() {
+            return Err(maps.error(ErrorKind::Number, "the scale of its normal map is not finite"));
+        }
+        out.normal_map = maps.load(Some(&maps.normal_info(normal)?), ColorSpace::Data)?;
+        out.normal_strength = f64::from(normal.scale);
+    }
     let clip = match material.alpha_mode {
         Checked::Valid(AlphaMode::Opaque) => None,
         Checked::Valid(AlphaMode::Mask) => {
@@ -166,6 +170,20 @@ struct Maps<'m, 'a, 'r> {
 }
 
 impl Maps<'_, '_, '_> {
+    fn error(&self, kind: ErrorKind, message: &str) -> ImportError {
+        self.source.document.error(kind, self.what, message)
+    }
+
+    /// A normal map as any other texture; its extensions are not parsed yet.
+    fn normal_info(&self, normal: &NormalTexture) -> Result<Info, ImportError> {
+        let extensions = normal.extensions.clone().map(|e| Value::Object(e.others));
+        let extensions = extensions.map(deserialize::from_value).transpose().map_err(|error| {
+            self.error(ErrorKind::Format, &format!("its normal map is not glTF: {error}"))
+        })?;
+        let (index, tex_coord) = (normal.index, normal.tex_coord);
+        Ok(Info { index, tex_coord, extensions, extras: normal.extras.clone() })
+    }
+
     fn load(
         &mut self,
         info: Option<&Info>,

@@ -38,6 +38,13 @@ fn triangle_mode(primitive: &Primitive) -> Result<Option<Mode>, &'static str> {
     }
 }
 
+/// Whether tangents are stored that the material would use.
+fn has_tangents(document: &Document<'_>, primitive: &Primitive) -> bool {
+    let material = primitive.material.and_then(|index| document.root.get(index));
+    attribute(primitive, Semantic::Tangents).is_some()
+        && material.is_some_and(|material| material.normal_texture.is_some())
+}
+
 fn attribute(primitive: &Primitive, semantic: Semantic) -> Option<Index<Accessor>> {
     primitive.attributes.get(&Checked::Valid(semantic)).copied()
 }
@@ -56,7 +63,7 @@ impl Table {
         }
         let mut used = BTreeMap::new();
         let mut n_triangles: u64 = 0;
-        let mut left_out = [0_u64; 3];
+        let mut left_out = [0_u64; 4];
         for (mesh_idx, mesh) in document.root.meshes.iter().enumerate() {
             let n_uses = u64::from(uses[mesh_idx]);
             for (primitive_idx, primitive) in mesh.primitives.iter().enumerate() {
@@ -72,6 +79,7 @@ impl Table {
                 };
                 left_out[1] += u64::from(attribute(primitive, Semantic::Colors(0)).is_some());
                 left_out[2] += u64::from(primitive.targets.is_some());
+                left_out[3] += u64::from(has_tangents(document, primitive));
                 if let Some(material) = primitive.material {
                     used.insert(material.value(), material);
                 }
@@ -89,6 +97,7 @@ impl Table {
             "primitives of points or lines are left out",
             "primitives have vertex colours, which are not used",
             "primitives have morph targets, which are not used",
+            "primitives have tangents for their normal maps; those of the UVs are used instead",
         ];
         for (count, what) in left_out.into_iter().zip(what).filter(|(count, _)| *count > 0) {
             report.warn(document.file, format!("{count} {what}"));

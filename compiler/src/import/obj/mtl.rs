@@ -10,6 +10,7 @@
 //! - `Ks` without any `Kd` is a metal of that colour; without `Ks` and `Ns` (or with `illum` 0 or 1)
 //!   there is no highlight at all.
 //! - `illum` 4, 6, 7 and 9 mean glass: transmission is `1 - d`, or 1 where 6 or 7 say no `d`.
+//! - `norm` is a normal map. `map_Bump` is a height without a unit: there is no telling how steep it is.
 //! - `map_d`, or `d` below 1 otherwise, is coverage, cut at one half.
 
 use super::super::error::{ErrorKind, ImportError};
@@ -156,6 +157,7 @@ fn clean_line(line: &[u8], named: bool) -> Result<Line, (ErrorKind, String)> {
             | b"map_Kd"
             | b"map_Ke"
             | b"map_d"
+            | b"norm"
     );
     if known && !named {
         return Err((ErrorKind::Format, format!("`{key}` before the first `newmtl`")));
@@ -192,13 +194,16 @@ fn clean_line(line: &[u8], named: bool) -> Result<Line, (ErrorKind, String)> {
             let number = std::str::from_utf8(rest).ok().and_then(|s| s.parse::<u8>().ok());
             if number.is_some() { keep(rest) } else { Ok(Line::Drop) }
         }
-        b"map_Kd" | b"map_Ke" | b"map_d" => {
+        b"map_Kd" | b"map_Ke" | b"map_d" | b"norm" => {
             let written = text(rest, "a file name")?;
             if written.is_empty() {
                 return Ok(Line::Odd(format!("`{key}` without a file name")));
             }
             keep(rest)
         }
+        b"map_Bump" | b"map_bump" | b"bump" => Ok(Line::Odd(format!(
+            "`{key}` is a height without a unit and is not used; a normal map is `norm`"
+        ))),
         _ => Ok(Line::Drop),
     }
 }
@@ -217,6 +222,8 @@ fn convert(
     out.color_map = maps.load(mtl.diffuse_texture.as_deref(), ColorSpace::Srgb, Alpha::Own)?;
     let emission_map = mtl.unknown_param.get("map_Ke").map(String::as_str);
     out.emission_map = maps.load(emission_map, ColorSpace::Srgb, Alpha::Own)?;
+    let normal_map = mtl.unknown_param.get("norm").map(String::as_str);
+    out.normal_map = maps.load(normal_map, ColorSpace::Data, Alpha::Own)?;
     out.alpha_map = maps.load(mtl.dissolve_texture.as_deref(), ColorSpace::Data, Alpha::Mask)?;
     set_colors(&mut out, mtl, &place, report);
     set_gloss(&mut out, mtl);
