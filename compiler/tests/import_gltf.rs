@@ -6,7 +6,7 @@ mod import_support;
 
 use compiler::import::{ErrorKind, ImportError, Limits, MeshFile, load_gltf, topology};
 use import_support::{Builder, glb, tiny_png, triangle};
-use lang::scene::Wrap;
+use lang::scene::{ColorSpace, Wrap};
 use serde_json::{Value, json};
 use std::fs;
 use tempfile::TempDir;
