@@ -12,6 +12,7 @@
 mod assemble;
 mod camera;
 mod geometry;
+mod grain;
 mod light;
 mod material;
 mod object;

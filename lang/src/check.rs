@@ -23,6 +23,7 @@ mod light;
 mod lint;
 mod material;
 mod object;
+mod pattern;
 mod render;
 mod scene;
 mod shape;

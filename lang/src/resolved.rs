@@ -7,8 +7,8 @@
 use std::fmt::{self, Write as _};
 
 use crate::scene::{
-    AssetFormat, Axis, Camera, Color, ColorSpace, Instance, MaterialModel, Rgb, Scalar, Scene,
-    Shape, Sky, SkyModel, ToneMap, Wrap,
+    AssetFormat, Axis, Camera, Color, ColorSpace, Instance, MaterialModel, Pattern, Rgb, Scalar,
+    Scene, Shape, Sky, SkyModel, ToneMap, Wrap,
 };
 use crate::schema::color_text;
 use crate::units::{self, Dim};
@@ -117,7 +117,39 @@ fn model(scene: &Scene, model: &MaterialModel) -> (&'static str, Vec<(&'static s
             ];
             ("principled", fields)
         }
+        MaterialModel::Stone { color, vein, pattern, gloss } => {
+            let mut fields = vec![("color", color_text(*color))];
+            fields.extend(vein.map(|vein| ("color.vein", color_text(vein))));
+            fields.extend(bumps(pattern));
+            fields.push(("gloss", number(*gloss)));
+            ("stone", fields)
+        }
+        MaterialModel::Wood { color, late, grain, grain_span: _, pattern, gloss, anisotropy } => {
+            let mut fields = vec![("color", color_text(*color))];
+            fields.extend(late.map(|late| ("color.late", color_text(late))));
+            fields.push(("grain", ["x", "y", "z"][(*grain).min(2)].to_owned()));
+            fields.extend(bumps(pattern));
+            fields.push(("gloss", number(*gloss)));
+            fields.push(("anisotropy", number(*anisotropy)));
+            ("wood", fields)
+        }
+        MaterialModel::Fabric { color: c, pattern, roughness, gloss, translucency } => {
+            let mut fields = vec![("color", color(c))];
+            fields.extend(bumps(pattern));
+            fields.push(("roughness", number(*roughness)));
+            fields.push(("gloss", number(*gloss)));
+            fields.push(("translucency", number(*translucency)));
+            ("fabric", fields)
+        }
     }
+}
+
+fn bumps(pattern: &Pattern) -> [(&'static str, String); 3] {
+    [
+        ("scale", number(pattern.scale)),
+        ("bump.eps", length(pattern.step)),
+        ("bump.strength", length(pattern.height)),
+    ]
 }
 
 fn instance_fields(scene: &Scene, instance: &Instance) -> Vec<(&'static str, String)> {

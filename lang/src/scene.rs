@@ -200,6 +200,58 @@ pub enum MaterialModel {
     },
     /// glTF metallic-roughness.
     Principled(Principled),
+    /// Rough, with bumps and veins.
+    Stone {
+        /// Reflectance, 0 ..= 1.
+        color: Rgb,
+        /// That of the veins.
+        vein: Option<Rgb>,
+        /// The field and its bumps.
+        pattern: Pattern,
+        /// Share of uncoloured gloss, 0 ..= 1.
+        gloss: f64,
+    },
+    /// Rough, with bumps, rings and gloss along a grain.
+    Wood {
+        /// Reflectance of early wood, 0 ..= 1.
+        color: Rgb,
+        /// That of late wood.
+        late: Option<Rgb>,
+        /// Axis of the object along which the grain runs: 0 x, 1 y, 2 z.
+        grain: usize,
+        /// Where the text says so.
+        grain_span: Span,
+        /// The field and its bumps.
+        pattern: Pattern,
+        /// Share of uncoloured gloss, 0 ..= 1.
+        gloss: f64,
+        /// How far the gloss is stretched along the grain, 0 ..= 1.
+        anisotropy: f64,
+    },
+    /// Rough thin sheet that lets light through.
+    Fabric {
+        /// Share of light that is not absorbed, 0 ..= 1.
+        color: Color,
+        /// The field and its bumps.
+        pattern: Pattern,
+        /// Perceptual roughness of the gloss, 0 ..= 1.
+        roughness: f64,
+        /// Share of uncoloured gloss, 0 ..= 1.
+        gloss: f64,
+        /// Share of the rest that goes through, 0 ..= 1.
+        translucency: f64,
+    },
+}
+
+/// A field over an object, and the bumps it makes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pattern {
+    /// Pattern coordinates are metres of the object times this; > 0.
+    pub scale: f64,
+    /// Step of the differences that tilt the normal, metres of the object; > 0.
+    pub step: f64,
+    /// Height of the bumps, metres of the object; >= 0.
+    pub height: f64,
 }
 
 /// Parameters of `MaterialModel::Principled`.

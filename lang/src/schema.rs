@@ -11,6 +11,7 @@ mod film;
 mod instance;
 mod light;
 mod material;
+pub(crate) mod pattern;
 mod render;
 mod shape;
 mod sky;

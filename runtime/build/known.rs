@@ -122,18 +122,20 @@ fn subsets<T: Copy + Ord>(all: &[T]) -> Vec<BTreeSet<T>> {
         .collect()
 }
 
-fn material_bit(kind: MaterialKind) -> u64 {
-    match kind {
-        MaterialKind::Diffuse => bit::MATERIAL_DIFFUSE,
-        MaterialKind::Metal => bit::MATERIAL_METAL,
-        MaterialKind::Dielectric => bit::MATERIAL_DIELECTRIC,
-        MaterialKind::Emissive => bit::MATERIAL_EMISSIVE,
-        MaterialKind::Principled => bit::MATERIAL_PRINCIPLED,
-    }
+fn materials_mask() -> u64 {
+    MaterialKind::ALL.into_iter().map(bit::material).sum()
 }
 
-fn materials_mask() -> u64 {
-    MaterialKind::ALL.into_iter().map(material_bit).sum()
+/// The name of its tag in the kernel: `MATERIAL_DIFFUSE`.
+fn tag_name(kind: MaterialKind) -> String {
+    let mut name = "MATERIAL".to_owned();
+    for c in format!("{kind:?}").chars() {
+        if c.is_ascii_uppercase() {
+            name.push('_');
+        }
+        name.push(c.to_ascii_uppercase());
+    }
+    name
 }
 
 /// No material, and each alone: these dispatch without a `switch`.
@@ -141,14 +143,14 @@ fn materials() -> Family {
     let none = FeatureSet { materials: BTreeSet::new(), ..FeatureSet::full() };
     let mut members = vec![(0, none)];
     members.extend(MaterialKind::ALL.into_iter().map(|kind| {
-        (material_bit(kind), FeatureSet { materials: [kind].into(), ..FeatureSet::full() })
+        (bit::material(kind), FeatureSet { materials: [kind].into(), ..FeatureSet::full() })
     }));
     Family { mask: materials_mask(), members }
 }
 
 /// Rust source of `SWITCHES: &[Switch]`: the functions that switch over the kinds of materials. With
-/// two kinds or more their text is the head, the cases of those kinds, the foot; there are far too many
-/// subsets to list their texts.
+/// two kinds or more their text is the head, the cases of those kinds that have one, the foot; there are far too
+/// many subsets to list their texts.
 fn switches(switching: &[String]) -> Result<String, Box<dyn Error>> {
     let full = declarations_of(&FeatureSet::full())?;
     let mut source = String::from("static SWITCHES: &[Switch] = &[\n");
@@ -158,12 +160,11 @@ fn switches(switching: &[String]) -> Result<String, Box<dyn Error>> {
         let (first, last) = (at("        case ")?, at("        default:")?);
         let (head, foot) = (&text[..first], &text[last..]);
         let mut cases = Vec::new();
-        for (kind, line) in MaterialKind::ALL.iter().zip(text[first..last].split_inclusive('\n')) {
-            cases.push((material_bit(*kind), line));
-        }
-        let lines = text[first..last].lines().count();
-        if lines != MaterialKind::ALL.len() {
-            return Err(format!("`{name}` has {lines} cases").into());
+        for line in text[first..last].split_inclusive('\n') {
+            let of = |kind: &MaterialKind| line.contains(&format!("case {}:", tag_name(*kind)));
+            let kind = MaterialKind::ALL.into_iter().find(of);
+            let kind = kind.ok_or_else(|| format!("`{name}` has a case of no kind: {line}"))?;
+            cases.push((bit::material(kind), line));
         }
         writeln!(source, "    Switch {{ head: {head:?}, cases: &{cases:?}, foot: {foot:?} }},")?;
     }

@@ -19,6 +19,7 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/dispatch.wgsl", dispatch::path(features)),
         ("scene/dispatch_bsdf.wgsl", dispatch::bsdf(features)),
         ("scene/dispatch_light.wgsl", dispatch::light(features)),
+        ("scene/dispatch_pattern.wgsl", dispatch::pattern(features)),
         ("scene/leaf.wgsl", traversal::leaf(features)),
         ("scene/place.wgsl", dispatch::place(features)),
         ("scene/records.wgsl", records::text()),

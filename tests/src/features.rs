@@ -63,6 +63,16 @@ pub const CASES: &[Case] = &[
         &[GRADIENT, "material m: principled { metallic = 1, roughness = 1 }\n", BALL, FLOOR],
     ),
     case("half metal that glows", &[SKY, GLOWING, BALL, FLOOR]),
+    // Patterns: on flat and on bent surfaces, on turned things, in both directions through a sheet.
+    case("stone", &[GRADIENT, SPHERE_LIGHT, STONE, BALL, BOX, TENT, FLOOR]),
+    case("stone without bumps, on spheres alone", &[SKY, SMOOTH_STONE, BALL]),
+    case("wood along x", &[GRADIENT, SPHERE_LIGHT, WOOD_X, BALL, BOX, FLOOR]),
+    case("wood along y", &[SKY, SPHERE_LIGHT, WOOD_Y, BALL, MIRRORED, FLOOR]),
+    case("wood along z", &[GRADIENT, LAMP, PANEL, WOOD_Z, BALL, TENT, FLOOR]),
+    case("fabric", &[SPHERE_LIGHT, LAMP, PANEL, PAINT, FABRIC, BALL, QUILT, FLOOR]),
+    case("opaque fabric", &[GRADIENT, FELT, BALL, TENT]),
+    case("bumps as steep as walls", &[GRADIENT, SPHERE_LIGHT, CRAGS, BALL, TENT, FLOOR]),
+    case("every pattern", &[GRADIENT, SPHERE_LIGHT, PAINT, PATTERNS, FLOOR]),
     // Lights, seen by each sort of lobe.
     case("sphere light on plastic", &[SPHERE_LIGHT, PLASTIC, BALL, FLOOR]),
     case("sphere light on metal", &[SPHERE_LIGHT, SKY, FUZZY, BALL, FLOOR]),
@@ -111,6 +121,7 @@ pub const CASES: &[Case] = &[
             BUMPS,
             MANY,
             ALL_THINGS,
+            PATTERNS,
             FLOOR,
         ],
         camera: LENS,
@@ -179,6 +190,28 @@ const GLOWING: &str = "material m: principled {
   emission.color = linear(0.2, 0.1, 0)
   emission.strength = 2
 }\n";
+
+const STONE: &str = "material m: stone { color = linear(0.6, 0.55, 0.5), scale = 2 }\n";
+const SMOOTH_STONE: &str = "material m: stone { color = linear(0.6), color.vein = linear(0.9, 0.1, 0), bump.strength = 0m }\n";
+const WOOD_X: &str = "material m: wood { color = linear(0.5, 0.3, 0.15), grain = x, scale = 3 }\n";
+const WOOD_Y: &str = "material m: wood {
+  color = linear(0.5, 0.3, 0.15)
+  color.late = linear(0.1, 0, 0)
+  grain = y
+  gloss = 30%
+  anisotropy = 1
+}\n";
+const WOOD_Z: &str = "material m: wood { color = linear(0.5), grain = z, gloss = 100% }\n";
+const FABRIC: &str = "material m: fabric { color = paint.rgb, scale = 3, translucency = 0.5 }\n";
+const FELT: &str = "material m: fabric { color = linear(0.3, 0.1, 0.1), translucency = 0, gloss = 0.2, roughness = 0.3 }\n";
+const CRAGS: &str = "material m: stone { color = linear(0.9), bump.strength = 300m }\n";
+const PATTERNS: &str = "material rock: stone { color = linear(0.6, 0.55, 0.5), scale = 2 }
+material oak: wood { color = linear(0.5, 0.3, 0.15), grain = x, scale = 3 }
+material cloth: fabric { color = paint.rgb }
+instance patterned_a { shape = sphere(radius: 1m), material = rock, at = (-1, 1, -1)m }
+instance patterned_b { shape = box(size: (2, 0.3, 0.5)m), material = oak, rotate = (0, 30, 0)deg, at = (0.5, 0.4, 1)m }
+instance patterned_c { shape = rectangle(size: (1, 1)m), material = cloth, rotate = (70, 0, 20)deg, at = (1.3, 1, 0)m }
+instance patterned_d { shape = sphere(radius: 30cm), material = oak, at = (-1.2, 0.3, 1.2)m }\n";
 
 const PAINT: &str = "texture paint = image(\"paint.png\", space: srgb)\n";
 const MIXED: &str =

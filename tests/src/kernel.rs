@@ -3,7 +3,7 @@
 use bytemuck::Pod;
 use glam::{DVec2, DVec3, UVec4, Vec3};
 use pack::abi::{
-    Camera, Frame, Light, Material, MaterialKind, NONE, Node, Sphere, TriShade, Triangle,
+    Camera, Frame, Light, Material, MaterialKind, NONE, Node, Object, Sphere, TriShade, Triangle,
 };
 use runtime::kernel::{f32 as single, f64 as double};
 
@@ -71,6 +71,14 @@ impl Bench {
     pub fn materials(mut self, materials: &[Material]) -> Self {
         self.frame.material_at = self.heap_end();
         self.heap.extend(words(materials));
+        self.framed()
+    }
+
+    /// With a table of objects.
+    #[must_use]
+    pub fn objects(mut self, objects: &[Object]) -> Self {
+        self.frame.object_at = self.heap_end();
+        self.heap.extend(words(objects));
         self.framed()
     }
 
@@ -179,6 +187,12 @@ pub struct Lobe {
     pub place: DVec3,
     /// Key of the object.
     pub key: u32,
+    /// Share of gloss over a matte base.
+    pub gloss: f32,
+    /// Share of a second lobe: translucency.
+    pub weight: f32,
+    /// How much narrower the lobe is across the tangent.
+    pub anisotropy: f32,
 }
 
 impl Lobe {
@@ -197,6 +211,9 @@ impl Lobe {
             uv: DVec2::new(0.3, 0.6),
             place: DVec3::new(0.1, -0.7, 0.4),
             key: 0x9e37_79b9,
+            gloss: 0.0,
+            weight: 0.0,
+            anisotropy: 0.0,
         }
     }
 
@@ -222,6 +239,24 @@ impl Lobe {
     #[must_use]
     pub fn principled(roughness: f32, metallic: f32) -> Self {
         Self { roughness, metallic, ..Self::new(MaterialKind::Principled) }
+    }
+
+    /// The material that its functions read: index 0 of a bench.
+    #[must_use]
+    pub fn record(&self) -> Material {
+        Material {
+            kind: self.kind as u32,
+            gloss: self.gloss,
+            weight: self.weight,
+            anisotropy: self.anisotropy,
+            ..Material::default()
+        }
+    }
+
+    /// A bench with its material.
+    #[must_use]
+    pub fn bench(&self) -> Bench {
+        Bench::new().materials(&[self.record()])
     }
 
     /// A unit direction at cosine `mu` to the normal, representable in single precision. Unit in

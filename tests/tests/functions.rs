@@ -9,6 +9,8 @@
 
 #[path = "functions/math.rs"]
 mod math;
+#[path = "functions/noise.rs"]
+mod noise;
 #[path = "functions/offset.rs"]
 mod offset;
 #[path = "functions/optics.rs"]

@@ -16,6 +16,8 @@ mod bsdf;
 mod camera;
 #[path = "samplers/light.rs"]
 mod light;
+#[path = "samplers/matte.rs"]
+mod matte;
 #[path = "samplers/uniform.rs"]
 mod uniform;
 
@@ -26,7 +28,8 @@ const N: usize = 1_000_000;
 /// Seed of every stream of this file.
 const SEED: u32 = 20_260;
 /// Chi-square tests in this file.
-const CHECKS: usize = bsdf::CHECKS + camera::CHECKS + light::CHECKS + uniform::CHECKS;
+const CHECKS: usize =
+    bsdf::CHECKS + camera::CHECKS + light::CHECKS + matte::CHECKS + uniform::CHECKS;
 
 /// Fails where the counts are too far from what was expected; names the case.
 fn check(name: &str, counts: &Counts) {

@@ -5,6 +5,10 @@
 
 #[path = "scattering/energy.rs"]
 mod energy;
+#[path = "scattering/matte.rs"]
+mod matte;
+#[path = "scattering/pattern.rs"]
+mod pattern;
 #[path = "scattering/weight.rs"]
 mod weight;
 

@@ -62,6 +62,10 @@ pub(super) fn place(
                 placer.mesh(*asset, file, part.as_deref(), diagnostics);
             }
         }
+        let first = placement.groups.last().map_or(0, |end| *end as usize);
+        let thing = &placement.things[object as usize];
+        let corners = &placement.corners[first..];
+        diagnostics.extend(super::grain::check(scene, instance, thing, corners));
         placement.close_group();
     }
     for (index, light) in scene.lights.iter().enumerate() {

@@ -1,6 +1,8 @@
 //! Materials in use become `Material` records, numbered in the order in which geometry asks.
 
-use lang::scene::{self, Color, ColorSpace, MaterialModel, Principled, Scalar, Scene, Wrap};
+use lang::scene::{
+    self, Color, ColorSpace, MaterialModel, Pattern, Principled, Scalar, Scene, Wrap,
+};
 use pack::abi::{self, MaterialKind, NONE, material_flag};
 
 use super::Loaded;
@@ -27,6 +29,18 @@ pub(super) enum MaterialRef {
 
 /// Reflectance of surfaces that nobody gave a material: a neutral 50 % grey.
 const DEFAULT_COLOR: f32 = 0.5;
+
+/// Veins of stone are this share of its colour where the scene says nothing else.
+const VEIN: f64 = 0.4;
+
+/// What `Material::fuzz` says of the grain along x, y, z: the middles of the thirds that the kernel tells apart,
+/// the first third being y.
+const GRAIN_CODES: [f32; 3] = [1.0 / 2.0, 1.0 / 6.0, 5.0 / 6.0];
+
+/// Late wood is denser: darker, and more so in blue, where wood absorbs most.
+fn late_wood([r, g, b]: [f64; 3]) -> [f64; 3] {
+    [r * 0.5, g * 0.38, b * 0.3]
+}
 
 /// Materials, and the textures they use.
 pub(super) struct MaterialTable<'a> {
@@ -118,6 +132,39 @@ impl<'a> MaterialTable<'a> {
                 abi::Material { emission, emission_texture, flags, ..base }
             }
             MaterialModel::Principled(principled) => self.principled(principled),
+            MaterialModel::Stone { color, vein, pattern, gloss } => abi::Material {
+                color: color.map(|c| c as f32),
+                tint: vein.unwrap_or(color.map(|c| c * VEIN)).map(|c| c as f32),
+                gloss: *gloss as f32,
+                ..with_pattern(blank(MaterialKind::Stone), pattern)
+            },
+            MaterialModel::Wood {
+                color,
+                late,
+                grain,
+                grain_span: _,
+                pattern,
+                gloss,
+                anisotropy,
+            } => abi::Material {
+                color: color.map(|c| c as f32),
+                tint: late.unwrap_or(late_wood(*color)).map(|c| c as f32),
+                fuzz: GRAIN_CODES[*grain],
+                gloss: *gloss as f32,
+                anisotropy: *anisotropy as f32,
+                ..with_pattern(blank(MaterialKind::Wood), pattern)
+            },
+            MaterialModel::Fabric { color, pattern, roughness, gloss, translucency } => {
+                let (color, color_texture) = self.color(*color);
+                abi::Material {
+                    color,
+                    color_texture,
+                    roughness: *roughness as f32,
+                    gloss: *gloss as f32,
+                    weight: *translucency as f32,
+                    ..with_pattern(blank(MaterialKind::Fabric), pattern)
+                }
+            }
         }
     }
 
@@ -271,6 +318,17 @@ fn set_normal_map(material: &mut abi::Material, image: u32, strength: f64) {
         material.normal_texture = image;
         material.normal_strength = strength as f32;
         material.flags |= material_flag::TANGENT;
+    }
+}
+
+/// A material that asks where it is in its object.
+fn with_pattern(material: abi::Material, pattern: &Pattern) -> abi::Material {
+    abi::Material {
+        flags: material_flag::OBJECT,
+        pattern_scale: pattern.scale as f32,
+        bump_step: pattern.step as f32,
+        bump_height: pattern.height as f32,
+        ..material
     }
 }
 

@@ -1,6 +1,7 @@
 //! Material fields become the material of the scene.
 
 use super::fields::Fields;
+use super::pattern;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::eval::value::Value;
@@ -12,7 +13,9 @@ const WHITEST: f64 = 0.95;
 
 /// Warns of a surface that reflects more than any real one.
 pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
-    let scatters = matches!(fields.schema.name, "diffuse" | "principled");
+    pattern::check(ev, fields);
+    let scatters =
+        matches!(fields.schema.name, "diffuse" | "principled" | "stone" | "wood" | "fabric");
     let (Some(Value::Color(rgb)), Some(span)) = (fields.get("color"), fields.value_span("color"))
     else {
         return;
@@ -49,6 +52,7 @@ pub(super) fn model(fields: &Fields, textures: &dyn Fn(ItemId) -> usize) -> Opti
             strength: fields.number("strength")?,
             both_sides: fields.word("sides")? == "both",
         },
+        "stone" | "wood" | "fabric" => pattern::model(fields, &color)?,
         _ => MaterialModel::Principled(Principled {
             color: color("color")?,
             metallic: scalar("metallic")?,

@@ -1,12 +1,14 @@
 //! Materials: `material NAME: TYPE { ... }`.
 
+use super::pattern::{FABRIC, STONE, WOOD};
 use super::{ANY, Bounds, Default, Field, FieldType, Kind, TypeSchema, WHITE, Word};
 use crate::units::Dim;
 
-pub(super) const TYPES: &[&TypeSchema] = &[&DIFFUSE, &METAL, &DIELECTRIC, &EMISSIVE, &PRINCIPLED];
+pub(super) const TYPES: &[&TypeSchema] =
+    &[&DIFFUSE, &METAL, &DIELECTRIC, &EMISSIVE, &PRINCIPLED, &STONE, &WOOD, &FABRIC];
 
 /// Names that other renderers give the colour of a surface.
-const COLOR_NAMES: &[(&str, &str)] = &[
+pub(super) const COLOR_NAMES: &[(&str, &str)] = &[
     ("Kd", "pbrt-v3, OBJ/MTL and LuxCore"),
     ("kd", "LuxCore"),
     ("Kr", "pbrt-v3 and LuxCore"),

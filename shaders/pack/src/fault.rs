@@ -255,6 +255,14 @@ pub enum ElementFault {
         /// Last known tag.
         last: u32,
     },
+    /// An unknown tag where tags have gaps.
+    #[error("is {found}, expected one of {}", list(known))]
+    OneOf {
+        /// In the file.
+        found: u32,
+        /// Known tags.
+        known: &'static [u32],
+    },
     /// Unknown flag bits.
     #[error("is {found:#x}, known bits are {known:#x}")]
     Bits {
@@ -427,4 +435,9 @@ impl fmt::Display for Reference {
             ChildRef::Empty => write!(out, "none"),
         }
     }
+}
+
+/// `0, 1, 4`.
+fn list(tags: &[u32]) -> String {
+    tags.iter().map(u32::to_string).collect::<Vec<_>>().join(", ")
 }

@@ -28,15 +28,15 @@ pub const TEXTURE_RGBA8_LINEAR: u64 = 1 << 8;
 /// Has a texture in half floats.
 pub const TEXTURE_RGBA16_FLOAT: u64 = 1 << 9;
 /// Has a diffuse material.
-pub const MATERIAL_DIFFUSE: u64 = 1 << 10;
+pub const MATERIAL_DIFFUSE: u64 = material(MaterialKind::Diffuse);
 /// Has a metal material.
-pub const MATERIAL_METAL: u64 = 1 << 11;
+pub const MATERIAL_METAL: u64 = material(MaterialKind::Metal);
 /// Has a dielectric material.
-pub const MATERIAL_DIELECTRIC: u64 = 1 << 12;
+pub const MATERIAL_DIELECTRIC: u64 = material(MaterialKind::Dielectric);
 /// Has an emissive material.
-pub const MATERIAL_EMISSIVE: u64 = 1 << 13;
+pub const MATERIAL_EMISSIVE: u64 = material(MaterialKind::Emissive);
 /// Has a principled material.
-pub const MATERIAL_PRINCIPLED: u64 = 1 << 14;
+pub const MATERIAL_PRINCIPLED: u64 = material(MaterialKind::Principled);
 /// Has a material with alpha clipping.
 pub const ALPHA_CLIP: u64 = 1 << 15;
 /// The camera has a lens with a radius.
@@ -48,8 +48,22 @@ pub const OBJECTS: u64 = 1 << 18;
 /// Has a material with a normal map.
 pub const NORMAL_MAPS: u64 = 1 << 21;
 
+/// Has a stone material.
+pub const MATERIAL_STONE: u64 = material(MaterialKind::Stone);
+/// Has a wood material.
+pub const MATERIAL_WOOD: u64 = material(MaterialKind::Wood);
+/// Has a fabric material.
+pub const MATERIAL_FABRIC: u64 = material(MaterialKind::Fabric);
+
+/// The bit of a kind of material: its tag from bit 10 for the first five, from bit 32 for the others.
+#[must_use]
+pub const fn material(kind: MaterialKind) -> u64 {
+    let tag = kind as u32;
+    if tag < 5 { 1 << (10 + tag) } else { 1 << (32 + tag) }
+}
+
 /// Every bit with its name, in bit order.
-pub const NAMES: [(u64, &str); 20] = [
+pub const NAMES: [(u64, &str); 23] = [
     (TRIANGLES, "triangles"),
     (SPHERES, "spheres"),
     (LIGHT_SPHERE, "sphere lights"),
@@ -70,6 +84,9 @@ pub const NAMES: [(u64, &str); 20] = [
     (TANGENTS, "tangents"),
     (OBJECTS, "objects"),
     (NORMAL_MAPS, "normal maps"),
+    (MATERIAL_STONE, "stone"),
+    (MATERIAL_WOOD, "wood"),
+    (MATERIAL_FABRIC, "fabric"),
 ];
 
 /// All bits that this reader knows.
@@ -111,11 +128,9 @@ pub(crate) fn of(contents: &Contents<'_>) -> u64 {
         set(TEXTURE_RGBA16_FLOAT, texture.format == TextureFormat::Rgba16Float as u32);
     }
     for material in contents.materials {
-        set(MATERIAL_DIFFUSE, material.kind == MaterialKind::Diffuse as u32);
-        set(MATERIAL_METAL, material.kind == MaterialKind::Metal as u32);
-        set(MATERIAL_DIELECTRIC, material.kind == MaterialKind::Dielectric as u32);
-        set(MATERIAL_EMISSIVE, material.kind == MaterialKind::Emissive as u32);
-        set(MATERIAL_PRINCIPLED, material.kind == MaterialKind::Principled as u32);
+        for kind in MaterialKind::ALL {
+            set(self::material(kind), material.kind == kind as u32);
+        }
         set(ALPHA_CLIP, material.flags & material_flag::ALPHA_CLIP != 0);
         set(TANGENTS, material.flags & material_flag::TANGENT != 0);
         set(OBJECTS, material.flags & material_flag::OBJECT != 0);

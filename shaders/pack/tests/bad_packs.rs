@@ -129,11 +129,11 @@ fn header_cases() -> Vec<Case> {
         (Raw(|b| b[entry(NODE) + 48] ^= 1), "header: render_id does not match the section table"),
         (
             Table(|b| b[48] ^= 1),
-            "header: features are 0x000000000007ffde, but the contents have 0x000000000007ffdf",
+            "header: features are 0x000007000027ffde, but the contents have 0x000007000027ffdf",
         ),
         (
             Parts(|d| put32(&mut d.header, 48, 0)),
-            "header: features are 0x0000000000000000, but the contents have 0x000000000007ffdf",
+            "header: features are 0x0000070000000000, but the contents have 0x000007000027ffdf",
         ),
     ]
 }

@@ -220,7 +220,7 @@ fn the_first_error_is_reported_on_any_number_of_threads() {
     scene.shades = vec![shade; 100_000];
     scene.triangles = vec![triangle; 100_000];
     for bad in [99_999, 70_000, 40_000] {
-        scene.shades[bad].material = 5;
+        scene.shades[bad].material = 99;
         scene.shades[bad].uv0[0] = f32::NAN;
     }
     for threads in [1, 4] {
@@ -228,7 +228,7 @@ fn the_first_error_is_reported_on_any_number_of_threads() {
         let error = pool.install(|| scene.writer().to_bytes().unwrap_err());
         assert_eq!(
             error.to_string(),
-            "TRISHADE[40000] at byte 0x1d4c0c: material is 5, but MATERIAL has 5 elements"
+            "TRISHADE[40000] at byte 0x1d4c0c: material is 99, but MATERIAL has 8 elements"
         );
     }
 }

@@ -73,6 +73,7 @@ fn the_order_of_calls_and_the_number_of_threads_do_not_change_a_byte() {
     writer.recipe_id([7; 32]).kernel(&scene.kernel).srgb_table(&srgb).texels(&scene.texels);
     writer.records(&scene.textures).records(&scene.lights).records(&scene.materials);
     writer.records(&scene.spheres).records(&scene.shades).records(&scene.triangles);
+    writer.records(&scene.media).records(&scene.objects);
     writer.records(&scene.nodes).record(scene.sky.as_ref().unwrap());
     writer.record(&scene.camera).record(&scene.render);
     for threads in [1, 2, 5] {
@@ -142,7 +143,7 @@ fn rows_say_what_the_table_says() {
 fn the_file_has_the_published_layout() {
     let bytes = Scene::empty().bytes();
     assert_eq!(bytes[..8], [0x89, 0x52, 0x54, 0x50, 0x0d, 0x0a, 0x1a, 0x0a]);
-    assert_eq!(bytes[8..16], [1, 0, 0, 0, 4, 3, 2, 1]);
+    assert_eq!(bytes[8..16], [2, 0, 0, 0, 4, 3, 2, 1]);
     assert_eq!(bytes[16..24], [128, 0, 0, 0, 64, 0, 0, 0]);
     assert_eq!(common::get64(&bytes, 24), 128);
     assert_eq!(common::get32(&bytes, 32), 3);
@@ -198,7 +199,7 @@ fn a_bad_pack_is_never_written() {
     let mut scene = Scene::full();
     scene.spheres[1].material = 9;
     let text = scene.writer().write(&path).unwrap_err().to_string();
-    assert_eq!(text, "SPHERE[1] at byte 0x30: material is 9, but MATERIAL has 5 elements");
+    assert_eq!(text, "SPHERE[1] at byte 0x30: material is 9, but MATERIAL has 8 elements");
 
     let scene = Scene::full();
     let mut writer = scene.writer();
@@ -206,7 +207,7 @@ fn a_bad_pack_is_never_written() {
     assert_eq!(text, "section CAMERA (entry 2): the section is there twice");
     let mut writer = scene.writer();
     let text = writer.bytes(Kind(*b"FANCY   "), b"x").to_bytes().unwrap_err().to_string();
-    assert_eq!(text, "section FANCY (entry 14): unknown section in format 1.0");
+    assert_eq!(text, "section FANCY (entry 16): unknown section in format 2.0");
     let mut writer = PackWriter::new();
     let text = writer.bytes(Kind::CAMERA, &[0; 63]).to_bytes().unwrap_err().to_string();
     let ragged = "length is 63 bytes, but 0 elements of 64 bytes make 0";

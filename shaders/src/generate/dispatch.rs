@@ -212,7 +212,41 @@ fn bsdf_row(kind: MaterialKind) -> (&'static str, &'static str, [&'static str; 3
                 "s, wo, wi",
             ],
         ),
+        MaterialKind::Stone => ("MATERIAL_STONE", "stone", LOBES),
+        MaterialKind::Wood => ("MATERIAL_WOOD", "wood", LOBES),
+        MaterialKind::Fabric => ("MATERIAL_FABRIC", "fabric", LOBES),
     }
+}
+
+/// Arguments of a model with several lobes.
+const LOBES: [&str; 3] = [
+    "s, wo, sample_2d(key, PURPOSE_DIRECTION), sample_1d(key, PURPOSE_LOBE)",
+    "s, wo, wi",
+    "s, wo, wi",
+];
+
+/// Whether places of an object differ under this kind.
+fn has_pattern(kind: MaterialKind) -> bool {
+    matches!(kind, MaterialKind::Stone | MaterialKind::Wood | MaterialKind::Fabric)
+}
+
+/// What patterns change of a surface point before it scatters. The function has the same head and foot in
+/// every kernel, and a line for each kind with a pattern.
+pub(crate) fn pattern(features: &FeatureSet) -> String {
+    let kinds = features.materials.iter().filter(|kind| has_pattern(**kind));
+    let rows: Vec<_> = kinds.map(|kind| bsdf_row(*kind)).collect();
+    let files: Vec<String> = rows.iter().map(|row| format!("bsdf/{}.wgsl", row.1)).collect();
+    let mut text = String::from("// Generated: the patterns of this scene's materials.\n\n");
+    text += &imports(["bsdf/scatter.wgsl", "scene/constants.wgsl", "surface/surface.wgsl"]);
+    text += &imports(files.iter().map(String::as_str));
+    text += "\n// Gives `scatter` at `s` the colour, roughness and shading normal of its place, where the kind has a\n\
+             // pattern; once a vertex, so that sampling, value and density see the same surface.\n\
+             fn dispatch_pattern(scatter: ptr<function, Scatter>, s: Surface, wo: vec3f) {\n    \
+             switch ((*scatter).kind) {\n";
+    for (tag, stem, _) in rows {
+        let _ = writeln!(text, "        case {tag}: {{ {stem}_pattern(scatter, s, wo); }}");
+    }
+    text + "        default: {}\n    }\n}\n"
 }
 
 /// The three functions of a scattering model.

@@ -23,7 +23,8 @@ struct Material {
     alpha_cutoff: f32,
     // Factor on the alpha texture.
     alpha: f32,
-    // How much narrower the lobe is along the tangent than across it, 0 ..= 1.
+    // How much narrower the lobe is along the tangent than across it, 0 ..= 1. Wood: across the
+    // grain than along it.
     anisotropy: f32,
     // `Texture` id or `NONE`.
     color_texture: u32,
@@ -41,7 +42,7 @@ struct Material {
     medium: u32,
     // Which of two overlapping media counts: the greater.
     priority: u32,
-    // Second colour: what a coat reflects, the specular colour.
+    // Second colour: what a coat reflects, the specular colour, veins of stone, late wood.
     tint: vec3<f32>,
     // Share of a second lobe: surface fuzz, translucency.
     weight: f32,

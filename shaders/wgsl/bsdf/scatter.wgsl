@@ -18,7 +18,8 @@ struct Scatter {
     kind: u32,
     // Index of the `Material`, for what only one model reads.
     material: u32,
-    // Unit, along which u grows, and the sign of v, as in `Surface`; only for materials that ask.
+    // Unit, along which u grows, and the sign of v, as in `Surface`; only for materials that ask. Wood: its grain,
+    // projected on the surface, as long as the sine between grain and normal.
     tangent: vec3f,
     handed: f32,
     uv: vec2f,

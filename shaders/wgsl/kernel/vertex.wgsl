@@ -8,6 +8,7 @@
 #import "sampler/pcg.wgsl"
 #import "scene/dispatch.wgsl"
 #import "scene/dispatch_bsdf.wgsl"
+#import "scene/dispatch_pattern.wgsl"
 #import "scene/records.wgsl"
 #import "surface/surface.wgsl"
 #import "trace/ray.wgsl"
@@ -25,7 +26,8 @@ fn vertex_scatter(path: ptr<function, Path>, hit: Hit) {
         return;
     }
     let wo = -(*path).dir;
-    let scatter = scatter_at(m, s);
+    var scatter = scatter_at(m, s);
+    dispatch_pattern(&scatter, s, wo);
     let key = (*path).key;
     dispatch_direct(path, s, scatter, wo);
     let next = dispatch_sample(scatter, wo, key);

@@ -257,6 +257,9 @@ fn sample_at(
         MaterialKind::Dielectric => kernel.dielectric_sample(s, wo, v),
         MaterialKind::Emissive => kernel.emissive_sample(),
         MaterialKind::Principled => kernel.principled_sample(s, wo, u, v),
+        MaterialKind::Stone => kernel.stone_sample(s, wo, u, v),
+        MaterialKind::Wood => kernel.wood_sample(s, wo, u, v),
+        MaterialKind::Fabric => kernel.fabric_sample(s, wo, u, v),
     }
 }
 

@@ -16,12 +16,37 @@ pub enum MaterialKind {
     Emissive = 3,
     /// Metallic-roughness: GGX over Lambert.
     Principled = 4,
+    /// Rough, with the bumps and veins of a field of its own.
+    Stone = 8,
+    /// Rough, with bumps, rings and gloss along a grain.
+    Wood = 9,
+    /// Rough thin sheet with bumps that lets light through.
+    Fabric = 10,
 }
 
 impl MaterialKind {
     /// Every kind, in tag order.
-    pub const ALL: [Self; 5] =
-        [Self::Diffuse, Self::Metal, Self::Dielectric, Self::Emissive, Self::Principled];
+    pub const ALL: [Self; 8] = [
+        Self::Diffuse,
+        Self::Metal,
+        Self::Dielectric,
+        Self::Emissive,
+        Self::Principled,
+        Self::Stone,
+        Self::Wood,
+        Self::Fabric,
+    ];
+
+    /// Their tags, in the same order.
+    pub const TAGS: [u32; Self::ALL.len()] = {
+        let mut tags = [0; Self::ALL.len()];
+        let mut i = 0;
+        while i < tags.len() {
+            tags[i] = Self::ALL[i] as u32;
+            i += 1;
+        }
+        tags
+    };
 
     /// The kind with this tag.
     #[must_use]
@@ -70,7 +95,8 @@ abi_struct! {
         pub alpha_cutoff: f32,
         /// Factor on the alpha texture.
         pub alpha: f32,
-        /// How much narrower the lobe is along the tangent than across it, 0 ..= 1.
+        /// How much narrower the lobe is along the tangent than across it, 0 ..= 1. Wood: across the
+        /// grain than along it.
         pub anisotropy: f32,
         /// `Texture` id or `NONE`.
         pub color_texture: u32,
@@ -88,7 +114,7 @@ abi_struct! {
         pub medium: u32,
         /// Which of two overlapping media counts: the greater.
         pub priority: u32,
-        /// Second colour: what a coat reflects, the specular colour.
+        /// Second colour: what a coat reflects, the specular colour, veins of stone, late wood.
         pub tint: [f32; 3],
         /// Share of a second lobe: surface fuzz, translucency.
         pub weight: f32,

@@ -146,7 +146,7 @@ rules! { pack;
     }
     // `priority` is any number.
     Material and material {
-        kind: tag(MaterialKind::ALL.len()),
+        kind: material_kind(),
         flags: bits(material_flag::ALL),
         color_texture: index_or_none(table(pack, Kind::TEXTURE)),
         emission_texture: index_or_none(table(pack, Kind::TEXTURE)),
@@ -227,12 +227,26 @@ fn dimension(value: u32) -> Option<ElementFault> {
     count([value], 1, 65_536)
 }
 
-/// Kinds that refract need a real refractive index.
+/// Tags of materials have gaps.
+fn material_kind(found: u32) -> Option<ElementFault> {
+    let known = &MaterialKind::TAGS;
+    (!known.contains(&found)).then_some(ElementFault::OneOf { found, known })
+}
+
+/// Kinds that refract need a real refractive index, kinds with bumps a step.
 fn material(record: &Material, _: &Contents<'_>) -> Option<Broken> {
     let refracts = matches!(
         MaterialKind::from_tag(record.kind),
         Some(MaterialKind::Dielectric | MaterialKind::Principled)
     );
+    let bumps = matches!(
+        MaterialKind::from_tag(record.kind),
+        Some(MaterialKind::Stone | MaterialKind::Wood | MaterialKind::Fabric)
+    );
+    if bumps {
+        // The height of the bumps is divided by it.
+        return positive(record.bump_step).map(|fault| ("bump_step", fault));
+    }
     if !refracts {
         return None;
     }

@@ -69,6 +69,7 @@ fn material(kind: MaterialKind) -> Material {
         ior: 1.5,
         ior_minus_1: 0.5,
         alpha: 1.0,
+        bump_step: 0.01,
         color_texture: NONE,
         emission_texture: NONE,
         metallic_roughness_texture: NONE,
@@ -155,6 +156,7 @@ fn materials() -> Vec<Material> {
     materials[4].alpha_texture = 0;
     materials[4].flags = material_flag::ALPHA_CLIP | material_flag::TANGENT | material_flag::OBJECT;
     materials[4].alpha_cutoff = 0.5;
+    materials[4].normal_texture = 1;
     materials
 }
 
