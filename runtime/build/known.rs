@@ -78,15 +78,27 @@ fn rows_of(
         let masks: Vec<u64> = varying.iter().map(|f| families[*f].mask).collect();
         return Err(format!("`{name}` depends on several groups of features: {masks:#x?}").into());
     };
-    let mask = families[family].mask;
+    let mask = literal(families[family].mask);
     let mut rows = Vec::new();
     for (text, places) in texts {
         for (_, bits) in places.iter().filter(|place| place.0 == family) {
-            let condition = format!("Condition::Features {{ mask: {mask:#x}, bits: {bits:#x} }}");
+            let bits = literal(*bits);
+            let condition = format!("Condition::Features {{ mask: {mask}, bits: {bits} }}");
             rows.push((text.clone(), condition));
         }
     }
     Ok(rows)
+}
+
+/// Hexadecimal Rust source, in groups of four digits.
+fn literal(bits: u64) -> String {
+    let digits = format!("{bits:x}");
+    let first = digits.len() % 4;
+    let (head, tail) = digits.split_at(first);
+    let groups = tail.as_bytes().chunks(4).map(|group| String::from_utf8_lossy(group).into_owned());
+    let all: Vec<String> =
+        Some(head.to_owned()).filter(|head| !head.is_empty()).into_iter().chain(groups).collect();
+    format!("0x{}", all.join("_"))
 }
 
 /// Name and text of every declaration of a kernel.
@@ -164,9 +176,10 @@ fn switches(switching: &[String]) -> Result<String, Box<dyn Error>> {
             let of = |kind: &MaterialKind| line.contains(&format!("case {}:", tag_name(*kind)));
             let kind = MaterialKind::ALL.into_iter().find(of);
             let kind = kind.ok_or_else(|| format!("`{name}` has a case of no kind: {line}"))?;
-            cases.push((bit::material(kind), line));
+            cases.push(format!("({}, {line:?})", literal(bit::material(kind))));
         }
-        writeln!(source, "    Switch {{ head: {head:?}, cases: &{cases:?}, foot: {foot:?} }},")?;
+        let cases = cases.join(", ");
+        writeln!(source, "    Switch {{ head: {head:?}, cases: &[{cases}], foot: {foot:?} }},")?;
     }
     source.push_str("];\n");
     Ok(source)

@@ -69,7 +69,7 @@ mod tests {
     fn a_point_of_the_world_is_found_in_the_object() {
         let rotation = DMat3::from_rotation_z(std::f64::consts::FRAC_PI_2);
         let thing = Thing { name: "log".to_owned(), origin: DVec3::new(1.0, 2.0, 3.0), rotation };
-        let frame = Normalization::of_points([[-5.0; 3], [3.0, 7.0, 9.0]].into_iter());
+        let frame = Normalization::of_points([[-5.0; 3], [3.0, 7.0, 9.0]]);
         let object = thing.record(&frame);
         // 2 m along the object's x, which is the world's y.
         let p = frame.point([1.0, 4.0, 3.0]).map(f64::from);

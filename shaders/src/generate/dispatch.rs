@@ -119,7 +119,7 @@ fn tangent(features: &FeatureSet) -> String {
         let sphere = "(*s).tangent = sphere_tangent(select(-(*s).ng, (*s).ng, (*s).front));";
         let triangle = "let t = triangle_tangent(hit.prim);\n    (*s).tangent = t.xyz;\n    \
                         (*s).handed = select(-t.w, t.w, (*s).front);";
-        body += &match (features.spheres, features.triangles) {
+        let lines = match (features.spheres, features.triangles) {
             (true, true) => format!(
                 "    if ((hit.prim & PRIM_SPHERE) != 0u) {{\n        {sphere}\n        \
                  (*s).handed = select(-1.0, 1.0, (*s).front);\n        return;\n    }}\n    {triangle}\n"
@@ -129,6 +129,7 @@ fn tangent(features: &FeatureSet) -> String {
             }
             _ => format!("    {triangle}\n"),
         };
+        body += &lines;
     }
     format!(
         "\n// Finds the direction in which u grows, for materials whose flags ask for it.\n\

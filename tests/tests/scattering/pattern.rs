@@ -63,7 +63,7 @@ fn field(kernel: &mut double::Kernel<'_>, kind: MaterialKind, q: DVec3, key: u32
     }
 }
 
-/// n' = unit(n - strength / eps P_T (f(q) - f(q - eps e_k))), the differences along the object's axes.
+/// `n' = unit(n - strength / eps P_T (f(q) - f(q - eps e_k)))`, the differences along the object's axes.
 #[test]
 fn bumps_are_those_of_the_formula() {
     let mut stream = Stream::new(89, 0);
