@@ -11,12 +11,17 @@
 
 mod assemble;
 mod camera;
+mod closed;
+mod fresnel;
 mod geometry;
 mod grain;
+mod inside;
 mod light;
 mod material;
+mod medium;
 mod object;
 mod order;
+mod sheet;
 mod sky;
 mod texture;
 

@@ -134,6 +134,7 @@ impl Compiled {
             .records(&lowered.spheres)
             .records(&lowered.materials)
             .records(&lowered.objects)
+            .records(&lowered.media)
             .records(&lowered.lights)
             .records(&lowered.textures)
             .texels(&lowered.texels)

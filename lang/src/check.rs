@@ -22,6 +22,7 @@ mod instance;
 mod light;
 mod lint;
 mod material;
+mod medium;
 mod object;
 mod pattern;
 mod render;
@@ -124,7 +125,7 @@ fn params(ev: &Evaluator<'_>) -> Vec<ParamInfo> {
 #[derive(Default)]
 struct Checker {
     assets: BTreeMap<ItemId, AssetInfo>,
-    /// Materials, lights, skies, cameras, films and renders.
+    /// Media, materials, lights, skies, cameras, films and renders.
     fields: BTreeMap<ItemId, Fields>,
     world: instance::World,
 }
@@ -136,8 +137,15 @@ impl Checker {
 
     fn run(mut self, ev: &mut Evaluator<'_>) -> Option<Scene> {
         self.check_files(ev);
-        for kind in [Kind::Material, Kind::Light, Kind::Sky, Kind::Camera, Kind::Film, Kind::Render]
-        {
+        for kind in [
+            Kind::Medium,
+            Kind::Material,
+            Kind::Light,
+            Kind::Sky,
+            Kind::Camera,
+            Kind::Film,
+            Kind::Render,
+        ] {
             for id in ids_of(ev.program, kind) {
                 self.check_decl(ev, kind, id);
             }
@@ -181,6 +189,7 @@ impl Checker {
         let Some(fields) = ev.fields_of(id) else { return };
         match kind {
             Kind::Material => material::check(ev, &fields),
+            Kind::Medium => medium::check(ev, ev.program.name_span(id), &fields),
             Kind::Light => light::check_light(ev, &fields),
             Kind::Sky => light::check_sky(ev, &fields),
             Kind::Camera => camera::check(ev, &fields),

@@ -92,6 +92,7 @@ pub(crate) fn item_name(item: &Item) -> Option<&Ident> {
 pub(crate) fn decl_kind(decl: &Decl) -> Option<Kind> {
     match decl.kind? {
         DeclKind::Material => Some(Kind::Material),
+        DeclKind::Medium => Some(Kind::Medium),
         DeclKind::Object => Some(Kind::Object),
         DeclKind::Instance => Some(Kind::Instance),
         DeclKind::Light => Some(Kind::Light),
@@ -99,7 +100,7 @@ pub(crate) fn decl_kind(decl: &Decl) -> Option<Kind> {
         DeclKind::Camera => Some(Kind::Camera),
         DeclKind::Film => Some(Kind::Film),
         DeclKind::Render => Some(Kind::Render),
-        DeclKind::Medium | DeclKind::Scatter => None,
+        DeclKind::Scatter => None,
     }
 }
 

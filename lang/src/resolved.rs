@@ -6,12 +6,17 @@
 
 use std::fmt::{self, Write as _};
 
+mod material;
+
 use crate::scene::{
-    AssetFormat, Axis, Camera, Color, ColorSpace, Instance, MaterialModel, Pattern, Rgb, Scalar,
-    Scene, Shape, Sky, SkyModel, ToneMap, Wrap,
+    AssetFormat, Axis, Camera, ColorSpace, Instance, Medium, MediumModel, Rgb, Sampler, Scene,
+    Shape, Sky, SkyModel, ToneMap, Wrap,
 };
 use crate::schema::color_text;
 use crate::units::{self, Dim};
+
+/// Name of a type and the fields of a declaration.
+type Declared = (&'static str, Vec<(&'static str, String)>);
 
 /// Every declaration of the scene, sorted by kind and name.
 #[must_use]
@@ -41,7 +46,7 @@ fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
         )?;
     }
     for material in &scene.materials {
-        let (kind, mut fields) = model(scene, &material.model);
+        let (kind, mut fields) = material::model(scene, &material.model);
         if let Some(map) = &material.normal {
             fields.push(("normal", format!("{}.rgb", texture_name(scene, map.texture))));
             fields.push(("normal.strength", number(map.strength)));
@@ -61,6 +66,9 @@ fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
         ];
         block(out, &format!("light {}: sphere", light.name.text), &fields)?;
     }
+    for medium in &scene.media {
+        write_medium(out, medium)?;
+    }
     if let Some(sky) = &scene.sky {
         write_sky(out, sky)?;
     }
@@ -74,82 +82,6 @@ fn block(out: &mut String, head: &str, fields: &[(&str, String)]) -> fmt::Result
         writeln!(out, "  {name} = {value}")?;
     }
     writeln!(out, "}}")
-}
-
-fn model(scene: &Scene, model: &MaterialModel) -> (&'static str, Vec<(&'static str, String)>) {
-    let color = |color: &Color| match color {
-        Color::Constant(rgb) => color_text(*rgb),
-        Color::Texture(texture) => format!("{}.rgb", texture_name(scene, *texture)),
-    };
-    let scalar = |scalar: &Scalar| match scalar {
-        Scalar::Constant(value) => number(*value),
-        Scalar::Texture { texture, channel } => {
-            let channel = ["r", "g", "b", "a"][usize::from(*channel).min(3)];
-            format!("{}.{channel}", texture_name(scene, *texture))
-        }
-    };
-    match model {
-        MaterialModel::Diffuse { color: c } => ("diffuse", vec![("color", color(c))]),
-        MaterialModel::Metal { color: c, fuzz } => {
-            ("metal", vec![("color", color(c)), ("fuzz", number(*fuzz))])
-        }
-        MaterialModel::Dielectric { ior } => ("dielectric", vec![("ior", number(*ior))]),
-        MaterialModel::Emissive { color: c, strength, both_sides } => {
-            let sides = if *both_sides { "both" } else { "front" };
-            let fields = vec![
-                ("color", color(c)),
-                ("strength", number(*strength)),
-                ("sides", sides.to_owned()),
-            ];
-            ("emissive", fields)
-        }
-        MaterialModel::Principled(p) => {
-            let clip = p.alpha_clip.map_or("none".to_owned(), number);
-            let fields = vec![
-                ("color", color(&p.color)),
-                ("metallic", scalar(&p.metallic)),
-                ("roughness", scalar(&p.roughness)),
-                ("ior", number(p.ior)),
-                ("emission.color", color(&p.emission)),
-                ("emission.strength", number(p.emission_strength)),
-                ("alpha", scalar(&p.alpha)),
-                ("alpha.clip", clip),
-            ];
-            ("principled", fields)
-        }
-        MaterialModel::Stone { color, vein, pattern, gloss } => {
-            let mut fields = vec![("color", color_text(*color))];
-            fields.extend(vein.map(|vein| ("color.vein", color_text(vein))));
-            fields.extend(bumps(pattern));
-            fields.push(("gloss", number(*gloss)));
-            ("stone", fields)
-        }
-        MaterialModel::Wood { color, late, grain, grain_span: _, pattern, gloss, anisotropy } => {
-            let mut fields = vec![("color", color_text(*color))];
-            fields.extend(late.map(|late| ("color.late", color_text(late))));
-            fields.push(("grain", ["x", "y", "z"][(*grain).min(2)].to_owned()));
-            fields.extend(bumps(pattern));
-            fields.push(("gloss", number(*gloss)));
-            fields.push(("anisotropy", number(*anisotropy)));
-            ("wood", fields)
-        }
-        MaterialModel::Fabric { color: c, pattern, roughness, gloss, translucency } => {
-            let mut fields = vec![("color", color(c))];
-            fields.extend(bumps(pattern));
-            fields.push(("roughness", number(*roughness)));
-            fields.push(("gloss", number(*gloss)));
-            fields.push(("translucency", number(*translucency)));
-            ("fabric", fields)
-        }
-    }
-}
-
-fn bumps(pattern: &Pattern) -> [(&'static str, String); 3] {
-    [
-        ("scale", number(pattern.scale)),
-        ("bump.eps", length(pattern.step)),
-        ("bump.strength", length(pattern.height)),
-    ]
 }
 
 fn instance_fields(scene: &Scene, instance: &Instance) -> Vec<(&'static str, String)> {
@@ -182,6 +114,30 @@ fn instance_fields(scene: &Scene, instance: &Instance) -> Vec<(&'static str, Str
         fields.push(("z_axis", vector(column(2), "")));
     }
     fields
+}
+
+fn medium_name(scene: &Scene, medium: Option<usize>) -> String {
+    let medium = medium.and_then(|medium| scene.media.get(medium));
+    medium.map_or("none", |medium| medium.name.text.as_str()).to_owned()
+}
+
+fn write_medium(out: &mut String, medium: &Medium) -> fmt::Result {
+    let (kind, mut fields) = match medium.model {
+        MediumModel::Homogeneous { sigma_a, sigma_s, g } => {
+            let fields = vec![
+                ("sigma_a", vector(sigma_a, "/m")),
+                ("sigma_s", vector(sigma_s, "/m")),
+                ("g", number(g)),
+            ];
+            ("homogeneous", fields)
+        }
+        MediumModel::Fog { density, color } => {
+            let density = units::show(density, Dim::PER_LENGTH);
+            ("fog", vec![("density", density), ("color", color_text(color))])
+        }
+    };
+    fields.push(("sky_distance", length(medium.sky_distance)));
+    block(out, &format!("medium {}: {kind}", medium.name.text), &fields)
 }
 
 fn write_sky(out: &mut String, sky: &Sky) -> fmt::Result {
@@ -243,14 +199,20 @@ fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {
         output.clear();
         write!(output, "\"{path}\"")?;
     }
+    let sampler = match render.sampler {
+        Sampler::Sobol => "sobol",
+        Sampler::Pcg => "pcg",
+    };
     let fields = [
         ("camera", camera.name.text.clone()),
         ("film", film.name.text.clone()),
         ("sky", sky.to_owned()),
+        ("atmosphere", medium_name(scene, render.atmosphere)),
         ("samples", render.samples.to_string()),
         ("depth", render.max_depth.to_string()),
         ("roulette", render.roulette_depth.to_string()),
         ("seed", render.seed.to_string()),
+        ("sampler", sampler.to_owned()),
         ("output", output),
     ];
     block(out, &format!("render {}: path", render.name.text), &fields)

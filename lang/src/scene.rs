@@ -19,6 +19,8 @@ pub struct Scene {
     pub textures: Vec<Texture>,
     /// Materials, sorted by name.
     pub materials: Vec<Material>,
+    /// Media of materials and of the atmosphere, sorted by name.
+    pub media: Vec<Medium>,
     /// Things in the world, fully expanded (`beams[0]`, `beams[1]`, …), sorted by name, index order.
     pub instances: Vec<Instance>,
     /// Sphere lights declared with `light`, sorted by name.
@@ -184,10 +186,27 @@ pub enum MaterialModel {
         /// 0 ..= 1.
         fuzz: f64,
     },
-    /// Smooth glass.
+    /// Glass, smooth where the roughness is 0.
     Dielectric {
         /// Refractive index, >= 1.
         ior: f64,
+        /// Perceptual roughness, 0 ..= 1.
+        roughness: Scalar,
+        /// What it is inside.
+        inside: Inside,
+    },
+    /// Water.
+    Water {
+        /// Refractive index, >= 1.
+        ior: f64,
+        /// What it is inside; without a medium `sigma_a` and `depth_color` say that.
+        inside: Inside,
+        /// Absorption, per metre.
+        sigma_a: Rgb,
+        /// Radiance of what lies below the scene, seen from air.
+        depth_color: Rgb,
+        /// Scale of the waves' coordinates, and factor on their slopes; `None`: flat.
+        waves: Option<[f64; 2]>,
     },
     /// Light source without scattering.
     Emissive {
@@ -200,6 +219,28 @@ pub enum MaterialModel {
     },
     /// glTF metallic-roughness.
     Principled(Principled),
+    /// Rough metal.
+    Conductor {
+        /// Reflectance at normal incidence, 0 ..= 1.
+        color: Color,
+        /// Perceptual roughness, 0 ..= 1.
+        roughness: Scalar,
+        /// 0 round ..= 1 brushed along the tangent.
+        anisotropy: f64,
+        /// Gives back what single reflection loses.
+        compensation: bool,
+    },
+    /// Clear coat over Lambert.
+    Clearcoat {
+        /// Reflectance of the base, 0 ..= 1.
+        color: Color,
+        /// Radius of the ball of the coat's mirror direction, 0 ..= 1.
+        fuzz: f64,
+        /// Refractive index of the coat, >= 1.
+        coat_ior: f64,
+        /// Factor on what the coat reflects.
+        coat_tint: Rgb,
+    },
     /// Rough, with bumps and veins.
     Stone {
         /// Reflectance, 0 ..= 1.
@@ -241,6 +282,10 @@ pub enum MaterialModel {
         /// Share of the rest that goes through, 0 ..= 1.
         translucency: f64,
     },
+    /// Thin sheet that lets light through.
+    Leaf(Leaf),
+    /// Fuzz and wax over a thin scattering layer.
+    Petal(Petal),
 }
 
 /// A field over an object, and the bumps it makes.
@@ -252,6 +297,101 @@ pub struct Pattern {
     pub step: f64,
     /// Height of the bumps, metres of the object; >= 0.
     pub height: f64,
+}
+
+/// Parameters of `MaterialModel::Leaf`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Leaf {
+    /// Reflectance, 0 ..= 1.
+    pub color: Color,
+    /// Coverage.
+    pub alpha: Scalar,
+    /// Alpha below this is not there; `None` ignores alpha.
+    pub alpha_clip: Option<f64>,
+    /// Share of the light that goes through, 0 ..= 1.
+    pub translucency: f64,
+    /// Absorption, 1/m.
+    pub sigma_a: Rgb,
+    /// Metres.
+    pub thickness: f64,
+    /// Share of the light through that keeps its direction, 0 ..= 1.
+    pub forward: f64,
+    /// Mean cosine of that light's blur.
+    pub g: f64,
+    /// Share of leaves that are not there, 0 ..= 1.
+    pub gap: f64,
+}
+
+/// Parameters of `MaterialModel::Petal`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Petal {
+    /// Factor on the light from inside, 0 ..= 1.
+    pub color: Color,
+    /// Coverage.
+    pub alpha: Scalar,
+    /// Alpha below this is not there; `None` ignores alpha.
+    pub alpha_clip: Option<f64>,
+    /// Share of the fuzz, 0 ..= 1.
+    pub fuzz_weight: f64,
+    /// Radius of the ball of the fuzz, 0 ..= 1.
+    pub fuzz: f64,
+    /// Radius of the ball of the wax, 0 ..= 1.
+    pub wax: f64,
+    /// Refractive index.
+    pub ior: f64,
+    /// Absorption, 1/m.
+    pub sigma_a: Rgb,
+    /// Scattering, 1/m.
+    pub sigma_s: f64,
+    /// Mean cosine of scattering.
+    pub g: f64,
+    /// Metres, at the rim and in the middle.
+    pub thickness: [f64; 2],
+    /// Lean of the normals at the rim.
+    pub pillow: f64,
+    /// Lean of each petal.
+    pub tilt: f64,
+}
+
+/// What fills things of a material that light goes through.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Inside {
+    /// Index into `Scene::media`; `None` is clear.
+    pub medium: Option<usize>,
+    /// Of things that overlap the greatest is there.
+    pub priority: u32,
+}
+
+/// What fills things, or the space around them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Medium {
+    /// Declared name.
+    pub name: Name,
+    /// Model and parameters.
+    pub model: MediumModel,
+    /// As atmosphere: length of what lies between the scene and the sky, metres.
+    pub sky_distance: f64,
+}
+
+/// What a medium does with light.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MediumModel {
+    /// Absorbs and scatters.
+    Homogeneous {
+        /// Absorption for each channel, per metre.
+        sigma_a: Rgb,
+        /// Scattering for each channel, per metre.
+        sigma_s: Rgb,
+        /// Mean cosine of scattering, -1 ..= 1.
+        g: f64,
+    },
+    /// Hides light behind its own.
+    Fog {
+        /// Extinction, per metre.
+        density: f64,
+        /// Radiance where it is thick.
+        color: Rgb,
+    },
 }
 
 /// Parameters of `MaterialModel::Principled`.
@@ -422,11 +562,22 @@ pub enum ToneMap {
     Aces,
 }
 
+/// Where random numbers come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sampler {
+    /// Owen-scrambled Sobol pairs.
+    Sobol,
+    /// Independent numbers.
+    Pcg,
+}
+
 /// How the picture is made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Render {
     /// Declared name.
     pub name: Name,
+    /// What is between things: index into `Scene::media`.
+    pub atmosphere: Option<usize>,
     /// Samples per pixel.
     pub samples: u32,
     /// Longest path in segments.
@@ -435,6 +586,8 @@ pub struct Render {
     pub roulette_depth: u32,
     /// Seed of the image.
     pub seed: u32,
+    /// Where random numbers come from.
+    pub sampler: Sampler,
     /// Where the picture goes, as written; relative to the working directory of `rtr`.
     pub output: Option<String>,
 }

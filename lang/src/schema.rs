@@ -11,6 +11,7 @@ mod film;
 mod instance;
 mod light;
 mod material;
+mod medium;
 pub(crate) mod pattern;
 mod render;
 mod shape;
@@ -26,6 +27,8 @@ pub enum Kind {
     Texture,
     /// How a surface scatters and emits.
     Material,
+    /// What fills the inside of things, and the space around them.
+    Medium,
     /// Geometry; only ever a value, never a declaration.
     Shape,
     /// A reusable thing.
@@ -46,10 +49,11 @@ pub enum Kind {
 
 impl Kind {
     /// Every kind, in the order of the reference.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Asset,
         Self::Texture,
         Self::Material,
+        Self::Medium,
         Self::Shape,
         Self::Object,
         Self::Instance,
@@ -67,6 +71,7 @@ impl Kind {
             Self::Asset => "asset",
             Self::Texture => "texture",
             Self::Material => "material",
+            Self::Medium => "medium",
             Self::Shape => "shape",
             Self::Object => "object",
             Self::Instance => "instance",
@@ -91,6 +96,7 @@ impl Kind {
             Self::Asset => "an asset",
             Self::Texture => "a texture",
             Self::Material => "a material",
+            Self::Medium => "a medium",
             Self::Shape => "a shape",
             Self::Object => "an object",
             Self::Instance => "an instance",
@@ -109,6 +115,7 @@ impl Kind {
             Self::Asset => asset::TYPES,
             Self::Texture => texture::TYPES,
             Self::Material => material::TYPES,
+            Self::Medium => medium::TYPES,
             Self::Shape => shape::TYPES,
             Self::Object => instance::OBJECT_TYPES,
             Self::Instance => instance::INSTANCE_TYPES,
@@ -225,6 +232,8 @@ pub enum FieldType {
     Integer(u32, u32),
     /// Three numbers of one dimension; the text is the unit to suggest.
     Vector(Dim, &'static str),
+    /// A number with a dimension for each of red, green and blue, or one for all.
+    Spectrum(Bounds),
     /// Two or three lengths above zero.
     Size(usize),
     /// Width and height in whole pixels.
@@ -352,9 +361,10 @@ pub enum Default {
 #[must_use]
 pub fn unit_of(ty: FieldType) -> Option<(Dim, &'static str)> {
     match ty {
-        FieldType::Number(b) | FieldType::ScalarSlot(b) | FieldType::Interval(b) => {
-            Some((b.dim, b.unit))
-        }
+        FieldType::Number(b)
+        | FieldType::ScalarSlot(b)
+        | FieldType::Spectrum(b)
+        | FieldType::Interval(b) => Some((b.dim, b.unit)),
         FieldType::Integer(..) | FieldType::Scale => Some((Dim::NONE, "")),
         FieldType::Vector(dim, unit) => Some((dim, unit)),
         FieldType::Size(_) => Some((Dim::LENGTH, "m")),
@@ -378,6 +388,7 @@ pub fn type_text(ty: FieldType) -> String {
         FieldType::Integer(..) => "whole number".to_owned(),
         FieldType::Vector(Dim::NONE, _) => "three numbers".to_owned(),
         FieldType::Vector(dim, _) => format!("three {}s", noun(dim)),
+        FieldType::Spectrum(b) => format!("{}, or three", noun(b.dim)),
         FieldType::Size(n) => format!("{n} lengths"),
         FieldType::Pixels => "width and height in pixels".to_owned(),
         FieldType::Color(_) => "colour".to_owned(),
@@ -406,6 +417,7 @@ pub fn range_text(ty: FieldType) -> String {
             let text = b.described();
             if text == "any value" { String::new() } else { text }
         }
+        FieldType::Spectrum(b) => format!("each {}", b.described()),
         FieldType::Integer(min, max) => format!("between {min} and {max}"),
         FieldType::Size(_) => "each above 0m".to_owned(),
         FieldType::Pixels => format!("each between 1px and {MAX_FILM_SIDE}px"),
@@ -427,7 +439,8 @@ pub fn default_text(field: &Field) -> String {
         Default::Required => "required".to_owned(),
         Default::Number(value) => format!("`{}`", bounds.show(value)),
         Default::Vector([x, y, z]) => {
-            let number = units::show_number;
+            let factor = units::parse(unit).map_or(1.0, |(_, factor)| factor);
+            let number = |value: f64| units::show_number(value / factor);
             format!("`({}, {}, {}){unit}`", number(x), number(y), number(z))
         }
         Default::Pixels([w, h]) => format!("`({w}, {h})px`"),

@@ -40,11 +40,10 @@ pub(crate) struct Chunk {
 /// Words that start a declaration without a block.
 const LINE_WORDS: [&str; 6] = ["import", "param", "let", "asset", "texture", "assert"];
 
-/// Every word that may start a declaration of this edition. `medium` and `scatter` are read, so that
-/// the answer can say that they do not exist yet, but never proposed.
+/// Every word that may start a declaration of this edition. `scatter` is read, so that the answer can
+/// say that it does not exist yet, but never proposed.
 pub(crate) fn start_words() -> impl Iterator<Item = &'static str> {
-    let later = [DeclKind::Medium, DeclKind::Scatter];
-    let kinds = DeclKind::ALL.into_iter().filter(move |kind| !later.contains(kind));
+    let kinds = DeclKind::ALL.into_iter().filter(|kind| *kind != DeclKind::Scatter);
     LINE_WORDS.into_iter().chain(kinds.map(DeclKind::word)).chain(["pub"])
 }
 

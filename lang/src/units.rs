@@ -21,6 +21,8 @@ impl Dim {
     pub const NONE: Self = Self([0; N_BASE]);
     /// Metres.
     pub const LENGTH: Self = Self([1, 0, 0, 0, 0, 0]);
+    /// Per metre: extinction and its parts.
+    pub const PER_LENGTH: Self = Self([-1, 0, 0, 0, 0, 0]);
     /// Radians.
     pub const ANGLE: Self = Self([0, 1, 0, 0, 0, 0]);
     /// Seconds.
@@ -74,6 +76,7 @@ impl Dim {
         let noun = match self {
             Self::NONE => "plain numbers",
             Self::LENGTH => "lengths",
+            Self::PER_LENGTH => "numbers per length",
             Self::ANGLE => "angles",
             Self::TIME => "times",
             Self::TEMPERATURE => "temperatures",
@@ -138,6 +141,7 @@ impl fmt::Display for Dim {
         let known = match *self {
             Self::NONE => "a plain number",
             Self::LENGTH => "a length",
+            Self::PER_LENGTH => "a number per length",
             Self::ANGLE => "an angle",
             Self::TIME => "a time",
             Self::TEMPERATURE => "a temperature",

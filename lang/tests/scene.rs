@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use common::{ROOT, check_files, check_text, describe};
-use lang::scene::{Color, MaterialModel, Scene, Shape, SkyModel};
+use lang::scene::{Color, MaterialModel, Sampler, Scene, Shape, SkyModel};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests")
@@ -204,6 +204,21 @@ fn an_absent_sun_adds_nothing() {
         }
         other => panic!("{other:?}"),
     }
+}
+
+#[test]
+fn random_numbers_are_evenly_spread_unless_they_are_to_be_independent() {
+    let sampler = |field: &str| {
+        let text = format!(
+            "rts 1\nsky dim: constant {{ }}
+camera eye: perspective {{ from = (0, 1, 5)m, to = (0, 1, 0)m }}
+render main: path {{ {field} }}\n"
+        );
+        scene_of_text(&text).render.sampler
+    };
+    assert_eq!(sampler(""), Sampler::Sobol);
+    assert_eq!(sampler("sampler = sobol"), Sampler::Sobol);
+    assert_eq!(sampler("sampler = pcg"), Sampler::Pcg);
 }
 
 #[test]

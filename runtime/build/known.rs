@@ -5,7 +5,7 @@
 //! within a family is known only for scenes with the same features of that group.
 
 use crate::pieces::pieces;
-use pack::abi::{LightKind, MaterialKind, SkyKind, TextureFormat};
+use pack::abi::{LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat};
 use pack::features as bit;
 use shaders::{FeatureSet, Windows};
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,15 +18,21 @@ struct Family {
     members: Vec<(u64, FeatureSet)>,
 }
 
+/// Feature bits are long numbers.
+const GENERATED: &str = "#[allow(clippy::unreadable_literal, reason = \"generated\")]\n";
+
 /// Index of the family of [`materials`].
 const MATERIALS: usize = 0;
+/// Index of the family of [`media`].
+const MEDIA: usize = 1;
 
 /// Texts of a declaration, each with the (family, bits) in which it occurs.
 type Texts = BTreeMap<String, BTreeSet<(usize, u64)>>;
 
 /// Rust source of `KNOWN: &[Known]`, sorted by text, and of `SWITCHES: &[Switch]`.
 pub(crate) fn table() -> Result<String, Box<dyn Error>> {
-    let families = [materials(), geometry(), views(), formats(), asked(), normals()];
+    let families =
+        [materials(), media(), geometry(), views(), formats(), asked(), normals(), samplers()];
     let mut declarations: BTreeMap<String, Texts> = BTreeMap::new();
     for (f, family) in families.iter().enumerate() {
         for (bits, features) in &family.members {
@@ -42,11 +48,12 @@ pub(crate) fn table() -> Result<String, Box<dyn Error>> {
             continue;
         }
         rows.extend(rows_of(name, texts, &families)?);
-        if varying(texts, families.len()) == [MATERIALS] {
+        let varying = varying(texts, families.len());
+        if varying.first() == Some(&MATERIALS) {
             switching.push(name.clone());
         }
     }
-    let mut source = String::from("static KNOWN: &[Known] = &[\n");
+    let mut source = format!("{GENERATED}static KNOWN: &[Known] = &[\n");
     for (text, condition) in rows {
         writeln!(source, "    Known {{ text: {text:?}, condition: {condition} }},")?;
     }
@@ -74,7 +81,8 @@ fn rows_of(
         return Ok(texts.keys().map(any).collect());
     }
     let varying = varying(texts, families.len());
-    let &[family] = varying.as_slice() else {
+    // Where kinds of scattering differ, a point in a medium is one of them.
+    let ([family] | [family @ MATERIALS, MEDIA]) = *varying.as_slice() else {
         let masks: Vec<u64> = varying.iter().map(|f| families[*f].mask).collect();
         return Err(format!("`{name}` depends on several groups of features: {masks:#x?}").into());
     };
@@ -134,10 +142,6 @@ fn subsets<T: Copy + Ord>(all: &[T]) -> Vec<BTreeSet<T>> {
         .collect()
 }
 
-fn materials_mask() -> u64 {
-    MaterialKind::ALL.into_iter().map(bit::material).sum()
-}
-
 /// The name of its tag in the kernel: `MATERIAL_DIFFUSE`.
 fn tag_name(kind: MaterialKind) -> String {
     let mut name = "MATERIAL".to_owned();
@@ -150,14 +154,39 @@ fn tag_name(kind: MaterialKind) -> String {
     name
 }
 
+/// Materials, and media that scatter: whatever has a case of its own where light is scattered.
+fn materials_mask() -> u64 {
+    MaterialKind::ALL.into_iter().map(bit::material).sum::<u64>() | bit::SCATTERING
+}
+
 /// No material, and each alone: these dispatch without a `switch`.
 fn materials() -> Family {
-    let none = FeatureSet { materials: BTreeSet::new(), ..FeatureSet::full() };
+    let clear = FeatureSet { scattering: false, ..FeatureSet::full() };
+    let none = FeatureSet { materials: BTreeSet::new(), ..clear.clone() };
     let mut members = vec![(0, none)];
     members.extend(MaterialKind::ALL.into_iter().map(|kind| {
-        (bit::material(kind), FeatureSet { materials: [kind].into(), ..FeatureSet::full() })
+        (bit::material(kind), FeatureSet { materials: [kind].into(), ..clear.clone() })
     }));
     Family { mask: materials_mask(), members }
+}
+
+/// Media, fog, and what shadow rays go through.
+fn media() -> Family {
+    let mut members = Vec::new();
+    for (media, scattering) in [(false, false), (true, false), (true, true)] {
+        for (fog, through) in [(false, false), (false, true), (true, false), (true, true)] {
+            let rows = [
+                (media, bit::MEDIA),
+                (scattering, bit::SCATTERING),
+                (fog, bit::FOG),
+                (through, bit::THROUGH),
+            ];
+            let bits = rows.iter().filter(|row| row.0).map(|row| row.1).sum();
+            let features = FeatureSet { media, scattering, fog, through, ..FeatureSet::full() };
+            members.push((bits, features));
+        }
+    }
+    Family { mask: bit::MEDIA | bit::SCATTERING | bit::FOG | bit::THROUGH, members }
 }
 
 /// Rust source of `SWITCHES: &[Switch]`: the functions that switch over the kinds of materials. With
@@ -165,7 +194,7 @@ fn materials() -> Family {
 /// many subsets to list their texts.
 fn switches(switching: &[String]) -> Result<String, Box<dyn Error>> {
     let full = declarations_of(&FeatureSet::full())?;
-    let mut source = String::from("static SWITCHES: &[Switch] = &[\n");
+    let mut source = format!("{GENERATED}static SWITCHES: &[Switch] = &[\n");
     for name in switching {
         let text = &full.iter().find(|(known, _)| known == name).ok_or("no such function")?.1;
         let at = |part: &str| text.find(part).ok_or(format!("`{name}` has no `{part}`"));
@@ -173,6 +202,10 @@ fn switches(switching: &[String]) -> Result<String, Box<dyn Error>> {
         let (head, foot) = (&text[..first], &text[last..]);
         let mut cases = Vec::new();
         for line in text[first..last].split_inclusive('\n') {
+            if line.contains("case PHASE_KIND:") {
+                cases.push(format!("({}, {line:?})", literal(bit::SCATTERING)));
+                continue;
+            }
             let of = |kind: &MaterialKind| line.contains(&format!("case {}:", tag_name(*kind)));
             let kind = MaterialKind::ALL.into_iter().find(of);
             let kind = kind.ok_or_else(|| format!("`{name}` has a case of no kind: {line}"))?;
@@ -241,6 +274,14 @@ fn formats() -> Family {
         }
     }
     Family { mask, members }
+}
+
+fn samplers() -> Family {
+    let members = SamplerKind::ALL.map(|kind| {
+        let bits = if kind == SamplerKind::Pcg { bit::SAMPLER_PCG } else { 0 };
+        (bits, FeatureSet { samplers: [kind].into(), ..FeatureSet::full() })
+    });
+    Family { mask: bit::SAMPLER_PCG, members: members.into() }
 }
 
 /// Shapes, lights, cut-outs, and whether there are textures at all. Any formats of textures stand

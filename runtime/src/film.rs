@@ -31,6 +31,10 @@ pub struct Counters {
     pub first_bad: Option<BadSample>,
     /// Longest path in segments.
     pub depth: u32,
+    /// Times that a path was inside of more things than it can remember: the least of them was lost.
+    pub overflows: u64,
+    /// Times that a path left a thing which it had never entered: a mesh is open or inside out.
+    pub leaks: u64,
 }
 
 impl Counters {
@@ -40,6 +44,8 @@ impl Counters {
         self.bad += other.bad;
         self.first_bad = self.first_bad.or(other.first_bad);
         self.depth = self.depth.max(other.depth);
+        self.overflows += other.overflows;
+        self.leaks += other.leaks;
     }
 }
 
@@ -175,6 +181,8 @@ impl Accumulator {
                 let bad = BadSample { x, y, sample: pixel.first_bad };
                 plane.counters.rays += u64::from(pixel.rays);
                 plane.counters.depth = plane.counters.depth.max(pixel.depth);
+                plane.counters.overflows += u64::from(pixel.strays & 0xffff);
+                plane.counters.leaks += u64::from(pixel.strays >> 16);
                 if pixel.bad > 0 {
                     plane.counters.bad += u64::from(pixel.bad);
                     let first = plane.counters.first_bad;

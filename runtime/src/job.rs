@@ -42,7 +42,8 @@ pub struct Job {
     pub samples: SampleRange,
     /// Seed of the image.
     pub seed: u32,
-    /// Estimator switch of the kernel: 0 MIS (balance), 1 light samples only, 2 BSDF samples only.
+    /// Estimator switch of the kernel: 0 MIS (balance), 1 light samples only, 2 BSDF samples only,
+    /// 3 MIS (power 2).
     pub estimator: u32,
     /// Precision of the CPU kernel; GPUs know `F32` only.
     pub precision: Precision,

@@ -126,6 +126,10 @@ impl Scene {
             srgb_at,
             root: settings.root,
             estimator: job.estimator,
+            sampler: settings.sampler,
+            air: settings.air,
+            fog: settings.fog,
+            inside: settings.inside,
             ..Frame::default()
         };
         Setup { scene: self, heap, frame }

@@ -1,7 +1,7 @@
 //! What a scene needs of the kernel.
 
 use crate::ShaderError;
-use pack::abi::{LightKind, MaterialKind, SkyKind, TextureFormat};
+use pack::abi::{LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat};
 use std::collections::BTreeSet;
 
 /// Storage buffers that every WebGPU device offers, less one that is left for the host.
@@ -25,6 +25,8 @@ pub struct FeatureSet {
     pub skies: BTreeSet<SkyKind>,
     /// The camera has a lens of radius > 0.
     pub lens: bool,
+    /// Where random numbers come from. A scene has exactly one, the full kernel knows all.
+    pub samplers: BTreeSet<SamplerKind>,
     /// Formats of the textures.
     pub textures: BTreeSet<TextureFormat>,
     /// Some material has the flag `ALPHA_CLIP`.
@@ -35,6 +37,14 @@ pub struct FeatureSet {
     pub objects: bool,
     /// Some material has a normal map.
     pub normal_maps: bool,
+    /// Things have an inside, or there is an atmosphere.
+    pub media: bool,
+    /// Some medium scatters; only with `media`.
+    pub scattering: bool,
+    /// There is fog.
+    pub fog: bool,
+    /// Some material has the flag `THROUGH`.
+    pub through: bool,
     /// Entries of the traversal stack, at least 1: `RenderSettings::stack_need`.
     pub stack_size: u32,
     /// How many bindings each section is split into.
@@ -75,7 +85,7 @@ pub struct Binding {
 }
 
 impl FeatureSet {
-    /// The smallest kernel: a pinhole camera in front of nothing.
+    /// The smallest kernel: a pinhole camera in front of nothing, with the default sampler.
     #[must_use]
     pub fn empty() -> Self {
         Self {
@@ -86,11 +96,16 @@ impl FeatureSet {
             lights: BTreeSet::new(),
             skies: BTreeSet::new(),
             lens: false,
+            samplers: [SamplerKind::Sobol].into(),
             textures: BTreeSet::new(),
             alpha_clip: false,
             tangents: false,
             objects: false,
             normal_maps: false,
+            media: false,
+            scattering: false,
+            fog: false,
+            through: false,
             stack_size: 1,
             windows: Windows::default(),
         }
@@ -107,6 +122,7 @@ impl FeatureSet {
             lights: [LightKind::Sphere, LightKind::Rectangle, LightKind::Triangle].into(),
             skies: [SkyKind::Constant, SkyKind::Gradient].into(),
             lens: true,
+            samplers: SamplerKind::ALL.into(),
             textures: [
                 TextureFormat::Rgba8Srgb,
                 TextureFormat::Rgba8Linear,
@@ -117,6 +133,10 @@ impl FeatureSet {
             tangents: true,
             objects: true,
             normal_maps: true,
+            media: true,
+            scattering: true,
+            fog: true,
+            through: true,
             stack_size: 96,
             windows: Windows::default(),
         }

@@ -3,6 +3,7 @@
 mod bindings;
 mod constants;
 mod dispatch;
+mod media;
 mod records;
 mod traversal;
 
@@ -16,15 +17,23 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/bindings.wgsl", bindings::text(&features.bindings()?)),
         ("scene/candidate.wgsl", traversal::candidate(features)),
         ("scene/constants.wgsl", constants::text(features)),
+        ("scene/crossing.wgsl", media::crossing(features)),
         ("scene/dispatch.wgsl", dispatch::path(features)),
         ("scene/dispatch_bsdf.wgsl", dispatch::bsdf(features)),
         ("scene/dispatch_light.wgsl", dispatch::light(features)),
         ("scene/dispatch_pattern.wgsl", dispatch::pattern(features)),
+        ("scene/ends.wgsl", media::ends(features)),
+        ("scene/fog.wgsl", media::fog(features)),
+        ("scene/inside.wgsl", media::inside(features)),
         ("scene/leaf.wgsl", traversal::leaf(features)),
         ("scene/place.wgsl", dispatch::place(features)),
         ("scene/records.wgsl", records::text()),
+        ("scene/sampler.wgsl", dispatch::sampler(features)),
+        ("scene/segment.wgsl", media::segment(features)),
+        ("scene/shadow.wgsl", media::shadow(features)),
         ("scene/texel.wgsl", dispatch::texel(features)),
         ("scene/texture.wgsl", dispatch::texture(features)),
+        ("scene/through.wgsl", media::through(features)),
     ])
 }
 

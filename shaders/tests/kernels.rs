@@ -46,7 +46,12 @@ fn translate(name: &str, module: &Module, info: &ModuleInfo) {
     let words = naga::back::spv::write_vec(module, info, &spv, None)
         .unwrap_or_else(|e| panic!("{name}: SPIR-V: {e}"));
     assert_eq!(words[0], 0x0723_0203, "{name}: SPIR-V magic number");
-    let msl = naga::back::msl::Options { fake_missing_bindings: true, ..Default::default() };
+    // Metal reverses bits from 2.1 on (macOS 10.14, 2018).
+    let msl = naga::back::msl::Options {
+        lang_version: (2, 1),
+        fake_missing_bindings: true,
+        ..Default::default()
+    };
     let (text, _) = naga::back::msl::write_string(
         module,
         info,
@@ -136,6 +141,7 @@ fn check_arithmetic(name: &str, module: &Module) {
         MathFunction::Floor,
         MathFunction::Sqrt,
         MathFunction::Dot,
+        MathFunction::ReverseBits,
     ];
     let entries = module.entry_points.iter().map(|entry| &entry.function);
     for function in module.functions.iter().map(|(_, function)| function).chain(entries) {

@@ -79,3 +79,18 @@ fn functions_take_at_most_six_parameters_and_say_what_they_do() {
         }
     }
 }
+
+/// Purposes that share a number would share their random numbers, and so would the last of one bounce and
+/// the first of the next if there were more than the stride.
+#[test]
+fn every_purpose_has_its_own_number_below_the_stride() {
+    let key = module_texts().iter().find(|row| row.0 == "sampler/key.wgsl").expect("it is there").1;
+    let constants = key.lines().filter_map(|line| {
+        let (name, value) = line.strip_prefix("const PURPOSE_")?.split_once(": u32 = ")?;
+        Some((name, value.strip_suffix("u;")?.parse::<u32>().expect("a plain number")))
+    });
+    let (stride, purposes): (Vec<_>, Vec<_>) = constants.partition(|row| row.0 == "STRIDE");
+    let numbers: BTreeSet<u32> = purposes.iter().map(|row| row.1).collect();
+    assert!(purposes.len() >= 8 && numbers.len() == purposes.len(), "{purposes:?}");
+    assert!(numbers.iter().all(|number| *number < stride[0].1), "{purposes:?}");
+}

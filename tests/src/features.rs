@@ -14,21 +14,26 @@ pub struct Case {
     parts: &'static [&'static str],
     /// Fields of the camera beyond the usual.
     camera: &'static str,
+    /// Fields of the render beyond the usual, each behind a comma.
+    render: &'static str,
 }
 
 const fn case(name: &'static str, parts: &'static [&'static str]) -> Case {
-    Case { name, parts, camera: "" }
+    Case { name, parts, camera: "", render: "" }
 }
 
 /// Every feature of the kernel.
 pub const CASES: &[Case] = &[
     // Without geometry, without a sky, with one sort of geometry.
     case("sky alone", &[SKY]),
-    Case { name: "gradient sky alone, through a lens", parts: &[GRADIENT], camera: LENS },
+    Case { camera: LENS, ..case("gradient sky alone, through a lens", &[GRADIENT]) },
     case("spheres alone", &[SKY, CLAY, BALL]),
     case("triangles alone", &[SKY, CLAY, BOX]),
     case("black sky", &[SPHERE_LIGHT, CLAY, BALL, FLOOR]),
-    Case { name: "lens", parts: &[SKY, CLAY, BALL, FLOOR], camera: LENS },
+    Case { camera: LENS, ..case("lens", &[SKY, CLAY, BALL, FLOOR]) },
+    // The other sampler, at everything that draws numbers, and in the kernel without geometry.
+    Case { camera: LENS, render: PCG, ..case("independent samples", ALL) },
+    Case { render: PCG, ..case("independent samples of the sky", &[GRADIENT]) },
     // Materials.
     case("diffuse", &[GRADIENT, CLAY, BALL, FLOOR]),
     case("mirror", &[GRADIENT, "material m: metal { color = linear(0.9) }\n", BALL, TENT, FLOOR]),
@@ -73,6 +78,18 @@ pub const CASES: &[Case] = &[
     case("opaque fabric", &[GRADIENT, FELT, BALL, TENT]),
     case("bumps as steep as walls", &[GRADIENT, SPHERE_LIGHT, CRAGS, BALL, TENT, FLOOR]),
     case("every pattern", &[GRADIENT, SPHERE_LIGHT, PAINT, PATTERNS, FLOOR]),
+    case("conductor", &[GRADIENT, SPHERE_LIGHT, GOLD, BALL, TENT, FLOOR]),
+    case("conductor without compensation", &[SKY, IRON, BALL, FLOOR]),
+    case("conductor so smooth that it is a mirror", &[GRADIENT, CHROME, BALL, TENT]),
+    case("brushed conductor", &[GRADIENT, SPHERE_LIGHT, BRUSHED, BALL, TENT, FLOOR]),
+    case("brushed spheres alone", &[GRADIENT, SPHERE_LIGHT, BRUSHED, BALL]),
+    case("worn conductor", &[SKY, LAMP, PANEL, WEAR, PAINT, WORN_METAL, BALL, QUILT]),
+    case("rough dielectric", &[GRADIENT, SPHERE_LIGHT, FROSTED, BALL, TENT, FLOOR]),
+    case("rough dielectric of a texture", &[SKY, LAMP, PANEL, WEAR, WORN_GLASS, BALL, QUILT]),
+    case("clearcoat", &[GRADIENT, SPHERE_LIGHT, LACQUER, BALL, TENT, FLOOR]),
+    case("clearcoat with gloss", &[SKY, LAMP, PANEL, GLAZE, BALL, FLOOR]),
+    case("leaf", &[GRADIENT, SPHERE_LIGHT, LEAF, BALL, TENT, FLOOR]),
+    case("petal", &[GRADIENT, SPHERE_LIGHT, PETAL, BALL, TENT, FLOOR]),
     // Lights, seen by each sort of lobe.
     case("sphere light on plastic", &[SPHERE_LIGHT, PLASTIC, BALL, FLOOR]),
     case("sphere light on metal", &[SPHERE_LIGHT, SKY, FUZZY, BALL, FLOOR]),
@@ -107,26 +124,40 @@ pub const CASES: &[Case] = &[
     ),
     case("normal map on a mirror", &[GRADIENT, BUMPS, BUMPY_MIRROR, BALL, TENT]),
     case("normal map on glass", &[GRADIENT, BUMPS, BUMPY_GLASS, BALL, FLOOR]),
-    Case {
-        name: "all",
-        parts: &[
-            GRADIENT,
-            SPHERE_LIGHT,
-            LAMP,
-            PANEL,
-            GLOWING_TENT,
-            WEAR,
-            PAINT,
-            GLOW,
-            BUMPS,
-            MANY,
-            ALL_THINGS,
-            PATTERNS,
-            FLOOR,
-        ],
-        camera: LENS,
-    },
+    // Media.
+    case("fog", &[GRADIENT, SPHERE_LIGHT, MIST, CLAY, BALL, FLOOR]),
+    case("smoke", &[SKY, SPHERE_LIGHT, SMOKE, CLAY, BALL, TENT, FLOOR]),
+    case("smoke without lights", &[GRADIENT, SMOKE, GLASSY, BALL]),
+    case("coloured glass", &[SKY, SPHERE_LIGHT, INK, FILLED, BALL, FLOOR]),
+    case("milk behind a surface that is not there", &[SKY, SPHERE_LIGHT, MILK, FOGGY, BALL, FLOOR]),
+    case("media inside each other", &[GRADIENT, SPHERE_LIGHT, INK, MILK, NESTED, FLOOR]),
+    case("water", &[GRADIENT, SPHERE_LIGHT, POND, CLAY, BALL, FLOOR]),
+    case("sea", &[GRADIENT, SPHERE_LIGHT, SEA, CLAY, BALL]),
+    case("priorities alone", &[GRADIENT, LAMP, PANEL, PRIORITIES, FLOOR]),
+    Case { camera: LENS, ..case("all", ALL) },
 ];
+
+const ALL: &[&str] = &[
+    GRADIENT,
+    SPHERE_LIGHT,
+    LAMP,
+    PANEL,
+    GLOWING_TENT,
+    WEAR,
+    PAINT,
+    GLOW,
+    BUMPS,
+    MANY,
+    ALL_THINGS,
+    PATTERNS,
+    MILK,
+    NESTED_BALLS,
+    MIST,
+    POND,
+    FLOOR,
+];
+
+const PCG: &str = ", sampler = pcg";
 
 const LENS: &str = "  aperture = 40cm\n  focus = 5m\n";
 
@@ -157,6 +188,30 @@ const LACE_LAMP: &str = "material lamp: principled {
   alpha.clip = 50%
 }\n";
 
+const MIST: &str = "medium mist: fog { visibility = 40m, color = linear(0.3, 0.4, 0.5) }\n";
+const SMOKE: &str = "medium smoke: homogeneous { sigma_a = (0.01, 0.02, 0.05)/m, sigma_s = (0.1, 0.2, 0.4)/m, g = 0.6, sky_distance = 9m }\n";
+const INK: &str = "medium ink: homogeneous { sigma_a = (0.2, 0.9, 2)/m }\n";
+const MILK: &str = "medium milk: homogeneous { mean_free_path = (0.4, 0.3, 0.2)m, albedo = linear(0.99, 0.9, 0.8), g = -0.3 }\n";
+const GLASSY: &str = "material m: dielectric { ior = 1.5 }\n";
+const FILLED: &str = "material m: dielectric { ior = 1.5, interior = ink }\n";
+const FOGGY: &str = "material m: dielectric { ior = 1, interior = milk }\n";
+const NESTED: &str = "material m: dielectric { ior = 1.5, interior = ink, priority = 2 }
+material n: dielectric { ior = 1.33, interior = milk, priority = 1 }
+material o: dielectric { ior = 1, priority = 3 }
+instance ball { shape = sphere(radius: 1m), material = n, at = (0, 1, 0)m }
+instance crate { shape = box(size: (1.5, 0.5, 1.5)m), material = m, rotate = (0, 30, 0)deg, at = (0, 0.5, 0.3)m }
+instance bubble { shape = sphere(radius: 30cm), material = o, at = (0.3, 1.3, 0.4)m }\n";
+const NESTED_BALLS: &str = "material n: dielectric { ior = 1.33, interior = milk, priority = 1 }
+instance nested { shape = sphere(radius: 50cm), material = n, at = (-1.2, 0.9, 1.2)m }\n";
+const POND: &str = "material wet: water { waves.scale = 2, waves.height = 3, priority = 1 }
+instance pond { shape = box(size: (3, 1, 3)m), material = wet, at = (0.4, 0.6, 1)m, rotate = (0, 25, 0)deg }\n";
+const SEA: &str = "material wet: water { waves.height = 2 }
+instance sea { shape = rectangle(size: (90, 90)m), material = wet, at = (0, 0.7, 0)m }\n";
+const PRIORITIES: &str = "material m: dielectric { ior = 1.5, priority = 2 }
+material n: dielectric { ior = 1.33, priority = 1 }
+instance ball { shape = sphere(radius: 1m), material = n, at = (0, 1, 0)m }
+instance crate { shape = box(size: (1.5, 0.5, 1.5)m), material = m, at = (0, 0.5, 0.3)m }\n";
+
 const FLOOR: &str = "material grey: diffuse { color = linear(0.6) }
 instance floor { shape = rectangle(size: (20, 20)m), material = grey }\n";
 const BALL: &str = "instance ball { shape = sphere(radius: 1m), material = m, at = (0, 1, 0)m }\n";
@@ -183,7 +238,25 @@ const BUMPY_GLASS: &str = "material m: dielectric { ior = 1.5, normal = bumps.rg
 
 const CLAY: &str = "material m: diffuse { color = linear(0.7, 0.4, 0.2) }\n";
 const PLASTIC: &str = "material m: principled { color = linear(0.1, 0.3, 0.8), roughness = 0.3 }\n";
+const LEAF: &str = "material m: leaf { color = linear(0.5, 0.6, 0.2), translucency = 40% }\n";
+const PETAL: &str = "material m: petal { color = linear(0.9, 0.6, 0.7), sigma_s = 5/mm }\n";
 const FUZZY: &str = "material m: metal { color = linear(0.8), fuzz = 0.2 }\n";
+const GOLD: &str = "material m: conductor { color = linear(1, 0.7, 0.3), roughness = 0.4 }\n";
+const IRON: &str =
+    "material m: conductor { color = linear(0.6), roughness = 1, compensation = off }\n";
+const CHROME: &str = "material m: conductor { color = linear(0.6), roughness = 0.02 }\n";
+const BRUSHED: &str =
+    "material m: conductor { color = linear(0.9), roughness = 0.3, anisotropy = 0.8 }\n";
+const WORN_METAL: &str = "material m: conductor { color = paint.rgb, roughness = wear.g }\n";
+const FROSTED: &str = "material m: dielectric { ior = 1.5, roughness = 0.4 }\n";
+const WORN_GLASS: &str = "material m: dielectric { ior = 1.3, roughness = wear.b }\n";
+const LACQUER: &str = "material m: clearcoat { color = linear(0.7, 0.1, 0.1) }\n";
+const GLAZE: &str = "material m: clearcoat {
+  color = linear(0.9)
+  fuzz = 0
+  coat.ior = 1.65
+  coat.tint = linear(1, 0.9, 0.5)
+}\n";
 const GLOWING: &str = "material m: principled {
   metallic = 0.5
   roughness = 0.6
@@ -236,12 +309,22 @@ const MANY: &str = "material m: principled {
 const ALL_THINGS: &str = "material brass: metal { color = linear(0.9, 0.7, 0.4), fuzz = 0.3 }
 material glass: dielectric { ior = 1.5 }
 material clay: diffuse { color = paint.rgb }
+material steel: conductor { color = linear(0.8), roughness = 0.3, anisotropy = 0.8 }
+material frosted: dielectric { roughness = 0.4 }
+material lacquer: clearcoat { color = linear(0.7, 0.1, 0.1) }
+material maple: leaf { color = linear(0.5, 0.2, 0.1) }
+material sakura: petal { color = linear(0.9, 0.6, 0.7) }
 asset tent = obj(\"tent.obj\", unit: m, up: +y)
 instance a { shape = sphere(radius: 60cm), material = glass, at = (-1.5, 0.6, 1)m }
 instance b { shape = box(size: (1, 1, 1)m), material = clay, rotate = (0, 30, 0)deg, at = (1.8, 0.5, -1)m }
 instance c { shape = tent, material = m, at = (0.6, 0, 1.4)m, scale = (-1, 1, 1) }
 instance d { shape = sphere(radius: 50cm), material = brass, at = (0, 0.5, -1)m }
-instance e { shape = sphere(radius: 40cm), material = m, at = (-0.4, 1.6, 0)m }\n";
+instance e { shape = sphere(radius: 40cm), material = m, at = (-0.4, 1.6, 0)m }
+instance f { shape = sphere(radius: 30cm), material = steel, at = (0.8, 1.6, 0)m }
+instance g { shape = sphere(radius: 30cm), material = frosted, at = (0.1, 0.3, 2)m }
+instance h { shape = sphere(radius: 30cm), material = lacquer, at = (-0.7, 0.3, 2)m }
+instance i { shape = sphere(radius: 30cm), material = maple, at = (-2.2, 0.3, -0.4)m }
+instance j { shape = tent, material = sakura, at = (-0.6, 0, 2.2)m, scale = (0.6, 0.8, 0.6) }\n";
 
 /// A four-sided tent with normals and texture coordinates.
 const TENT_OBJ: &str = "v -0.5 0 -0.5\nv 0.5 0 -0.5\nv 0.5 0 0.5\nv -0.5 0 0.5\nv 0 0.8 0
@@ -270,8 +353,10 @@ pub fn named(name: &str) -> &'static Case {
 pub fn compiled(case: &Case) -> Compiled {
     let dir = tempfile::tempdir().expect("a temporary directory can be made");
     write_files(dir.path());
-    let Case { parts, camera, .. } = case;
+    let Case { parts, camera, render, .. } = case;
     let things = parts.concat();
+    let air = ["mist", "smoke"].into_iter().find(|air| things.contains(&format!("medium {air}:")));
+    let air = air.map_or(String::new(), |air| format!(", atmosphere = {air}"));
     let text = format!(
         "rts 1\n{things}
 camera eye: perspective {{
@@ -280,7 +365,7 @@ camera eye: perspective {{
   fov.vertical = 42deg
 {camera}}}
 film small {{ size = (40, 30)px }}
-render main: path {{ camera = eye, film = small, samples = 8, depth = 8, seed = 7 }}\n",
+render main: path {{ camera = eye, film = small, samples = 8, depth = 8, seed = 7{render}{air} }}\n",
     );
     crate::scene::compile_in(dir.path(), &text)
 }

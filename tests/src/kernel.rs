@@ -3,7 +3,8 @@
 use bytemuck::Pod;
 use glam::{DVec2, DVec3, UVec4, Vec3};
 use pack::abi::{
-    Camera, Frame, Light, Material, MaterialKind, NONE, Node, Object, Sphere, TriShade, Triangle,
+    Camera, Frame, Light, Material, MaterialKind, Medium, NONE, Node, Object, SamplerKind, Sphere,
+    TriShade, Triangle,
 };
 use runtime::kernel::{f32 as single, f64 as double};
 
@@ -31,10 +32,20 @@ impl Default for Bench {
 }
 
 impl Bench {
-    /// No geometry, no lights, no sky.
+    /// No geometry, no lights, no sky. Random numbers are independent, as chi-square tests take them.
     #[must_use]
     pub fn new() -> Self {
-        let frame = Frame { root: NONE, sky_at: NONE, image_size: [64, 64], ..Frame::default() };
+        let sampler = SamplerKind::Pcg as u32;
+        let frame = Frame {
+            sampler,
+            root: NONE,
+            sky_at: NONE,
+            air: NONE,
+            fog: NONE,
+            inside: [NONE; 4],
+            image_size: [64, 64],
+            ..Frame::default()
+        };
         let none = Vec::new;
         let bench = Self {
             frame,
@@ -55,6 +66,13 @@ impl Bench {
 
     fn heap_end(&self) -> u32 {
         u32::try_from(self.heap.len()).expect("tests have small heaps")
+    }
+
+    /// With random numbers from `kind`.
+    #[must_use]
+    pub fn sampler(mut self, kind: SamplerKind) -> Self {
+        self.frame.sampler = kind as u32;
+        self.framed()
     }
 
     /// With a table of lights.
@@ -79,6 +97,14 @@ impl Bench {
     pub fn objects(mut self, objects: &[Object]) -> Self {
         self.frame.object_at = self.heap_end();
         self.heap.extend(words(objects));
+        self.framed()
+    }
+
+    /// With a table of media.
+    #[must_use]
+    pub fn media(mut self, media: &[Medium]) -> Self {
+        self.frame.medium_at = self.heap_end();
+        self.heap.extend(words(media));
         self.framed()
     }
 
@@ -162,6 +188,24 @@ impl Bench {
     }
 }
 
+/// Mean reflectance of an interface of index `ior` for diffuse light from within, by quadrature over the
+/// square of the cosine.
+fn mean_from_within(ior: f64) -> f64 {
+    let n = 20_000;
+    let e = 1.0 / ior;
+    let at = |i: u32| {
+        let c = ((f64::from(i) + 0.5) / f64::from(n)).sqrt();
+        let g2 = e * e - 1.0 + c * c;
+        if g2 <= 0.0 {
+            return 1.0;
+        }
+        let g = g2.sqrt();
+        let (s, p) = ((c - g) / (c + g), (e * e * c - g) / (e * e * c + g));
+        0.5 * (s * s + p * p)
+    };
+    (0..n).map(at).sum::<f64>() / f64::from(n)
+}
+
 /// A scattering model with its parameters, at a surface with one normal.
 #[derive(Clone, Copy, Debug)]
 pub struct Lobe {
@@ -177,6 +221,10 @@ pub struct Lobe {
     pub metallic: f32,
     /// Refractive index.
     pub ior: f64,
+    /// Brushed along the tangent, 0 ..= 1.
+    pub anisotropy: f32,
+    /// Share of a second lobe; the light of several reflections of a conductor.
+    pub weight: f32,
     /// Geometric and shading normal, unit.
     pub normal: DVec3,
     /// The path comes from the front side.
@@ -189,10 +237,8 @@ pub struct Lobe {
     pub key: u32,
     /// Share of gloss over a matte base.
     pub gloss: f32,
-    /// Share of a second lobe: translucency.
-    pub weight: f32,
-    /// How much narrower the lobe is across the tangent.
-    pub anisotropy: f32,
+    /// Sample number, for models that are found by a random walk.
+    pub sample: u32,
 }
 
 impl Lobe {
@@ -206,15 +252,61 @@ impl Lobe {
             roughness: 0.0,
             metallic: 0.0,
             ior: 1.5,
+            anisotropy: 0.0,
+            weight: if kind == MaterialKind::Conductor { 1.0 } else { 0.0 },
             normal: DVec3::new(0.36, -0.48, 0.8),
             front: true,
             uv: DVec2::new(0.3, 0.6),
             place: DVec3::new(0.1, -0.7, 0.4),
             key: 0x9e37_79b9,
             gloss: 0.0,
-            weight: 0.0,
-            anisotropy: 0.0,
+            sample: 0,
         }
+    }
+
+    /// The material record, for what models read from it: textures none, second colour white.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "rounded once, as the compiler does")]
+    pub fn record(&self) -> Material {
+        Material {
+            color: [self.color; 3],
+            kind: self.kind as u32,
+            fuzz: self.fuzz,
+            roughness: self.roughness,
+            metallic: self.metallic,
+            ior: self.ior as f32,
+            ior_minus_1: (self.ior - 1.0) as f32,
+            anisotropy: self.anisotropy,
+            weight: self.weight,
+            gloss: self.gloss,
+            tint: [1.0; 3],
+            specular: mean_from_within(self.ior) as f32,
+            ..Material::default()
+        }
+    }
+
+    /// A kernel whose material 0 is this model.
+    #[must_use]
+    pub fn bench(&self) -> Bench {
+        Bench::new().materials(&[self.record()])
+    }
+
+    /// A white conductor with compensation.
+    #[must_use]
+    pub fn conductor(roughness: f32, anisotropy: f32) -> Self {
+        Self { roughness, anisotropy, ..Self::new(MaterialKind::Conductor) }
+    }
+
+    /// Rough glass, seen from the outside or from within.
+    #[must_use]
+    pub fn rough_dielectric(roughness: f32, ior: f64, front: bool) -> Self {
+        Self { roughness, ior, front, ..Self::new(MaterialKind::RoughDielectric) }
+    }
+
+    /// A white base under a coat of index 1.5.
+    #[must_use]
+    pub fn clearcoat(fuzz: f32) -> Self {
+        Self { fuzz, ..Self::new(MaterialKind::Clearcoat) }
     }
 
     /// The direction in which u grows: some direction at a right angle to the normal.
@@ -239,24 +331,6 @@ impl Lobe {
     #[must_use]
     pub fn principled(roughness: f32, metallic: f32) -> Self {
         Self { roughness, metallic, ..Self::new(MaterialKind::Principled) }
-    }
-
-    /// The material that its functions read: index 0 of a bench.
-    #[must_use]
-    pub fn record(&self) -> Material {
-        Material {
-            kind: self.kind as u32,
-            gloss: self.gloss,
-            weight: self.weight,
-            anisotropy: self.anisotropy,
-            ..Material::default()
-        }
-    }
-
-    /// A bench with its material.
-    #[must_use]
-    pub fn bench(&self) -> Bench {
-        Bench::new().materials(&[self.record()])
     }
 
     /// A unit direction at cosine `mu` to the normal, representable in single precision. Unit in
@@ -294,6 +368,7 @@ impl Lobe {
             ior: self.ior as f32,
             ior_minus_1: (self.ior - 1.0) as f32,
             front: self.front,
+            key: single::SampleKey { pixel: 0, sample: self.sample, bounce: 0, seed: 7 },
         }
     }
 
@@ -316,6 +391,7 @@ impl Lobe {
             ior: self.ior,
             ior_minus_1: self.ior - 1.0,
             front: self.front,
+            key: double::SampleKey { pixel: 0, sample: self.sample, bounce: 0, seed: 7 },
         }
     }
 }

@@ -37,7 +37,9 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Mean of independent values, with the error that their spread shows.
+    /// Mean of independent values, with the error that their spread shows: pixels that look at the same
+    /// point, or pictures of several seeds. Never the samples of one pixel, which Sobol's sampler makes
+    /// depend on each other; pixels and seeds are scrambled independently.
     #[must_use]
     pub fn of(values: &[f64]) -> Self {
         let n = values.len() as f64;

@@ -15,6 +15,7 @@ const FILES: &[(&str, &str)] = &[
     ("not_a_mesh.obj", "v 0 0\nf 1 2 3\n"),
     ("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"),
     ("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"),
+    ("inside_out.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\nf 1 4 2\nf 2 4 3\n"),
     ("empty.obj", "# nothing\n"),
     ("not_an_image.png", "this is text\n"),
     ("accessor.gltf", ACCESSOR),

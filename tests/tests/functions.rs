@@ -19,6 +19,8 @@ mod optics;
 mod sphere;
 #[path = "functions/triangle.rs"]
 mod triangle;
+#[path = "functions/water.rs"]
+mod water;
 
 /// The largest of some errors, and where it was.
 #[derive(Clone, Copy, Debug, Default)]

@@ -21,11 +21,9 @@ const RADIUS: f64 = 2.0;
 /// A unit square in the plane z = 0, front towards +z, with texture coordinates at its four corners, counter-clockwise
 /// from (-1, -1).
 fn square(uvs: [[f64; 2]; 4]) -> String {
-    let mut text = String::from("v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n");
-    for [u, v] in uvs {
-        text += &format!("vt {u} {v}\n");
-    }
-    text + "f 1/1 2/2 3/3 4/4\n"
+    let [a, b, c, d] = uvs.map(|[u, v]| format!("vt {u} {v}\n"));
+    let corners = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
+    format!("{corners}{a}{b}{c}{d}f 1/1 2/2 3/3 4/4\n")
 }
 
 /// What is lit: texture coordinates, texel of the map, its strength, how the square is turned (degrees, about x
@@ -131,8 +129,9 @@ fn check(case: &Case) {
         let found = lit(case, eye, light, true);
         let truth = normal.dot(light).max(0.0);
         let off = (found.mean - truth).abs();
-        // The light is not a point: its rim is 2e-3 away from its centre.
-        assert!(off < 4.0 * found.error + 2e-5, "{case:?}: {found:?}, not {truth}");
+        // Packed normals of a mesh are up to 6.5e-5 off (`functions/math.rs` measures it), which the noise no longer
+        // hides. That the light is not a point, and that few scattered rays find it, is 4e-6 of the value.
+        assert!(off < 4.0 * found.error + 6.5e-5, "{case:?}: {found:?}, not {truth}");
     }
 }
 

@@ -18,6 +18,14 @@ mod camera;
 mod light;
 #[path = "samplers/matte.rs"]
 mod matte;
+#[path = "samplers/media.rs"]
+mod media;
+#[path = "samplers/sheet.rs"]
+mod sheet;
+#[path = "samplers/sobol.rs"]
+mod sobol;
+#[path = "samplers/specular.rs"]
+mod specular;
 #[path = "samplers/uniform.rs"]
 mod uniform;
 
@@ -28,8 +36,14 @@ const N: usize = 1_000_000;
 /// Seed of every stream of this file.
 const SEED: u32 = 20_260;
 /// Chi-square tests in this file.
-const CHECKS: usize =
-    bsdf::CHECKS + camera::CHECKS + light::CHECKS + matte::CHECKS + uniform::CHECKS;
+const CHECKS: usize = bsdf::CHECKS
+    + camera::CHECKS
+    + light::CHECKS
+    + matte::CHECKS
+    + media::CHECKS
+    + sheet::CHECKS
+    + specular::CHECKS
+    + uniform::CHECKS;
 
 /// Fails where the counts are too far from what was expected; names the case.
 fn check(name: &str, counts: &Counts) {

@@ -9,10 +9,15 @@ mod energy;
 mod matte;
 #[path = "scattering/pattern.rs"]
 mod pattern;
+#[path = "scattering/sheet.rs"]
+mod sheet;
+#[path = "scattering/specular.rs"]
+mod specular;
 #[path = "scattering/weight.rs"]
 mod weight;
 
 use glam::DVec3;
+use pack::abi::MaterialKind;
 use runtime::kernel::f64 as double;
 use tests::kernel::Lobe;
 use tests::statistics::grid::{Grid, Shape};
@@ -20,8 +25,13 @@ use tests::statistics::grid::{Grid, Shape};
 /// Cells that resolve the lobe of `lobe` for light from `wo`.
 fn grid(lobe: &Lobe, wo: DVec3) -> Grid {
     let mu = lobe.normal.dot(wo);
+    if lobe.kind == MaterialKind::Clearcoat && (1e-3..0.3).contains(&lobe.fuzz) {
+        let shape = Shape { ring_scale: f64::from(lobe.fuzz), ..Shape::SPHERE };
+        return Grid::new(lobe.mirror(wo), lobe.normal, shape);
+    }
     let alpha = f64::from(lobe.roughness * lobe.roughness);
-    if lobe.kind != pack::abi::MaterialKind::Principled || !(1e-3..0.3).contains(&alpha) {
+    let microfacets = matches!(lobe.kind, MaterialKind::Principled | MaterialKind::Conductor);
+    if !microfacets || !(1e-3..0.3).contains(&alpha) {
         return Grid::new(lobe.normal, wo, Shape::HEMISPHERE);
     }
     let ring_scale = (alpha * mu.max(0.05)).min(1.0);
@@ -36,7 +46,7 @@ fn albedo(kernel: &mut double::Kernel<'_>, lobe: &Lobe, wo: DVec3, fine: usize) 
         grid(lobe, wo).integrate_above(fine, lobe.normal, |wi| kernel.dispatch_eval(s, wo, wi).x);
     let mut sum: f64 = rough.iter().sum();
     let smooth = s.roughness * s.roughness < double::PRINCIPLED_SMOOTH;
-    if lobe.kind == pack::abi::MaterialKind::Principled && smooth {
+    if lobe.kind == MaterialKind::Principled && smooth {
         let f0 = kernel.principled_f0(s);
         sum += kernel.fresnel_schlick(f0, lobe.normal.dot(wo)).x;
     }

@@ -8,14 +8,15 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 use lang::diagnostic::{Code, Diagnostic};
-use lang::scene::{Name, Scene, ToneMap};
+use lang::scene::{Name, Sampler, Scene, ToneMap};
 use lang::source::Span;
-use pack::abi::{self, TRI_SMOOTH, material_flag};
+use pack::abi::{self, NONE, TRI_SMOOTH, material_flag};
 
 use super::geometry::{self, Placement};
+use super::inside::Solids;
 use super::material::{MaterialRef, MaterialTable};
 use super::order::{Declared, Ordered, order};
-use super::{Loaded, camera, sky};
+use super::{Loaded, camera, closed, medium, sky};
 use crate::bvh::{self, BuildReport, BvhError, Joined, Primitives};
 use crate::cache::Cache;
 use crate::normalize::Normalization;
@@ -68,6 +69,8 @@ pub struct Lowered {
     pub objects: Vec<abi::Object>,
     /// Materials in use.
     pub materials: Vec<abi::Material>,
+    /// Media of the scene.
+    pub media: Vec<abi::Medium>,
     /// Name and place of each material.
     pub material_names: Vec<(String, Option<Span>)>,
     /// Light table.
@@ -114,6 +117,7 @@ pub fn lower(
     if placement.corners.len() > bvh::MAX_PRIMITIVES {
         return Err(LowerError::TooManyTriangles { count: placement.corners.len() });
     }
+    let (inside, around) = media(scene, loaded, &materials, &placement, diagnostics);
     let frame = normalization(&placement);
     let mut counters = Counters::default();
     let corners = normalised(&mut placement, &frame, &mut counters);
@@ -145,8 +149,15 @@ pub fn lower(
         diagnostics.push(darkness(scene));
     }
     let material_names = names(scene, loaded, materials.refs());
-    let render = settings(scene, &frame, &joined, ordered.lights.len());
-    let (materials, textures) = materials.into_records();
+    let render = abi::RenderSettings {
+        air: around[0],
+        fog: around[1],
+        inside,
+        ..settings(scene, &frame, &joined, ordered.lights.len())
+    };
+    let media = medium::records(scene, materials.waters(), &frame);
+    let (mut materials, textures) = materials.into_records();
+    medium::mark(scene, &mut materials);
     let objects = objects(&placement, &materials, &frame);
     forget_objects(&objects, &mut ordered);
     let (textures, texels) = textures.into_records();
@@ -160,6 +171,7 @@ pub fn lower(
         spheres: ordered.spheres,
         objects,
         materials,
+        media,
         material_names,
         lights: ordered.lights,
         textures,
@@ -168,6 +180,26 @@ pub fn lower(
         times,
         trees,
     })
+}
+
+/// What the camera is inside of, and what is around everything, as `RenderSettings` holds it.
+fn media(
+    scene: &Scene,
+    loaded: &Loaded,
+    materials: &MaterialTable<'_>,
+    placement: &Placement,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> ([u32; 4], [u32; 2]) {
+    let around = medium::around(scene);
+    let matters = medium::matters(scene, materials.records());
+    closed::check(scene, loaded, matters, diagnostics);
+    if !matters {
+        return ([NONE; 4], around);
+    }
+    let records = materials.records();
+    let solids = Solids::find(placement, records, DVec3::from(scene.camera.from));
+    solids.warn_of_overlaps(placement, records, scene, diagnostics);
+    (solids.around_camera(scene, records, diagnostics), around)
 }
 
 /// The things of the scene, if any material asks about them.
@@ -207,6 +239,10 @@ fn settings(
         ToneMap::Reinhard => abi::ToneMap::Reinhard,
         ToneMap::Aces => abi::ToneMap::Aces,
     };
+    let sampler = match scene.render.sampler {
+        Sampler::Sobol => abi::SamplerKind::Sobol,
+        Sampler::Pcg => abi::SamplerKind::Pcg,
+    };
     abi::RenderSettings {
         image_size: scene.film.size,
         samples: scene.render.samples,
@@ -222,6 +258,7 @@ fn settings(
         center_y_bits: abi::f64_bits(frame.center[1]),
         center_z_bits: abi::f64_bits(frame.center[2]),
         n_lights: n_lights as u32,
+        sampler: sampler as u32,
         ..Default::default()
     }
 }

@@ -12,6 +12,7 @@ use super::Loaded;
 use super::light::{Emitter, luminance};
 use super::material::{MaterialRef, MaterialTable};
 use super::object::Thing;
+use super::sheet::{Sheets, pieces};
 use crate::import::{Attribute, MeshFile, Part};
 
 /// Geometry of the whole scene before normalisation, in order of declaration.
@@ -48,11 +49,15 @@ pub(super) fn place(
         placement.things.push(Thing::of(instance));
         let mut placer = Placer {
             object,
+            sheets: Sheets::of(scene, instance),
             transform: Transform::of(instance),
             instance,
             materials: &mut *materials,
             placement: &mut placement,
         };
+        if !matches!(instance.shape, Shape::Mesh { .. }) && !placer.exists(0) {
+            continue;
+        }
         match &instance.shape {
             Shape::Sphere { radius } => placer.sphere(*radius, diagnostics),
             Shape::Rectangle { size } => placer.rectangles(&[rectangle(*size)]),
@@ -151,6 +156,8 @@ struct Ball {
 struct Placer<'a, 'b> {
     /// Index into `Placement::things`.
     object: u32,
+    /// How its leaves or petals differ.
+    sheets: Option<Sheets>,
     instance: &'a Instance,
     transform: Transform,
     materials: &'a mut MaterialTable<'b>,
@@ -267,14 +274,39 @@ impl Placer<'_, '_> {
         }
     }
 
+    /// Whether piece `piece` of the instance is there.
+    fn exists(&self, piece: u32) -> bool {
+        self.sheets.as_ref().is_none_or(|sheets| sheets.exists(piece))
+    }
+
+    /// Shading normals of a triangle, object frame, if it has any.
+    fn normals(&self, part: &Part, tri_idx: usize, piece: u32) -> Option<[DVec3; 3]> {
+        let own = part.corner_normals(tri_idx);
+        let own = own.map(|normals| normals.map(|n| DVec3::from(n.map(f64::from))));
+        let Some(sheets) = self.sheets.as_ref().filter(|sheets| sheets.leans()) else { return own };
+        let [a, b, c] = part.corners(tri_idx).map(|p| DVec3::from(p.map(f64::from)));
+        let uvs = part.corner_uvs(tri_idx).unwrap_or([[0.5; 2]; 3]);
+        let uvs = uvs.map(|uv| DVec2::from(uv.map(f64::from)));
+        let (d1, d2) = (uvs[1] - uvs[0], uvs[2] - uvs[0]);
+        let along = ((b - a) * d2.y - (c - a) * d1.y) * d1.perp_dot(d2).signum();
+        let flat = (b - a).cross(c - a);
+        let base = own.unwrap_or([flat; 3]);
+        Some([0, 1, 2].map(|k| sheets.normal(piece, base[k], along, uvs[k])))
+    }
+
     fn part(&mut self, part: &Part, material: u32) {
         let emits = emits(material, self.materials);
+        let pieces = if self.sheets.is_some() { pieces(part) } else { Vec::new() };
         for tri_idx in 0..part.triangles.len() {
+            let piece = pieces.get(tri_idx).copied().unwrap_or(0);
+            if !self.exists(piece) {
+                continue;
+            }
             let corners =
                 part.corners(tri_idx).map(|p| self.transform.point(DVec3::from(p.map(f64::from))));
-            let normals = part.corner_normals(tri_idx).map(|normals| {
-                normals.map(|n| octahedral(self.transform.normal * DVec3::from(n.map(f64::from))))
-            });
+            let normals = self
+                .normals(part, tri_idx, piece)
+                .map(|normals| normals.map(|n| octahedral(self.transform.normal * n)));
             let uvs = part.corner_uvs(tri_idx).unwrap_or_default();
             let order = if self.transform.mirrors { [0, 2, 1] } else { [0, 1, 2] };
             let corners = order.map(|k| corners[k]);

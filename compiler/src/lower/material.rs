@@ -1,12 +1,14 @@
 //! Materials in use become `Material` records, numbered in the order in which geometry asks.
 
 use lang::scene::{
-    self, Color, ColorSpace, MaterialModel, Pattern, Principled, Scalar, Scene, Wrap,
+    self, Color, ColorSpace, Inside, Leaf, MaterialModel, Pattern, Petal, Principled, Scalar,
+    Scene, Wrap,
 };
 use pack::abi::{self, MaterialKind, NONE, material_flag};
 
-use super::Loaded;
+use super::medium::Water;
 use super::texture::{ImageRef, TextureTable};
+use super::{Loaded, fresnel};
 use crate::import::{ImportedMaterial, MapUse};
 
 /// Where a material is declared.
@@ -49,12 +51,13 @@ pub(super) struct MaterialTable<'a> {
     pub(super) textures: TextureTable<'a>,
     refs: Vec<MaterialRef>,
     records: Vec<abi::Material>,
+    waters: Vec<Water>,
 }
 
 impl<'a> MaterialTable<'a> {
     pub(super) fn new(scene: &'a Scene, loaded: &'a Loaded) -> Self {
         let textures = TextureTable::new(loaded);
-        Self { scene, loaded, textures, refs: Vec::new(), records: Vec::new() }
+        Self { scene, loaded, textures, refs: Vec::new(), records: Vec::new(), waters: Vec::new() }
     }
 
     /// The index of a material, which is lowered at its first use.
@@ -80,6 +83,11 @@ impl<'a> MaterialTable<'a> {
 
     pub(super) fn records(&self) -> &[abi::Material] {
         &self.records
+    }
+
+    /// What waters are filled with that name no medium; their media follow those of the scene.
+    pub(super) fn waters(&self) -> &[Water] {
+        &self.waters
     }
 
     pub(super) fn refs(&self) -> &[MaterialRef] {
@@ -121,9 +129,34 @@ impl<'a> MaterialTable<'a> {
                 let fuzz = *fuzz as f32;
                 abi::Material { color, color_texture, fuzz, ..blank(MaterialKind::Metal) }
             }
-            MaterialModel::Dielectric { ior } => {
-                abi::Material { ..with_ior(blank(MaterialKind::Dielectric), *ior) }
+            MaterialModel::Dielectric { ior, roughness, inside } => {
+                filled(self.dielectric(*ior, *roughness), *inside)
             }
+            MaterialModel::Conductor { color, roughness, anisotropy, compensation } => {
+                let (color, color_texture) = self.color(*color);
+                abi::Material {
+                    color,
+                    color_texture,
+                    roughness: factor(*roughness),
+                    metallic_roughness_texture: self.roughness_texture(*roughness),
+                    anisotropy: *anisotropy as f32,
+                    weight: if *compensation { 1.0 } else { 0.0 },
+                    flags: if *anisotropy > 0.0 { material_flag::TANGENT } else { 0 },
+                    ..blank(MaterialKind::Conductor)
+                }
+            }
+            MaterialModel::Clearcoat { color, fuzz, coat_ior, coat_tint } => {
+                let (color, color_texture) = self.color(*color);
+                abi::Material {
+                    color,
+                    color_texture,
+                    fuzz: *fuzz as f32,
+                    tint: coat_tint.map(|c| c as f32),
+                    specular: fresnel::mean_from_within(*coat_ior) as f32,
+                    ..with_ior(blank(MaterialKind::Clearcoat), *coat_ior)
+                }
+            }
+            MaterialModel::Water { .. } => self.water(model),
             MaterialModel::Emissive { color, strength, both_sides } => {
                 let (emission, emission_texture) = self.color(*color);
                 let emission = emission.map(|c| (f64::from(c) * strength) as f32);
@@ -132,6 +165,17 @@ impl<'a> MaterialTable<'a> {
                 abi::Material { emission, emission_texture, flags, ..base }
             }
             MaterialModel::Principled(principled) => self.principled(principled),
+            MaterialModel::Stone { .. }
+            | MaterialModel::Wood { .. }
+            | MaterialModel::Fabric { .. } => self.patterned(model),
+            MaterialModel::Leaf(leaf) => self.leaf(leaf),
+            MaterialModel::Petal(petal) => self.petal(petal),
+        }
+    }
+
+    /// Stone, wood or fabric; others are black.
+    fn patterned(&mut self, model: &MaterialModel) -> abi::Material {
+        match model {
             MaterialModel::Stone { color, vein, pattern, gloss } => abi::Material {
                 color: color.map(|c| c as f32),
                 tint: vein.unwrap_or(color.map(|c| c * VEIN)).map(|c| c as f32),
@@ -165,6 +209,26 @@ impl<'a> MaterialTable<'a> {
                     ..with_pattern(blank(MaterialKind::Fabric), pattern)
                 }
             }
+            _ => blank(MaterialKind::Diffuse),
+        }
+    }
+
+    fn water(&mut self, model: &MaterialModel) -> abi::Material {
+        let &MaterialModel::Water { ior, mut inside, sigma_a, depth_color, waves } = model else {
+            return blank(MaterialKind::Water);
+        };
+        if inside.medium.is_none() {
+            // Radiance in water is the square of its index times that in air.
+            let color = depth_color.map(|c| c * ior * ior);
+            inside.medium = Some(self.scene.media.len() + self.waters.len());
+            self.waters.push(Water { sigma_a, color });
+        }
+        let [scale, height] = waves.unwrap_or([0.0; 2]);
+        abi::Material {
+            pattern_scale: scale as f32,
+            bump_height: height as f32,
+            flags: if height > 0.0 { material_flag::OBJECT } else { 0 },
+            ..filled(with_ior(blank(MaterialKind::Water), ior), inside)
         }
     }
 
@@ -188,17 +252,77 @@ impl<'a> MaterialTable<'a> {
             record.metallic_roughness_texture =
                 self.textures.gathered([None, roughness, metallic, None], wrap);
         }
-        if let Some(cutoff) = principled.alpha_clip {
-            record.flags |= material_flag::ALPHA_CLIP;
-            record.alpha_cutoff = cutoff as f32;
-            record.alpha = factor(principled.alpha);
-            if let Some(alpha) = channel(principled.alpha) {
-                let wrap = self.wrap(principled.alpha, principled.alpha);
-                record.alpha_texture =
-                    self.textures.gathered([None, None, None, Some(alpha)], wrap);
-            }
-        }
+        self.clip(&mut record, principled.alpha, principled.alpha_clip);
         record
+    }
+
+    /// Polished glass has its own kind, so that scenes without rough glass do not carry its code.
+    fn dielectric(&mut self, ior: f64, roughness: Scalar) -> abi::Material {
+        if roughness == Scalar::Constant(0.0) {
+            return with_ior(blank(MaterialKind::Dielectric), ior);
+        }
+        abi::Material {
+            roughness: factor(roughness),
+            metallic_roughness_texture: self.roughness_texture(roughness),
+            ..with_ior(blank(MaterialKind::RoughDielectric), ior)
+        }
+    }
+
+    /// The texture with this roughness in green, or `NONE`.
+    fn roughness_texture(&mut self, roughness: Scalar) -> u32 {
+        let Some(green) = channel(roughness) else { return NONE };
+        let wrap = self.wrap(roughness, roughness);
+        self.textures.gathered([None, Some(green), None, None], wrap)
+    }
+
+    /// Sheets have no unit of their own: thickness in millimetres, coefficients per millimetre.
+    fn leaf(&mut self, leaf: &Leaf) -> abi::Material {
+        let (color, color_texture) = self.color(leaf.color);
+        let mut record = abi::Material {
+            color,
+            color_texture,
+            weight: leaf.translucency as f32,
+            sigma_a: leaf.sigma_a.map(|sigma| (sigma * 1e-3) as f32),
+            thickness_middle: (leaf.thickness * 1e3) as f32,
+            forward: leaf.forward as f32,
+            g: leaf.g as f32,
+            ..blank(MaterialKind::Leaf)
+        };
+        self.clip(&mut record, leaf.alpha, leaf.alpha_clip);
+        record
+    }
+
+    fn petal(&mut self, petal: &Petal) -> abi::Material {
+        let (color, color_texture) = self.color(petal.color);
+        let [edge, middle] = petal.thickness.map(|length| (length * 1e3) as f32);
+        let mut record = abi::Material {
+            color,
+            color_texture,
+            weight: petal.fuzz_weight as f32,
+            fuzz: petal.fuzz as f32,
+            roughness: petal.wax as f32,
+            sigma_a: petal.sigma_a.map(|sigma| (sigma * 1e-3) as f32),
+            sigma_s: (petal.sigma_s * 1e-3) as f32,
+            g: petal.g as f32,
+            thickness_edge: edge,
+            thickness_middle: middle,
+            ..with_ior(blank(MaterialKind::Petal), petal.ior)
+        };
+        record.flags |= material_flag::TANGENT;
+        self.clip(&mut record, petal.alpha, petal.alpha_clip);
+        record
+    }
+
+    /// Cuts out where `alpha` is below `cutoff`, if there is one.
+    fn clip(&mut self, record: &mut abi::Material, alpha: Scalar, cutoff: Option<f64>) {
+        let Some(cutoff) = cutoff else { return };
+        record.flags |= material_flag::ALPHA_CLIP;
+        record.alpha_cutoff = cutoff as f32;
+        record.alpha = factor(alpha);
+        if let Some(channel) = channel(alpha) {
+            let wrap = self.wrap(alpha, alpha);
+            record.alpha_texture = self.textures.gathered([None, None, None, Some(channel)], wrap);
+        }
     }
 
     fn imported(&mut self, asset: usize, material: usize) -> abi::Material {
@@ -334,6 +458,12 @@ fn with_pattern(material: abi::Material, pattern: &Pattern) -> abi::Material {
 
 fn with_ior(material: abi::Material, ior: f64) -> abi::Material {
     abi::Material { ior: ior as f32, ior_minus_1: (ior - 1.0) as f32, ..material }
+}
+
+/// The media of the pack are those of the scene, in the same order, and then those of waters.
+fn filled(material: abi::Material, inside: Inside) -> abi::Material {
+    let medium = inside.medium.map_or(NONE, |medium| medium as u32);
+    abi::Material { medium, priority: inside.priority, ..material }
 }
 
 fn factor(scalar: Scalar) -> f32 {

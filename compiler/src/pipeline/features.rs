@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use pack::abi::{LightKind, MaterialKind, NONE, SkyKind, TRI_SMOOTH, TextureFormat, material_flag};
+use pack::abi::{
+    LightKind, MaterialKind, NONE, SamplerKind, SkyKind, TRI_SMOOTH, TextureFormat, material_flag,
+};
 use shaders::{FeatureSet, WINDOW_WORDS, Windows};
 
 use crate::lower::Lowered;
@@ -28,6 +30,7 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
             .collect(),
         skies: lowered.sky.iter().map(sky_kind).collect::<BTreeSet<_>>(),
         lens: lowered.camera.lens_radius > 0.0,
+        samplers: SamplerKind::from_tag(lowered.render.sampler).into_iter().collect(),
         textures: FORMATS
             .into_iter()
             .filter(|format| lowered.textures.iter().any(|t| t.format == *format as u32))
@@ -36,6 +39,11 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
         tangents: materials.iter().any(|m| m.flags & material_flag::TANGENT != 0),
         normal_maps: materials.iter().any(|m| m.normal_texture != NONE),
         objects: materials.iter().any(|m| m.flags & material_flag::OBJECT != 0),
+        media: lowered.render.air != NONE
+            || materials.iter().any(|m| m.flags & material_flag::INTERIOR != 0),
+        scattering: lowered.media.iter().any(|m| m.sigma_s.iter().any(|sigma| *sigma > 0.0)),
+        fog: lowered.render.fog != NONE,
+        through: materials.iter().any(|m| m.flags & material_flag::THROUGH != 0),
         stack_size: lowered.render.stack_need.max(1),
         windows: Windows {
             node: words(size_of_val(lowered.nodes.as_slice())),
@@ -68,6 +76,10 @@ pub(super) fn explain(features: &FeatureSet, lowered: &Lowered) -> (Reasons, Rea
     rows.push(row("tangents", features.tangents, "a material has a direction".to_owned()));
     rows.push(row("objects", features.objects, "a material depends on the thing".to_owned()));
     rows.push(row("normal maps", features.normal_maps, "a material has one".to_owned()));
+    rows.push(row("media", features.media, "light must know what it is inside of".to_owned()));
+    rows.push(row("scattering media", features.scattering, "a medium scatters".to_owned()));
+    rows.push(row("fog", features.fog, "the atmosphere is fog".to_owned()));
+    rows.push(row("shadow rays through", features.through, "things have an inside".to_owned()));
     for kind in MaterialKind::ALL {
         let users: Vec<&str> = (lowered.materials.iter().zip(&lowered.material_names))
             .filter(|(material, _)| material.kind == kind as u32)
@@ -89,6 +101,10 @@ pub(super) fn explain(features: &FeatureSet, lowered: &Lowered) -> (Reasons, Rea
     for kind in [SkyKind::Constant, SkyKind::Gradient] {
         let name = format!("sky {}", format!("{kind:?}").to_lowercase());
         rows.push((name, features.skies.contains(&kind), "declared".to_owned()));
+    }
+    for kind in SamplerKind::ALL {
+        let name = format!("sampler {}", format!("{kind:?}").to_lowercase());
+        rows.push((name, features.samplers.contains(&kind), "the render's choice".to_owned()));
     }
     for format in FORMATS {
         let count = lowered.textures.iter().filter(|t| t.format == format as u32).count();

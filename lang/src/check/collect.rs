@@ -99,6 +99,10 @@ impl<'p> Evaluator<'p> {
                     error.with_help(format!("in `.rts` it is `{ours}`, which is set already"))
                 }
             }
+            _ if is_optical_constant(schema, name) => error.at(name.span, "not known").with_note(
+                "metals take `color`, their reflectance at normal incidence: \
+                 ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2) in each channel",
+            ),
             (_, _, [one, ..]) => error
                 .at(name.span, format!("did you mean `{one}`?"))
                 .with_fix(Fix::sure(format!("write `{one}`"), name.span, *one)),
@@ -313,6 +317,11 @@ fn missing_arguments(
         error = error.with_note(format!("`{}`: {}", field.name, sentence(field.doc)));
     }
     error.with_help(format!("for example: {}", schema.example))
+}
+
+/// Refractive index or extinction of a metal, as other renderers ask for them.
+fn is_optical_constant(schema: &TypeSchema, name: &Ident) -> bool {
+    schema.name == "conductor" && ["ior", "eta", "k", "n"].contains(&name.text.as_str())
 }
 
 /// A field of another type of the same kind: says which. Else lists the fields there are.

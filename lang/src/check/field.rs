@@ -149,6 +149,7 @@ impl Evaluator<'_> {
             FieldType::Number(bounds) => self.fit_number(slot, value, bounds),
             FieldType::Integer(min, max) => self.fit_integer(slot, &value, [min, max]),
             FieldType::Vector(dim, unit) => self.fit_vector(slot, value, (dim, unit), 3),
+            FieldType::Spectrum(bounds) => self.fit_spectrum(slot, value, bounds),
             FieldType::Size(n) => self.fit_size(slot, value, n),
             FieldType::Pixels => self.fit_pixels(slot, value),
             FieldType::Color(max) => self.fit_color(slot, value, max),
@@ -294,6 +295,21 @@ impl Evaluator<'_> {
                 self.wrong_dimension(slot, &value, (dim, unit), &needs)
             }
         }
+    }
+
+    /// One number for all channels becomes three.
+    fn fit_spectrum(&mut self, slot: Slot<'_>, value: Value, bounds: Bounds) -> Value {
+        let value = match value {
+            Value::Number(number, dim) if dim == bounds.dim => Value::Vector(vec![number; 3], dim),
+            other => self.fit_vector(slot, other, (bounds.dim, bounds.unit), 3),
+        };
+        if let Value::Vector(values, _) = &value {
+            let wrong = values.iter().find(|value| !bounds.contains(**value)).copied();
+            if wrong.is_some_and(|wrong| self.in_bounds(slot, wrong, bounds).is_none()) {
+                return Value::Poison;
+            }
+        }
+        value
     }
 
     fn fit_size(&mut self, slot: Slot<'_>, value: Value, n: usize) -> Value {

@@ -141,6 +141,14 @@ impl Fields {
         }
     }
 
+    /// Both ends of an interval in SI.
+    pub(crate) fn interval(&self, name: &str) -> Option<[f64; 2]> {
+        match self.get(name) {
+            Some(Value::Range(low, high, _)) => Some([low, high]),
+            _ => None,
+        }
+    }
+
     /// Some numbers in SI.
     pub(crate) fn vector<const N: usize>(&self, name: &str) -> Option<[f64; N]> {
         match self.get(name) {

@@ -1,21 +1,54 @@
 //! Material fields become the material of the scene.
 
+use std::collections::BTreeMap;
+
+use super::camera::one_of;
 use super::fields::Fields;
+use super::medium;
 use super::pattern;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::eval::value::Value;
 use crate::resolve::ItemId;
-use crate::scene::{Color, MaterialModel, NormalMap, Principled, Scalar};
+use crate::scene::{Color, Leaf, MaterialModel, NormalMap, Petal, Principled, Scalar};
+use crate::units;
 
 /// Above this no real surface is white: fresh snow and barium sulphate stay below.
 const WHITEST: f64 = 0.95;
 
-/// Warns of a surface that reflects more than any real one.
+/// Warns of values that are allowed and hardly meant.
 pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
     pattern::check(ev, fields);
-    let scatters =
-        matches!(fields.schema.name, "diffuse" | "principled" | "stone" | "wood" | "fabric");
+    whiteness(ev, fields);
+    invisible_coat(ev, fields);
+    if let (Some(id), Some(span)) = (fields.item("interior"), fields.value_span("interior")) {
+        medium::refuse_fog(ev, id, span);
+    }
+    for own in ["sigma_a", "depth.color"] {
+        one_of(ev, fields, &["interior", own], "what this water is inside");
+    }
+}
+
+/// A coat of the index of air reflects nothing.
+fn invisible_coat(ev: &mut Evaluator<'_>, fields: &Fields) {
+    let (Some(ior), Some(span)) = (fields.number("coat.ior"), fields.value_span("coat.ior")) else {
+        return;
+    };
+    if ior < 1.001 {
+        let text = format!("a coat of index {} cannot be seen", units::show_number(ior));
+        let warning = Diagnostic::warning(Code("W0403"), "invisible_coat", text)
+            .at(span, "reflects under 0.0001% of the light")
+            .with_help("write 1.5 for lacquer, or make the material `diffuse`");
+        ev.diagnostics.push(warning);
+    }
+}
+
+/// A surface that reflects more than any real one.
+fn whiteness(ev: &mut Evaluator<'_>, fields: &Fields) {
+    let scatters = matches!(
+        fields.schema.name,
+        "diffuse" | "principled" | "clearcoat" | "stone" | "wood" | "fabric"
+    );
     let (Some(Value::Color(rgb)), Some(span)) = (fields.get("color"), fields.value_span("color"))
     else {
         return;
@@ -29,8 +62,13 @@ pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
     }
 }
 
-/// Builds the model; `textures` gives the index of a texture. `None` only for fields with faults.
-pub(super) fn model(fields: &Fields, textures: &dyn Fn(ItemId) -> usize) -> Option<MaterialModel> {
+/// Builds the model; `textures` gives the index of a texture, `media` that of a medium. `None` only for
+/// fields with faults.
+pub(super) fn model(
+    fields: &Fields,
+    textures: &dyn Fn(ItemId) -> usize,
+    media: &BTreeMap<ItemId, usize>,
+) -> Option<MaterialModel> {
     let color = |name: &str| match fields.get(name) {
         Some(Value::Color(rgb)) => Some(Color::Constant(rgb)),
         Some(Value::TextureColor(id)) => Some(Color::Texture(textures(id))),
@@ -46,23 +84,95 @@ pub(super) fn model(fields: &Fields, textures: &dyn Fn(ItemId) -> usize) -> Opti
     Some(match fields.schema.name {
         "diffuse" => MaterialModel::Diffuse { color: color("color")? },
         "metal" => MaterialModel::Metal { color: color("color")?, fuzz: fields.number("fuzz")? },
-        "dielectric" => MaterialModel::Dielectric { ior: fields.number("ior")? },
+        "dielectric" => MaterialModel::Dielectric {
+            ior: fields.number("ior")?,
+            roughness: scalar("roughness")?,
+            inside: medium::inside(fields, media)?,
+        },
+        "conductor" => MaterialModel::Conductor {
+            color: color("color")?,
+            roughness: scalar("roughness")?,
+            anisotropy: fields.number("anisotropy")?,
+            compensation: fields.word("compensation")? == "on",
+        },
+        "clearcoat" => MaterialModel::Clearcoat {
+            color: color("color")?,
+            fuzz: fields.number("fuzz")?,
+            coat_ior: fields.number("coat.ior")?,
+            coat_tint: fields.color("coat.tint")?,
+        },
+        "water" => MaterialModel::Water {
+            ior: fields.number("ior")?,
+            inside: medium::inside(fields, media)?,
+            sigma_a: fields.vector("sigma_a")?,
+            depth_color: fields.color("depth.color")?,
+            waves: match fields.word("waves")? {
+                "on" => Some([fields.number("waves.scale")?, fields.number("waves.height")?]),
+                _ => None,
+            },
+        },
         "emissive" => MaterialModel::Emissive {
             color: color("color")?,
             strength: fields.number("strength")?,
             both_sides: fields.word("sides")? == "both",
         },
         "stone" | "wood" | "fabric" => pattern::model(fields, &color)?,
-        _ => MaterialModel::Principled(Principled {
+        "leaf" | "petal" => sheet(fields, &color, &scalar)?,
+        _ => MaterialModel::Principled(principled(fields, &color, &scalar)?),
+    })
+}
+
+type Slot<'a, T> = &'a dyn Fn(&str) -> Option<T>;
+
+fn sheet(
+    fields: &Fields,
+    color: Slot<'_, Color>,
+    scalar: Slot<'_, Scalar>,
+) -> Option<MaterialModel> {
+    Some(match fields.schema.name {
+        "leaf" => MaterialModel::Leaf(Leaf {
             color: color("color")?,
-            metallic: scalar("metallic")?,
-            roughness: scalar("roughness")?,
-            ior: fields.number("ior")?,
-            emission: color("emission.color")?,
-            emission_strength: fields.number("emission.strength")?,
             alpha: scalar("alpha")?,
             alpha_clip: fields.number("alpha.clip"),
+            translucency: fields.number("translucency")?,
+            sigma_a: fields.vector("sigma_a")?,
+            thickness: fields.number("thickness")?,
+            forward: fields.number("forward")?,
+            g: fields.number("g")?,
+            gap: fields.number("gap")?,
         }),
+        _ => MaterialModel::Petal(Petal {
+            color: color("color")?,
+            alpha: scalar("alpha")?,
+            alpha_clip: fields.number("alpha.clip"),
+            fuzz_weight: fields.number("fuzz.weight")?,
+            fuzz: fields.number("fuzz.radius")?,
+            wax: fields.number("wax")?,
+            ior: fields.number("ior")?,
+            sigma_a: fields.vector("sigma_a")?,
+            sigma_s: fields.number("sigma_s")?,
+            g: fields.number("g")?,
+            thickness: fields.interval("thickness")?,
+            pillow: fields.number("pillow")?,
+            tilt: fields.number("tilt")?,
+        }),
+    })
+}
+
+fn principled(
+    fields: &Fields,
+    color: Slot<'_, Color>,
+    scalar: Slot<'_, Scalar>,
+) -> Option<Principled> {
+    Some(Principled {
+        color: color("color")?,
+        metallic: scalar("metallic")?,
+        roughness: scalar("roughness")?,
+        ior: fields.number("ior")?,
+        emission: color("emission.color")?,
+        emission_strength: fields.number("emission.strength")?,
+        alpha: scalar("alpha")?,
+        alpha_clip: fields.number("alpha.clip"),
     })
 }
 

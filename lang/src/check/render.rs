@@ -1,11 +1,11 @@
 //! The one `render` declaration, and the camera, film and sky it takes.
 
 use super::fields::Fields;
-use super::{Checker, camera, ids_of, light};
+use super::{Checker, camera, ids_of, light, medium};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::eval::Evaluator;
 use crate::resolve::{ItemId, quoted_list};
-use crate::scene::{Camera, Film, Name, Render, Sky};
+use crate::scene::{Camera, Film, Name, Render, Sampler, Sky};
 use crate::schema::Kind;
 use crate::source::Span;
 use crate::syntax::{File, ItemKind};
@@ -16,6 +16,8 @@ pub(super) struct View {
     pub(super) film: Film,
     pub(super) sky: Option<Sky>,
     pub(super) render: Render,
+    /// The medium that fills the space between things.
+    pub(super) atmosphere: Option<ItemId>,
 }
 
 impl Checker {
@@ -43,15 +45,25 @@ impl Checker {
             Choice::Nothing => None,
             Choice::Fault => return None,
         };
+        let atmosphere = fields.item("atmosphere");
         let render = Render {
             name: name(ev, id),
+            // Its index is known when all media in use are.
+            atmosphere: None,
             samples: fields.integer("samples")?,
             max_depth: fields.integer("depth")?,
             roulette_depth: fields.integer("roulette")?,
             seed: fields.integer("seed")?,
+            sampler: match fields.word("sampler")? {
+                "pcg" => Sampler::Pcg,
+                _ => Sampler::Sobol,
+            },
             output: fields.text("output"),
         };
-        Some(View { camera, film, sky, render })
+        if let Some(fields) = atmosphere.and_then(|id| self.sound(id)) {
+            medium::warn_of_blindness(ev, fields, &camera, &render);
+        }
+        Some(View { camera, film, sky, render, atmosphere })
     }
 
     /// Fields without a fault.

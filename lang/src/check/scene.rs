@@ -4,12 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::instance::Placed;
 use super::render::name;
-use super::{Checker, ids_of, is_in_world, light, material};
+use super::{Checker, ids_of, is_in_world, light, material, medium};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::eval::value::ShapeValue;
 use crate::resolve::ItemId;
-use crate::scene::{Asset, Instance, Light, Material, Name, Scene, Shape, Texture};
+use crate::scene::{Asset, Instance, Light, Material, Medium, Name, Scene, Shape, Texture};
 use crate::schema::Kind;
 
 impl Checker {
@@ -20,7 +20,7 @@ impl Checker {
         if ev.diagnostics.iter().any(Diagnostic::is_error) {
             return None;
         }
-        let view = view?;
+        let mut view = view?;
         let mut placed = std::mem::take(&mut self.world.placed);
         placed.sort_by(|a, b| a.key.cmp(&b.key));
         let used: BTreeSet<ItemId> =
@@ -36,13 +36,18 @@ impl Checker {
             .collect();
         let (texture_order, material_order, asset_order) =
             (sorted(ev, &read), sorted(ev, &used), sorted(ev, &meshes));
+        let interiors = used.iter().filter_map(|id| self.sound(*id)?.item("interior"));
+        let filling: BTreeSet<ItemId> = interiors.chain(view.atmosphere).collect();
+        let medium_order = sorted(ev, &filling);
+        let medium_at = index(&medium_order);
+        view.render.atmosphere = view.atmosphere.and_then(|id| medium_at.get(&id).copied());
         let texture_at = index(&texture_order);
         let materials = material_order
             .iter()
             .map(|(name, id)| {
                 let texture = |id: ItemId| texture_at.get(&id).copied().unwrap_or(0);
                 let fields = self.sound(*id)?;
-                let model = material::model(fields, &texture)?;
+                let model = material::model(fields, &texture, &medium_at)?;
                 let normal = material::normal(fields, &texture);
                 Some(Material { name: name.clone(), model, normal })
             })
@@ -51,6 +56,7 @@ impl Checker {
             assets: self.assets(&asset_order)?,
             textures: textures(ev, &texture_order)?,
             materials,
+            media: self.media(&medium_order)?,
             instances: instances(placed, &index(&material_order), &index(&asset_order))?,
             lights,
             sky: view.sky,
@@ -59,6 +65,7 @@ impl Checker {
             render: view.render,
         };
         no_light(ev, &scene);
+        nothing_in_the_air(ev, &scene);
         Some(scene)
     }
 
@@ -71,6 +78,10 @@ impl Checker {
         }
         lights.sort_by(|a, b| a.name.text.cmp(&b.name.text));
         lights
+    }
+
+    fn media(&self, order: &[(Name, ItemId)]) -> Option<Vec<Medium>> {
+        order.iter().map(|(name, id)| medium::medium(name.clone(), self.sound(*id)?)).collect()
     }
 
     fn assets(&self, order: &[(Name, ItemId)]) -> Option<Vec<Asset>> {
@@ -147,6 +158,16 @@ fn sorted(ev: &Evaluator<'_>, ids: &BTreeSet<ItemId>) -> Vec<(Name, ItemId)> {
 
 fn index(order: &[(Name, ItemId)]) -> BTreeMap<ItemId, usize> {
     order.iter().enumerate().map(|(i, (_, id))| (*id, i)).collect()
+}
+
+/// Reports an atmosphere with nothing in it: a picture of the sky alone has no distances.
+fn nothing_in_the_air(ev: &mut Evaluator<'_>, scene: &Scene) {
+    if scene.render.atmosphere.is_some() && scene.instances.is_empty() && scene.lights.is_empty() {
+        let error = Diagnostic::error(Code("E0533"), "an atmosphere needs something in it")
+            .at(scene.render.name.span, "this scene has no instance")
+            .with_help("add an instance, or leave `atmosphere` out");
+        ev.fault(error);
+    }
 }
 
 /// Reports a scene in which nothing gives off light. A mesh that brings its own materials may.

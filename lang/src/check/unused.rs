@@ -25,7 +25,9 @@ pub(super) fn check(ev: &mut Evaluator<'_>) {
             let counts = matches!(item.kind, ItemKind::Let(_) | ItemKind::Param(_))
                 || matches!(
                     kind,
-                    Some(Kind::Material | Kind::Texture | Kind::Asset | Kind::Object)
+                    Some(
+                        Kind::Material | Kind::Medium | Kind::Texture | Kind::Asset | Kind::Object
+                    )
                 );
             counts && !item.public && !ev.used.contains(id)
         })

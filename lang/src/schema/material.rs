@@ -1,11 +1,30 @@
 //! Materials: `material NAME: TYPE { ... }`.
 
+use super::medium::{COEFFICIENT, SIGMA_A_NAMES};
 use super::pattern::{FABRIC, STONE, WOOD};
 use super::{ANY, Bounds, Default, Field, FieldType, Kind, TypeSchema, WHITE, Word};
 use crate::units::Dim;
 
-pub(super) const TYPES: &[&TypeSchema] =
-    &[&DIFFUSE, &METAL, &DIELECTRIC, &EMISSIVE, &PRINCIPLED, &STONE, &WOOD, &FABRIC];
+mod sheet;
+mod specular;
+
+use specular::{CLEARCOAT, CONDUCTOR, DIELECTRIC};
+
+pub(super) const TYPES: &[&TypeSchema] = &[
+    &DIFFUSE,
+    &METAL,
+    &CONDUCTOR,
+    &DIELECTRIC,
+    &CLEARCOAT,
+    &EMISSIVE,
+    &PRINCIPLED,
+    &STONE,
+    &WOOD,
+    &FABRIC,
+    &sheet::LEAF,
+    &sheet::PETAL,
+    &WATER,
+];
 
 /// Names that other renderers give the colour of a surface.
 pub(super) const COLOR_NAMES: &[(&str, &str)] = &[
@@ -44,6 +63,14 @@ const STRENGTH_NAMES: &[(&str, &str)] = &[
     ("Strength", "Blender"),
 ];
 
+/// Names that other renderers give perceptual roughness.
+const ROUGHNESS_NAMES: &[(&str, &str)] = &[
+    ("roughnessFactor", "glTF"),
+    ("Roughness", "Blender"),
+    ("alpha_roughness", "common use"),
+    ("Pr", "OBJ/MTL"),
+];
+
 const IOR: Field = Field::new(
     "ior",
     FieldType::Number(Bounds::number(1.0, 10.0)),
@@ -77,6 +104,30 @@ const NORMAL_STRENGTH: Field = Field::new(
 )
 .typical("1 as the map was made, 0.5 for half as steep")
 .foreign(&[("normalScale", "glTF"), ("normal_strength", "common use")]);
+
+const INTERIOR: Field = Field::new(
+    "interior",
+    FieldType::Name(Kind::Medium),
+    Default::Absent("clear"),
+    "What fills the thing: a `homogeneous` medium. The shape must be closed.",
+)
+.foreign(&[
+    ("inside", "pbrt"),
+    ("volume_interior", "LuxCore"),
+    ("MediumInterface", "pbrt"),
+    ("Volume", "Blender"),
+]);
+
+const PRIORITY: Field = Field::new(
+    "priority",
+    FieldType::Integer(0, 1_000_000),
+    Default::Number(0.0),
+    "Where things overlap, the greatest priority is there and the others are not; of equal ones the \
+     one that light entered last. With media or priorities in the scene, light refracts against what \
+     is really around a thing; otherwise against air.",
+)
+.typical("water 1 in a glass 2, the two overlapping a little")
+.foreign(&[("nested_priority", "common use")]);
 
 const fn reflectance(default: Default) -> Field {
     Field::new("color", FieldType::ColorSlot(1.0), default, "Share of the light that is reflected.")
@@ -120,21 +171,7 @@ const METAL: TypeSchema = TypeSchema {
         NORMAL,
         NORMAL_STRENGTH,
     ],
-    foreign: &[
-        ("conductor", "pbrt-v4 and Mitsuba"),
-        ("mirror", "pbrt-v3 and LuxCore"),
-        ("roughconductor", "Mitsuba"),
-        ("glossy", "Blender"),
-    ],
-};
-
-const DIELECTRIC: TypeSchema = TypeSchema {
-    kind: Kind::Material,
-    name: "dielectric",
-    doc: "Smooth glass or water: reflects and refracts, and absorbs nothing.",
-    example: "material glass: dielectric { ior = 1.52 }",
-    fields: &[IOR, NORMAL, NORMAL_STRENGTH],
-    foreign: &[("glass", "pbrt-v3, LuxCore and Blender"), ("refraction", "Blender")],
+    foreign: &[("mirror", "pbrt-v3 and LuxCore"), ("glossy", "Blender")],
 };
 
 const EMISSIVE: TypeSchema = TypeSchema {
@@ -180,6 +217,87 @@ const EMISSIVE: TypeSchema = TypeSchema {
     ],
 };
 
+const ALPHA: Field = Field::new(
+    "alpha",
+    FieldType::ScalarSlot(UNIT),
+    Default::Number(1.0),
+    "Coverage, compared with `alpha.clip`.",
+)
+.foreign(&[("opacity", "Mitsuba"), ("d", "OBJ/MTL"), ("map_d", "OBJ/MTL"), ("Alpha", "Blender")]);
+
+const ALPHA_CLIP: Field = Field::new(
+    "alpha.clip",
+    FieldType::Number(Bounds::new(Dim::NONE, "", 0.0, 1.0)),
+    Default::Absent("alpha is ignored"),
+    "Where `alpha` is below this, the surface is not there.",
+)
+.typical("50% for leaves and petals")
+.foreign(&[("alphaCutoff", "glTF"), ("alphaMode", "glTF")]);
+const WATER: TypeSchema = TypeSchema {
+    kind: Kind::Material,
+    name: "water",
+    doc: "Water with ripples: reflects and refracts, and absorbs inside, red first. Faces that look up have \
+          three trains of sine waves. A closed shape is a body of water; an open one, such as a `rectangle`, \
+          is a sea without a bottom of its own, in which light that leaves the scene below the surface \
+          has the colour of the deep.",
+    example: "material pond: water { waves.height = 0.5 }",
+    fields: &[
+        Field::new(
+            "ior",
+            FieldType::Number(Bounds::number(1.0, 10.0)),
+            Default::Number(1.333),
+            "Refractive index against air.",
+        )
+        .foreign(IOR_NAMES),
+        Field::new(
+            "sigma_a",
+            FieldType::Spectrum(COEFFICIENT),
+            Default::Vector([0.35, 0.06, 0.025]),
+            "Absorption: over a length d the share exp(-sigma_a d) of the light is left.",
+        )
+        .typical("clear lake (0.35, 0.06, 0.025)/m, distilled 0.01/m")
+        .foreign(SIGMA_A_NAMES),
+        Field::new(
+            "interior",
+            FieldType::Name(Kind::Medium),
+            Default::Absent("`sigma_a` decides"),
+            "A `homogeneous` medium instead, for murky water. The shape must be closed.",
+        ),
+        PRIORITY,
+        Field::new(
+            "waves",
+            FieldType::Word(WAVES),
+            Default::Word("on"),
+            "Whether the surface is rippled.",
+        ),
+        Field::new(
+            "waves.scale",
+            FieldType::Number(Bounds::number(0.0, 1e6)),
+            Default::Number(0.4),
+            "How close the waves are; at 1 the longest are 1.4m, at 0.4 they are 3.6m.",
+        )
+        .typical("pond 0.4, pool 2, puddle 10"),
+        Field::new(
+            "waves.height",
+            FieldType::Number(Bounds::number(0.0, 20.0)),
+            Default::Number(1.0),
+            "Factor on their slopes; at 1 the steepest is 0.04.",
+        )
+        .typical("calm 0.2, breeze 1, wind 4"),
+        Field::new(
+            "depth.color",
+            FieldType::Color(ANY),
+            Default::Color([0.02, 0.06, 0.10]),
+            "Radiance of the deep as seen from above the surface, where light leaves the scene under water.",
+        )
+        .typical("in the measure of the sky's radiance")
+        .foreign(&[("deep_color", "common use")]),
+    ],
+    foreign: &[("ocean", "common use"), ("sea", "common use")],
+};
+
+const WAVES: &[Word] = &[("on", "rippled"), ("off", "flat")];
+
 const SIDES: &[Word] =
     &[("front", "only the side that the normal points to"), ("both", "front and back")];
 
@@ -212,12 +330,7 @@ const PRINCIPLED: TypeSchema = TypeSchema {
             "Perceptual roughness; the width of the highlight grows with its square.",
         )
         .typical("lacquer 0.1, wood 0.4, stone 0.8")
-        .foreign(&[
-            ("roughnessFactor", "glTF"),
-            ("Roughness", "Blender"),
-            ("alpha_roughness", "common use"),
-            ("Pr", "OBJ/MTL"),
-        ]),
+        .foreign(ROUGHNESS_NAMES),
         IOR,
         Field::new(
             "emission.color",
@@ -238,26 +351,8 @@ const PRINCIPLED: TypeSchema = TypeSchema {
             "Factor on `emission.color`; 0 gives off nothing.",
         )
         .foreign(&[("emissiveStrength", "glTF"), ("emission_strength", "Blender")]),
-        Field::new(
-            "alpha",
-            FieldType::ScalarSlot(UNIT),
-            Default::Number(1.0),
-            "Coverage, compared with `alpha.clip`.",
-        )
-        .foreign(&[
-            ("opacity", "Mitsuba"),
-            ("d", "OBJ/MTL"),
-            ("map_d", "OBJ/MTL"),
-            ("Alpha", "Blender"),
-        ]),
-        Field::new(
-            "alpha.clip",
-            FieldType::Number(Bounds::new(Dim::NONE, "", 0.0, 1.0)),
-            Default::Absent("alpha is ignored"),
-            "Where `alpha` is below this, the surface is not there.",
-        )
-        .typical("50% for leaves and petals")
-        .foreign(&[("alphaCutoff", "glTF"), ("alphaMode", "glTF")]),
+        ALPHA,
+        ALPHA_CLIP,
         NORMAL,
         NORMAL_STRENGTH,
     ],

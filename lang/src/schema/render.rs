@@ -1,8 +1,13 @@
 //! The render: `render NAME: path { ... }`.
 
-use super::{Default, Field, FieldType, Kind, TypeSchema};
+use super::{Default, Field, FieldType, Kind, TypeSchema, Word};
 
 pub(super) const TYPES: &[&TypeSchema] = &[&PATH];
+
+const SAMPLERS: &[Word] = &[
+    ("sobol", "evenly spread: Owen-scrambled Sobol points"),
+    ("pcg", "independent of each other: plain Monte Carlo, for comparison"),
+];
 
 const PATH: TypeSchema = TypeSchema {
     kind: Kind::Render,
@@ -30,6 +35,13 @@ const PATH: TypeSchema = TypeSchema {
             "What is seen where nothing is.",
         )
         .foreign(&[("environment", "common use"), ("world", "Blender"), ("background", "common use")]),
+        Field::new(
+            "atmosphere",
+            FieldType::Name(Kind::Medium),
+            Default::Absent("clear air"),
+            "What is between things and outside of them.",
+        )
+        .foreign(&[("medium", "Mitsuba"), ("volume_world", "LuxCore"), ("fog", "common use")]),
         Field::new(
             "samples",
             FieldType::Integer(1, 1 << 24),
@@ -69,6 +81,13 @@ const PATH: TypeSchema = TypeSchema {
             Default::Number(0.0),
             "Another seed gives another picture of the same scene, equally noisy.",
         ),
+        Field::new(
+            "sampler",
+            FieldType::Word(SAMPLERS),
+            Default::Word("sobol"),
+            "Which random numbers; both converge to the same picture. Powers of two suit `sobol` best as `samples`.",
+        )
+        .foreign(&[("sampling_pattern", "Blender")]),
         Field::new(
             "output",
             FieldType::Text,

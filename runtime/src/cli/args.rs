@@ -110,6 +110,7 @@ pub(super) enum Estimator {
     Mis = 0,
     Light = 1,
     Bsdf = 2,
+    Power = 3,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -176,6 +176,20 @@ fn report(console: &Console, outcome: &Outcome, job: &Job) {
             failure.tile, failure.sample, failure.message
         ));
     }
+    if counters.overflows > 0 {
+        console.warn(&format!(
+            "warning: {} times a path was inside of more than four things at once, and the least of \
+             them was forgotten",
+            counters.overflows,
+        ));
+    }
+    if counters.leaks as f64 > LEAKS * film.total_samples() as f64 {
+        console.warn(&format!(
+            "warning: {} times a path left a thing that it had never entered: a mesh is open, or \
+             surfaces touch",
+            counters.leaks,
+        ));
+    }
     if let Some(bad) = counters.first_bad {
         let grade = if outcome.too_many_bad() { "error" } else { "warning" };
         let (x, y, sample) = (bad.x, bad.y, bad.sample);
@@ -189,6 +203,9 @@ fn report(console: &Console, outcome: &Outcome, job: &Job) {
         ));
     }
 }
+
+/// Rounding at edges lets one path in 100,000 slip past a surface; more than that is a hole.
+const LEAKS: f64 = 1e-4;
 
 /// What `-o` says; else what the scene says; else the pack's name, in the working folder.
 fn outputs(args: &RenderArgs, pack: &Path, scene: &Scene) -> Vec<PathBuf> {

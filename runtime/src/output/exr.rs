@@ -85,7 +85,7 @@ fn attributes_of(picture: &Picture) -> Vec<(Text, AttributeValue)> {
     let Picture { film, meta } = picture;
     let text = |s: &str| AttributeValue::Text(Text::new_or_none(s).unwrap_or_default());
     let number = |n: u64| text(&n.to_string());
-    let Counters { rays, bad, first_bad, depth } = film.counters;
+    let Counters { rays, bad, first_bad, depth, overflows, leaks } = film.counters;
     let mut list = vec![
         ("render_id", text(&meta.render_id)),
         ("spp", AttributeValue::I32(signed(film.samples().1))),
@@ -101,6 +101,8 @@ fn attributes_of(picture: &Picture) -> Vec<(Text, AttributeValue)> {
         ("rays", number(rays)),
         ("longest_path", number(u64::from(depth))),
         ("bad_samples", number(bad)),
+        ("media_overflows", number(overflows)),
+        ("media_leaks", number(leaks)),
     ];
     if let Some(BadSample { x, y, sample }) = first_bad {
         list.push(("first_bad_sample", text(&format!("{x},{y},{sample}"))));
@@ -145,6 +147,8 @@ fn parse(image: &ReadImage, fields: &Fields<'_>) -> Result<(Film, Meta), String>
         bad: fields.number("bad_samples")?,
         first_bad: fields.text("first_bad_sample").ok().and_then(|text| parse_bad(&text)),
         depth: fields.number("longest_path")?,
+        overflows: fields.number("media_overflows")?,
+        leaks: fields.number("media_leaks")?,
     };
     Ok((parse_film(image, ranges, counters)?, meta))
 }

@@ -27,6 +27,11 @@ fn material(kind: MaterialKind, color: [f32; 3]) -> Material {
         emission_texture: NONE,
         metallic_roughness_texture: NONE,
         alpha_texture: NONE,
+        normal_texture: NONE,
+        specular_texture: NONE,
+        coat_texture: NONE,
+        transmission_texture: NONE,
+        medium: NONE,
         ..Material::default()
     }
 }
@@ -156,6 +161,9 @@ fn view() -> (RenderSettings, Camera) {
         // The halves of the f64 1.0.
         scale_bits: [0, 0x3ff0_0000],
         n_lights: 1,
+        air: NONE,
+        fog: NONE,
+        inside: [NONE; 4],
         ..RenderSettings::default()
     };
     let camera = Camera {

@@ -32,7 +32,7 @@ pub use light::{Light, LightKind};
 pub use material::{Material, MaterialKind, material_flag};
 pub use medium::Medium;
 pub use object::Object;
-pub use render::{RenderSettings, ToneMap, f64_bits, f64_from_bits};
+pub use render::{RenderSettings, SamplerKind, ToneMap, f64_bits, f64_from_bits};
 pub use sky::{Sky, SkyKind};
 pub use texture::{Texture, TextureFormat, Wrap};
 

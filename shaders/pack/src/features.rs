@@ -4,7 +4,9 @@
 //! them with the same function, so a pack cannot claim what it does not hold. A reader refuses
 //! bits that it does not know.
 
-use crate::abi::{LightKind, MaterialKind, NONE, SkyKind, TextureFormat, material_flag};
+use crate::abi::{
+    LightKind, MaterialKind, NONE, SamplerKind, SkyKind, TextureFormat, material_flag,
+};
 use crate::contents::Contents;
 
 /// Has triangles.
@@ -37,6 +39,10 @@ pub const MATERIAL_DIELECTRIC: u64 = material(MaterialKind::Dielectric);
 pub const MATERIAL_EMISSIVE: u64 = material(MaterialKind::Emissive);
 /// Has a principled material.
 pub const MATERIAL_PRINCIPLED: u64 = material(MaterialKind::Principled);
+/// Has a petal material.
+pub const MATERIAL_PETAL: u64 = 1 << (32 + 11);
+/// Has a leaf material.
+pub const MATERIAL_LEAF: u64 = 1 << (32 + 12);
 /// Has a material with alpha clipping.
 pub const ALPHA_CLIP: u64 = 1 << 15;
 /// The camera has a lens with a radius.
@@ -47,6 +53,8 @@ pub const TANGENTS: u64 = 1 << 17;
 pub const OBJECTS: u64 = 1 << 18;
 /// Has a material with a normal map.
 pub const NORMAL_MAPS: u64 = 1 << 21;
+/// Independent random numbers, instead of Sobol's.
+pub const SAMPLER_PCG: u64 = 1 << 48;
 
 /// Has a stone material.
 pub const MATERIAL_STONE: u64 = material(MaterialKind::Stone);
@@ -62,8 +70,27 @@ pub const fn material(kind: MaterialKind) -> u64 {
     if tag < 5 { 1 << (10 + tag) } else { 1 << (32 + tag) }
 }
 
+/// Has a conductor material.
+pub const MATERIAL_CONDUCTOR: u64 = 1 << 37;
+/// Has a rough dielectric material.
+pub const MATERIAL_ROUGH_DIELECTRIC: u64 = 1 << 38;
+/// Has a clearcoat material.
+pub const MATERIAL_CLEARCOAT: u64 = 1 << 39;
+
+/// Has an atmosphere, or things with an inside.
+pub const MEDIA: u64 = 1 << 24;
+/// Has a medium that scatters.
+pub const SCATTERING: u64 = 1 << 25;
+/// Has fog.
+pub const FOG: u64 = 1 << 26;
+/// Has a material behind which shadow rays go on.
+pub const THROUGH: u64 = 1 << 27;
+
+/// Has a water material.
+pub const MATERIAL_WATER: u64 = 1 << 45;
+
 /// Every bit with its name, in bit order.
-pub const NAMES: [(u64, &str); 23] = [
+pub const NAMES: [(u64, &str); 34] = [
     (TRIANGLES, "triangles"),
     (SPHERES, "spheres"),
     (LIGHT_SPHERE, "sphere lights"),
@@ -87,15 +114,25 @@ pub const NAMES: [(u64, &str); 23] = [
     (MATERIAL_STONE, "stone"),
     (MATERIAL_WOOD, "wood"),
     (MATERIAL_FABRIC, "fabric"),
+    (SAMPLER_PCG, "independent samples"),
+    (MATERIAL_CONDUCTOR, "conductor"),
+    (MATERIAL_ROUGH_DIELECTRIC, "rough dielectric"),
+    (MATERIAL_CLEARCOAT, "clearcoat"),
+    (MATERIAL_PETAL, "petal"),
+    (MATERIAL_LEAF, "leaf"),
+    (MEDIA, "media"),
+    (SCATTERING, "scattering media"),
+    (FOG, "fog"),
+    (THROUGH, "see-through materials"),
+    (MATERIAL_WATER, "water"),
 ];
 
 /// All bits that this reader knows.
 pub const KNOWN: u64 = {
-    let mut known = 0;
-    let mut row = 0;
-    while row < NAMES.len() {
-        known |= NAMES[row].0;
-        row += 1;
+    let (mut known, mut i) = (0, 0);
+    while i < NAMES.len() {
+        known |= NAMES[i].0;
+        i += 1;
     }
     known
 };
@@ -113,6 +150,7 @@ pub(crate) fn of(contents: &Contents<'_>) -> u64 {
     set(TRIANGLES, !contents.triangles.is_empty());
     set(SPHERES, !contents.spheres.is_empty());
     set(LENS, contents.camera.lens_radius > 0.0);
+    set(SAMPLER_PCG, contents.render.sampler == SamplerKind::Pcg as u32);
     for light in contents.lights {
         set(LIGHT_SPHERE, light.kind == LightKind::Sphere as u32);
         set(LIGHT_RECTANGLE, light.kind == LightKind::Rectangle as u32);
@@ -135,6 +173,13 @@ pub(crate) fn of(contents: &Contents<'_>) -> u64 {
         set(TANGENTS, material.flags & material_flag::TANGENT != 0);
         set(OBJECTS, material.flags & material_flag::OBJECT != 0);
         set(NORMAL_MAPS, material.normal_texture != NONE);
+        set(MEDIA, material.flags & material_flag::INTERIOR != 0);
+        set(THROUGH, material.flags & material_flag::THROUGH != 0);
+    }
+    set(MEDIA, contents.render.air != NONE);
+    set(FOG, contents.render.fog != NONE);
+    for medium in contents.media {
+        set(SCATTERING, medium.sigma_s.iter().any(|sigma| *sigma > 0.0));
     }
     bits
 }

@@ -56,6 +56,9 @@ pub fn doc_example() -> (abi::RenderSettings, abi::Camera) {
         samples: 1,
         max_depth: 1,
         root: abi::NONE,
+        air: abi::NONE,
+        fog: abi::NONE,
+        inside: [abi::NONE; 4],
         scale_bits: abi::f64_bits(1.0),
         ..abi::RenderSettings::default()
     };

@@ -129,11 +129,11 @@ fn header_cases() -> Vec<Case> {
         (Raw(|b| b[entry(NODE) + 48] ^= 1), "header: render_id does not match the section table"),
         (
             Table(|b| b[48] ^= 1),
-            "header: features are 0x000007000027ffde, but the contents have 0x000007000027ffdf",
+            "header: features are 0x00003fe00f27ffde, but the contents have 0x00003fe00f27ffdf",
         ),
         (
-            Parts(|d| put32(&mut d.header, 48, 0)),
-            "header: features are 0x0000070000000000, but the contents have 0x000007000027ffdf",
+            Parts(|d| put64(&mut d.header, 48, 0)),
+            "header: features are 0x0000000000000000, but the contents have 0x00003fe00f27ffdf",
         ),
     ]
 }
@@ -217,7 +217,7 @@ fn range_cases() -> Vec<Case> {
             "section SKY (entry 2): 0 elements, expected 1 to 1",
         ),
         (
-            Parts(|d| d.section(Kind::RENDER).extend([0; 96])),
+            Parts(|d| d.section(Kind::RENDER).extend([0; 112])),
             "section RENDER (entry 0): 2 elements, expected 1 to 1",
         ),
         (

@@ -73,8 +73,11 @@ fn the_order_of_calls_and_the_number_of_threads_do_not_change_a_byte() {
     writer.recipe_id([7; 32]).kernel(&scene.kernel).srgb_table(&srgb).texels(&scene.texels);
     writer.records(&scene.textures).records(&scene.lights).records(&scene.materials);
     writer.records(&scene.spheres).records(&scene.shades).records(&scene.triangles);
-    writer.records(&scene.media).records(&scene.objects);
-    writer.records(&scene.nodes).record(scene.sky.as_ref().unwrap());
+    writer
+        .records(&scene.media)
+        .records(&scene.objects)
+        .records(&scene.nodes)
+        .record(scene.sky.as_ref().unwrap());
     writer.record(&scene.camera).record(&scene.render);
     for threads in [1, 2, 5] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -109,11 +112,15 @@ fn the_render_id_names_the_picture_and_not_its_history() {
 #[test]
 fn features_are_those_of_the_contents() {
     let pack = Pack::from_bytes(Scene::full().bytes()).unwrap();
-    assert_eq!(pack.features(), features::KNOWN & !features::SKY_CONSTANT);
+    let absent = features::SKY_CONSTANT | features::SAMPLER_PCG;
+    assert_eq!(pack.features(), features::KNOWN & !absent);
     let mut scene = Scene::empty();
     assert_eq!(Pack::from_bytes(scene.bytes()).unwrap().features(), features::LENS);
     scene.camera.lens_radius = 0.0;
     assert_eq!(Pack::from_bytes(scene.bytes()).unwrap().features(), 0);
+    scene.render.sampler = pack::abi::SamplerKind::Pcg as u32;
+    let found = Pack::from_bytes(scene.bytes()).unwrap().features();
+    assert_eq!(found, features::SAMPLER_PCG);
     assert_eq!(features::names(features::LENS | features::SPHERES), ["spheres", "lens"]);
 }
 
@@ -151,7 +158,7 @@ fn the_file_has_the_published_layout() {
     assert_eq!(common::get32(&bytes, 36), pack::layout_id());
     assert_eq!(&bytes[128..136], b"RENDER  ");
     assert_eq!(common::get64(&bytes, 128 + 16), 4096);
-    assert_eq!(common::get64(&bytes, 128 + 24), 96);
+    assert_eq!(common::get64(&bytes, 128 + 24), 112);
     assert_eq!(common::get64(&bytes, 128 + 64 + 16), 8192);
     // A second implementation of the seal, in the tests, gives the same file.
     assert_eq!(Draft::new(&bytes).seal(), bytes);
@@ -197,9 +204,9 @@ fn a_bad_pack_is_never_written() {
     let before = std::fs::read(&path).unwrap();
 
     let mut scene = Scene::full();
-    scene.spheres[1].material = 9;
+    scene.spheres[1].material = 99;
     let text = scene.writer().write(&path).unwrap_err().to_string();
-    assert_eq!(text, "SPHERE[1] at byte 0x30: material is 9, but MATERIAL has 8 elements");
+    assert_eq!(text, "SPHERE[1] at byte 0x30: material is 99, but MATERIAL has 14 elements");
 
     let scene = Scene::full();
     let mut writer = scene.writer();

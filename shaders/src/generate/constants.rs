@@ -2,8 +2,8 @@
 
 use crate::FeatureSet;
 use pack::abi::{
-    CHILD_INNER, CHILD_SPHERES, ChildRef, LightKind, MaterialKind, NONE, SkyKind, TRI_SMOOTH,
-    TextureFormat, Wrap, material_flag,
+    CHILD_INNER, CHILD_SPHERES, ChildRef, LightKind, MaterialKind, NONE, SamplerKind, SkyKind,
+    TRI_SMOOTH, TextureFormat, Wrap, material_flag,
 };
 use std::fmt::Write as _;
 
@@ -28,16 +28,26 @@ pub(crate) fn text(features: &FeatureSet) -> String {
         ("MATERIAL_STONE", MaterialKind::Stone as u32),
         ("MATERIAL_WOOD", MaterialKind::Wood as u32),
         ("MATERIAL_FABRIC", MaterialKind::Fabric as u32),
+        ("MATERIAL_CONDUCTOR", MaterialKind::Conductor as u32),
+        ("MATERIAL_ROUGH_DIELECTRIC", MaterialKind::RoughDielectric as u32),
+        ("MATERIAL_CLEARCOAT", MaterialKind::Clearcoat as u32),
+        ("MATERIAL_PETAL", MaterialKind::Petal as u32),
+        ("MATERIAL_LEAF", MaterialKind::Leaf as u32),
+        ("MATERIAL_WATER", MaterialKind::Water as u32),
         ("FLAG_EMIT_BOTH_SIDES", material_flag::EMIT_BOTH_SIDES),
         ("FLAG_ALPHA_CLIP", material_flag::ALPHA_CLIP),
         ("FLAG_TANGENT", material_flag::TANGENT),
         ("FLAG_OBJECT", material_flag::OBJECT),
+        ("FLAG_INTERIOR", material_flag::INTERIOR),
+        ("FLAG_THROUGH", material_flag::THROUGH),
         ("TRI_SMOOTH", TRI_SMOOTH),
         ("LIGHT_SPHERE", LightKind::Sphere as u32),
         ("LIGHT_RECTANGLE", LightKind::Rectangle as u32),
         ("LIGHT_TRIANGLE", LightKind::Triangle as u32),
         ("SKY_CONSTANT", SkyKind::Constant as u32),
         ("SKY_GRADIENT", SkyKind::Gradient as u32),
+        ("SAMPLER_SOBOL", SamplerKind::Sobol as u32),
+        ("SAMPLER_PCG", SamplerKind::Pcg as u32),
         ("TEXTURE_RGBA8_SRGB", TextureFormat::Rgba8Srgb as u32),
         ("TEXTURE_RGBA8_LINEAR", TextureFormat::Rgba8Linear as u32),
         ("TEXTURE_RGBA16_FLOAT", TextureFormat::Rgba16Float as u32),

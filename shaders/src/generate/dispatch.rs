@@ -1,10 +1,10 @@
-//! `scene/dispatch*.wgsl`, `scene/texture.wgsl`, `scene/texel.wgsl`: from a record's tag to the function
+//! `scene/dispatch*.wgsl`, `scene/sampler.wgsl`, `scene/texture.wgsl`, `scene/texel.wgsl`: from a record's tag to the function
 //! of its kind. The case of a kind reads the same in every kernel, so that a kernel with fewer kinds
 //! computes the same bits.
 
 use super::{imports, switch};
 use crate::FeatureSet;
-use pack::abi::{LightKind, MaterialKind, SkyKind, TextureFormat};
+use pack::abi::{LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat};
 use std::fmt::Write as _;
 
 /// Camera, sky, surfaces and direct light.
@@ -17,9 +17,10 @@ pub(crate) fn path(features: &FeatureSet) -> String {
         "camera/film_plane.wgsl",
         "camera/pinhole.wgsl",
         "kernel/state.wgsl",
-        "sampler/pcg.wgsl",
+        "sampler/key.wgsl",
         "scene/constants.wgsl",
         "scene/records.wgsl",
+        "scene/sampler.wgsl",
         "shape/sphere.wgsl",
         "shape/triangle.wgsl",
         "surface/surface.wgsl",
@@ -90,7 +91,7 @@ fn surface(features: &FeatureSet) -> String {
         let mut sphere = String::from(
             "    var s = sphere_surface(hit.prim & ~PRIM_SPHERE, origin, dir, hit.t);\n",
         );
-        if !features.textures.is_empty() {
+        if !features.textures.is_empty() || features.tangents {
             sphere += "    s.uv = sphere_uv(select(-s.ng, s.ng, s.front));\n";
         }
         sphere += "    return s;\n";
@@ -172,11 +173,11 @@ fn direct(features: &FeatureSet) -> String {
     let (sample, weight) = if features.lights.is_empty() {
         ("", "1.0")
     } else {
-        ("    direct_sample(path, s, scatter, wo);\n", "direct_weight(origin, dir, pdf, s)")
+        ("    direct_sample(path, p, scatter, wo);\n", "direct_weight(origin, dir, pdf, s)")
     };
     format!(
-        "\n// Leaves a shadow ray in `path` if light may reach the surface directly.\n\
-         fn dispatch_direct(path: ptr<function, Path>, s: Surface, scatter: Scatter, wo: vec3f) {{\n{sample}}}\n\
+        "\n// Leaves a shadow ray in `path` if light may reach the vertex at `p` directly.\n\
+         fn dispatch_direct(path: ptr<function, Path>, p: vec3f, scatter: Scatter, wo: vec3f) {{\n{sample}}}\n\
          \n// Weight of emission that a direction sampled with density `pdf` has found.\n\
          fn dispatch_emission_weight(origin: vec3f, dir: vec3f, pdf: f32, s: Surface) -> f32 {{\n    \
          return {weight};\n}}\n"
@@ -203,24 +204,51 @@ fn bsdf_row(kind: MaterialKind) -> (&'static str, &'static str, [&'static str; 3
         MaterialKind::Dielectric => {
             ("MATERIAL_DIELECTRIC", "dielectric", ["s, wo, sample_1d(key, PURPOSE_LOBE)", "", ""])
         }
+        MaterialKind::Water => {
+            ("MATERIAL_WATER", "water", ["s, wo, sample_1d(key, PURPOSE_LOBE)", "", ""])
+        }
         MaterialKind::Emissive => ("MATERIAL_EMISSIVE", "emissive", ["", "", ""]),
-        MaterialKind::Principled => (
-            "MATERIAL_PRINCIPLED",
-            "principled",
+        MaterialKind::Principled => ("MATERIAL_PRINCIPLED", "principled", DIRECTION_AND_LOBE),
+        MaterialKind::Conductor => ("MATERIAL_CONDUCTOR", "conductor", DIRECTION_AND_LOBE),
+        MaterialKind::RoughDielectric => {
+            ("MATERIAL_ROUGH_DIELECTRIC", "rough_dielectric", DIRECTION_AND_LOBE)
+        }
+        MaterialKind::Clearcoat => (
+            "MATERIAL_CLEARCOAT",
+            "clearcoat",
+            [
+                "s, wo, sample_2d(key, PURPOSE_DIRECTION), sample_1d(key, PURPOSE_RADIUS), sample_1d(key, PURPOSE_LOBE)",
+                "s, wo, wi",
+                "s, wo, wi",
+            ],
+        ),
+        MaterialKind::Stone => ("MATERIAL_STONE", "stone", DIRECTION_AND_LOBE),
+        MaterialKind::Wood => ("MATERIAL_WOOD", "wood", DIRECTION_AND_LOBE),
+        MaterialKind::Fabric => ("MATERIAL_FABRIC", "fabric", DIRECTION_AND_LOBE),
+        MaterialKind::Petal => (
+            "MATERIAL_PETAL",
+            "petal",
+            [
+                "s, wo, sample_2d(key, PURPOSE_DIRECTION), sample_1d(key, PURPOSE_LOBE), \
+                 sample_1d(key, PURPOSE_RADIUS)",
+                "s, wo, wi",
+                "s, wo, wi",
+            ],
+        ),
+        MaterialKind::Leaf => (
+            "MATERIAL_LEAF",
+            "leaf",
             [
                 "s, wo, sample_2d(key, PURPOSE_DIRECTION), sample_1d(key, PURPOSE_LOBE)",
                 "s, wo, wi",
                 "s, wo, wi",
             ],
         ),
-        MaterialKind::Stone => ("MATERIAL_STONE", "stone", LOBES),
-        MaterialKind::Wood => ("MATERIAL_WOOD", "wood", LOBES),
-        MaterialKind::Fabric => ("MATERIAL_FABRIC", "fabric", LOBES),
     }
 }
 
-/// Arguments of a model with several lobes.
-const LOBES: [&str; 3] = [
+/// Arguments of a model with two lobes, one of which is chosen.
+const DIRECTION_AND_LOBE: [&str; 3] = [
     "s, wo, sample_2d(key, PURPOSE_DIRECTION), sample_1d(key, PURPOSE_LOBE)",
     "s, wo, wi",
     "s, wo, wi",
@@ -249,13 +277,24 @@ pub(crate) fn pattern(features: &FeatureSet) -> String {
     }
     text + "        default: {}\n    }\n}\n"
 }
+/// A point in a medium scatters like a surface, but is of no material.
+const PHASE_ROW: (&str, &str, [&str; 3]) =
+    ("PHASE_KIND", "phase", ["s, wo, sample_2d(key, PURPOSE_DIRECTION)", "s, wo, wi", "s, wo, wi"]);
 
 /// The three functions of a scattering model.
 pub(crate) fn bsdf(features: &FeatureSet) -> String {
-    let rows: Vec<_> = features.materials.iter().map(|kind| bsdf_row(*kind)).collect();
+    let mut rows: Vec<_> = features.materials.iter().map(|kind| bsdf_row(*kind)).collect();
+    if features.scattering {
+        rows.push(PHASE_ROW);
+    }
     let files: Vec<String> = rows.iter().map(|row| format!("bsdf/{}.wgsl", row.1)).collect();
     let mut text = String::from("// Generated: the scattering models of this scene.\n\n");
-    text += &imports(["bsdf/scatter.wgsl", "sampler/pcg.wgsl", "scene/constants.wgsl"]);
+    text += &imports([
+        "bsdf/scatter.wgsl",
+        "sampler/key.wgsl",
+        "scene/constants.wgsl",
+        "scene/sampler.wgsl",
+    ]);
     text += &imports(files.iter().map(String::as_str));
     let functions = [
         ("sample", "wo: vec3f, key: SampleKey", "Scattered", "scatter_absorb()", "Samples `wi`."),
@@ -358,6 +397,33 @@ fn light_surface(features: &FeatureSet) -> String {
          \n// Whether a light of material `material` exists at `uv`.\n\
          fn dispatch_light_exists(material: u32, uv: vec2f) -> bool {{\n    return {exists};\n}}\n"
     )
+}
+
+/// The numbers that every random decision is made with.
+pub(crate) fn sampler(features: &FeatureSet) -> String {
+    let rows: Vec<(&str, &str)> = features
+        .samplers
+        .iter()
+        .map(|kind| match kind {
+            SamplerKind::Sobol => ("SAMPLER_SOBOL", "sobol"),
+            SamplerKind::Pcg => ("SAMPLER_PCG", "pcg"),
+        })
+        .collect();
+    let files: Vec<String> = rows.iter().map(|row| format!("sampler/{}.wgsl", row.1)).collect();
+    let mut text = String::from("// Generated: the sampler of this scene.\n\n");
+    text += &imports(["sampler/key.wgsl", "scene/constants.wgsl", "scene/records.wgsl"]);
+    text += &imports(files.iter().map(String::as_str));
+    for (name, result, none) in [("1d", "f32", "0.0"), ("2d", "vec2f", "vec2f(0.0)")] {
+        let cases: Vec<(&str, String)> =
+            rows.iter().map(|(tag, stem)| (*tag, format!("{stem}_{name}(key, purpose)"))).collect();
+        let _ = write!(
+            text,
+            "\n// Numbers for `purpose`, in [0, 1 - 2^-24].\n\
+             fn sample_{name}(key: SampleKey, purpose: u32) -> {result} {{\n{}}}\n",
+            switch("load_frame_sampler()", &cases, none)
+        );
+    }
+    text
 }
 
 /// A texture, or white where there is none.

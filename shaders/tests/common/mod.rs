@@ -1,6 +1,6 @@
 //! The feature sets that the tests run over.
 
-use pack::abi::{LightKind, MaterialKind, SkyKind, TextureFormat};
+use pack::abi::{LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat};
 use shaders::FeatureSet;
 use std::collections::BTreeMap;
 
@@ -19,6 +19,12 @@ const FEATURES: &[(&str, Switch)] = &[
     ("stone", |f| _ = f.materials.insert(MaterialKind::Stone)),
     ("wood", |f| _ = f.materials.insert(MaterialKind::Wood)),
     ("fabric", |f| _ = f.materials.insert(MaterialKind::Fabric)),
+    ("conductor", |f| _ = f.materials.insert(MaterialKind::Conductor)),
+    ("rough dielectric", |f| _ = f.materials.insert(MaterialKind::RoughDielectric)),
+    ("clearcoat", |f| _ = f.materials.insert(MaterialKind::Clearcoat)),
+    ("petal", |f| _ = f.materials.insert(MaterialKind::Petal)),
+    ("leaf", |f| _ = f.materials.insert(MaterialKind::Leaf)),
+    ("water", |f| _ = f.materials.insert(MaterialKind::Water)),
     ("sphere light", |f| _ = f.lights.insert(LightKind::Sphere)),
     ("rectangle light", |f| _ = f.lights.insert(LightKind::Rectangle)),
     ("triangle light", |f| _ = f.lights.insert(LightKind::Triangle)),
@@ -32,6 +38,14 @@ const FEATURES: &[(&str, Switch)] = &[
     ("tangents", |f| f.tangents = true),
     ("objects", |f| f.objects = true),
     ("normal maps", |f| f.normal_maps = true),
+    ("independent samples", |f| f.samplers = [SamplerKind::Pcg].into()),
+    ("media", |f| f.media = true),
+    ("scattering", |f| {
+        f.media = true;
+        f.scattering = true;
+    }),
+    ("fog", |f| f.fog = true),
+    ("see-through", |f| f.through = true),
 ];
 
 /// Nothing, everything, every single feature and every pair, each alone and on top of each way to have

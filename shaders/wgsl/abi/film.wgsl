@@ -10,5 +10,7 @@ struct FilmPixel {
     first_bad: u32,
     // Longest path of this dispatch in segments.
     depth: u32,
-    _pad0: u32,
+    // Crossings at which the nest of media was wrong: bits 0-15 count those that found it full,
+    // bits 16-31 those that left a thing which the path had never entered.
+    strays: u32,
 }

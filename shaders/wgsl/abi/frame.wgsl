@@ -36,7 +36,17 @@ struct Frame {
     srgb_at: u32,
     // BVH root: a `ChildRef` as in `Node`; `NONE` for a scene without geometry.
     root: u32,
-    // Estimator switch for tests: 0 MIS (balance), 1 light samples only, 2 BSDF samples only.
+    // Estimator switch for tests: 0 MIS (balance), 1 light samples only, 2 BSDF samples only,
+    // 3 MIS (power 2).
     estimator: u32,
-    _pad0: vec2<u32>,
+    // `SamplerKind`; the full kernel asks, a specialised one knows.
+    sampler: u32,
+    // Index of the `Medium` outside of everything, or `NONE`.
+    air: u32,
+    // Indices of the `Material`s inside of which the camera is, the one that counts first, then
+    // `NONE`.
+    inside: vec4<u32>,
+    _pad0: vec3<u32>,
+    // Index of the `Medium` that is fog, or `NONE`.
+    fog: u32,
 }

@@ -1,7 +1,8 @@
 // A material, 192 bytes: one record for all kinds; a field that a kind does not name is not
 // read by it. Colours are linear Rec. 709, lengths and coefficients in normalised units.
 struct Material {
-    // Reflectance (diffuse, metal), base colour (principled), 0 ..= 1; factor on `color_texture`.
+    // Reflectance (diffuse, metal), reflectance at normal incidence (conductor), base colour (principled,
+    // clearcoat), 0 ..= 1; factor on `color_texture`.
     color: vec3<f32>,
     // `MaterialKind`.
     kind: u32,
@@ -44,13 +45,14 @@ struct Material {
     priority: u32,
     // Second colour: what a coat reflects, the specular colour, veins of stone, late wood.
     tint: vec3<f32>,
-    // Share of a second lobe: surface fuzz, translucency.
+    // Share of a second lobe: surface fuzz, translucency. Conductor: 1 with the light of several
+    // reflections, 0 without.
     weight: f32,
     // Stretches a pattern: pattern coordinates are metres of the object times this.
     pattern_scale: f32,
     // Step of the differences that tilt the normal, metres of the object.
     bump_step: f32,
-    // Height of the bumps, metres of the object.
+    // Height of the bumps, metres of the object. Water: factor on the slopes of the waves.
     bump_height: f32,
     // Share of light that a rough surface reflects as gloss.
     gloss: f32,
@@ -64,9 +66,10 @@ struct Material {
     thickness_edge: f32,
     // Thickness of a sheet in its middle.
     thickness_middle: f32,
-    // Share of a sheet that is holes.
-    gap: f32,
-    // Principled: factor on the reflectance of the dielectric part.
+    // Share of the light through a sheet that goes on forward.
+    forward: f32,
+    // Principled: factor on the reflectance of the dielectric part. Clearcoat: mean reflectance of the
+    // coat for diffuse light from within.
     specular: f32,
     // Principled: share of the surface under a clear coat.
     coat: f32,

@@ -5,6 +5,9 @@
 #import "math/sincos.wgsl"
 #import "math/vector.wgsl"
 
+// Below this alpha a surface is smooth: single precision cannot resolve its lobe.
+const GGX_SMOOTH: f32 = 1e-3;
+
 // Density of normals, per steradian and unit projected area, at half vector `h`.
 // (a / t)^2 / pi with t = sin^2 + a^2 cos^2: relative error 5e-7 where (a^2 - 1) c^2 + 1 is 12 % off at 1e-3.
 fn ggx_normals(h: vec3f, alpha: f32) -> f32 {

@@ -16,15 +16,20 @@ fn metal_sample(s: Scatter, wo: vec3f, u: vec2f, v: f32) -> Scattered {
     if (s.fuzz < METAL_SMOOTH) {
         return Scattered(r, 0.0, s.color, 1.0);
     }
-    let z = 1.0 - 2.0 * u.x;
-    let sc = sincos_2pi(u.y) * sqrt(max(1.0 - z * z, 0.0));
-    let d = r + vec3f(sc.y, sc.x, z) * (s.fuzz * exp_log_cbrt(v));
-    // With a ball that reaches the surface point the sum may vanish.
-    let wi = select(vector_unit(d), r, dot(d, d) < 1e-12);
+    let wi = metal_direction(r, s.fuzz, u, v);
     if (!scatter_above(s, wi)) {
         return scatter_absorb();
     }
     return Scattered(wi, metal_density(wi, r, s.fuzz), s.color, 1.0);
+}
+
+// The direction `r` moved by a point of a ball of radius `fuzz`, unit. `u`, `v`: as in `metal_sample`.
+fn metal_direction(r: vec3f, fuzz: f32, u: vec2f, v: f32) -> vec3f {
+    let z = 1.0 - 2.0 * u.x;
+    let sc = sincos_2pi(u.y) * sqrt(max(1.0 - z * z, 0.0));
+    let d = r + vec3f(sc.y, sc.x, z) * (fuzz * exp_log_cbrt(v));
+    // With a ball that reaches the surface point the sum may vanish.
+    return select(vector_unit(d), r, dot(d, d) < 1e-12);
 }
 
 // f |cos|: the colour times the density, 0 below the surface. 0 for a mirror.

@@ -2,6 +2,7 @@
 
 #import "abi/material.wgsl"
 #import "math/vector.wgsl"
+#import "sampler/key.wgsl"
 #import "scene/place.wgsl"
 #import "scene/texture.wgsl"
 #import "surface/place.wgsl"
@@ -34,6 +35,8 @@ struct Scatter {
     ior_minus_1: f32,
     // The path comes from the front side.
     front: bool,
+    // Numbers for models that are found by a random walk.
+    key: SampleKey,
 }
 
 // A sampled direction. `weight` is f |cos| / pdf; 0 ends the path.
@@ -47,15 +50,15 @@ struct Scattered {
     eta2: f32,
 }
 
-// The parameters of material `m` at `s`.
-fn scatter_at(m: Material, s: Surface) -> Scatter {
+// The parameters of material `m` at `s`; `key`: the vertex.
+fn scatter_at(m: Material, s: Surface, key: SampleKey) -> Scatter {
     let color = m.color * texture_fetch(m.color_texture, s.uv).xyz;
     let mr = texture_fetch(m.metallic_roughness_texture, s.uv);
     return Scatter(
         s.ng, s.ns, color, m.kind, s.material,
         s.tangent, s.handed, s.uv, dispatch_place(s.object, m.flags, s.p), m.fuzz,
         m.roughness * mr.y, m.metallic * mr.z,
-        m.ior, m.ior_minus_1, s.front,
+        m.ior, m.ior_minus_1, s.front, key,
     );
 }
 
@@ -68,6 +71,11 @@ fn scatter_absorb() -> Scattered {
 // the second test smooth normals would let light through closed meshes.
 fn scatter_above(s: Scatter, wi: vec3f) -> bool {
     return dot(wi, s.ns) > 0.0 && dot(wi, s.ng) > 0.0;
+}
+
+// Whether transmission into `wi` is possible: below both the shading and the geometric surface.
+fn scatter_below(s: Scatter, wi: vec3f) -> bool {
+    return dot(wi, s.ns) < 0.0 && dot(wi, s.ng) < 0.0;
 }
 
 // `wo` mirrored at the shading normal, or at the geometric normal where the former would go below the

@@ -1,9 +1,10 @@
 // The kernel of a scene without geometry: every camera ray sees the sky.
 
 #import "kernel/film.wgsl"
-#import "sampler/pcg.wgsl"
+#import "sampler/key.wgsl"
 #import "scene/dispatch.wgsl"
 #import "scene/records.wgsl"
+#import "scene/sampler.wgsl"
 
 @compute @workgroup_size(8, 8, 1)
 fn render(@builtin(global_invocation_id) gid: vec3<u32>) {

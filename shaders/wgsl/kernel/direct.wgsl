@@ -2,6 +2,7 @@
 // weighted by the balance heuristic (Veach 1997, ch. 9) with the same denominator,
 //   light sample:  L f |cos| / (P pl + pb)         BSDF sample that hits:  w = pb / (P pl + pb)
 // where P is the probability of the light, pl its density and pb that of the BSDF, per steradian.
+// Tests may ask for one way alone, or for the power heuristic instead.
 
 #import "abi/light.wgsl"
 #import "bsdf/scatter.wgsl"
@@ -10,19 +11,21 @@
 #import "light/emission.wgsl"
 #import "light/light_sample.wgsl"
 #import "math/vector.wgsl"
-#import "sampler/pcg.wgsl"
+#import "sampler/key.wgsl"
 #import "scene/constants.wgsl"
 #import "scene/dispatch_light.wgsl"
 #import "scene/dispatch_bsdf.wgsl"
 #import "scene/records.wgsl"
+#import "scene/sampler.wgsl"
 #import "surface/surface.wgsl"
 
 // Values of `Frame::estimator`.
 const DIRECT_LIGHT_ONLY: u32 = 1u;
 const DIRECT_BSDF_ONLY: u32 = 2u;
+const DIRECT_POWER: u32 = 3u;
 
-// Leaves a shadow ray in `path` if a light was sampled that may light the vertex at `s`.
-fn direct_sample(path: ptr<function, Path>, s: Surface, scatter: Scatter, wo: vec3f) {
+// Leaves a shadow ray in `path` if a light was sampled that may light the vertex at `p`.
+fn direct_sample(path: ptr<function, Path>, p: vec3f, scatter: Scatter, wo: vec3f) {
     let n_lights = load_frame_n_lights();
     if (n_lights == 0u || load_frame_estimator() == DIRECT_BSDF_ONLY) {
         return;
@@ -30,7 +33,7 @@ fn direct_sample(path: ptr<function, Path>, s: Surface, scatter: Scatter, wo: ve
     let key = (*path).key;
     let index = choose_light(n_lights, sample_1d(key, PURPOSE_LIGHT_CHOICE));
     let light = load_light(index);
-    let to = dispatch_light_sample(light, s.p, sample_2d(key, PURPOSE_LIGHT_POINT));
+    let to = dispatch_light_sample(light, p, sample_2d(key, PURPOSE_LIGHT_POINT));
     if (to.pdf <= 0.0) {
         return;
     }
@@ -38,7 +41,7 @@ fn direct_sample(path: ptr<function, Path>, s: Surface, scatter: Scatter, wo: ve
     if (vector_max(f) <= 0.0) {
         return;
     }
-    let radiance = direct_radiance(light, s.p, to);
+    let radiance = direct_radiance(light, p, to);
     if (vector_max(radiance) <= 0.0) {
         return;
     }
@@ -46,7 +49,7 @@ fn direct_sample(path: ptr<function, Path>, s: Surface, scatter: Scatter, wo: ve
     (*path).shadow_dir = to.wi;
     // The light itself is skipped by its index; 2^-18 keeps off what lies in its plane.
     (*path).shadow_t = to.t * 0.9999962;
-    (*path).shadow_radiance = (*path).throughput * f * radiance / (light.pmf * to.pdf + pb);
+    (*path).shadow_radiance = (*path).throughput * f * radiance / direct_divisor(light.pmf * to.pdf, pb);
     (*path).shadow_light = index;
 }
 
@@ -75,5 +78,15 @@ fn direct_weight(from_point: vec3f, dir: vec3f, pb: f32, s: Surface) -> f32 {
     if (load_frame_estimator() == DIRECT_LIGHT_ONLY) {
         return 0.0;
     }
-    return pb / (pl + pb);
+    return pb / direct_divisor(pb, pl);
+}
+
+// Density `ours` > 0 over the weight of its sample, where the other way has the density `theirs` >= 0.
+// Balance: ours + theirs. Power 2: (ours^2 + theirs^2) / ours, written without squares, which overflow
+// beyond 1.8e19; a weight of 1e-24 is as good as a smaller one.
+fn direct_divisor(ours: f32, theirs: f32) -> f32 {
+    if (load_frame_estimator() == DIRECT_POWER) {
+        return ours + theirs * min(theirs / ours, 1e12);
+    }
+    return ours + theirs;
 }

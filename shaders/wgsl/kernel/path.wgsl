@@ -1,12 +1,15 @@
 // The state of one path between two rays, and how a ray's answer moves it on.
 // A vertex may leave two rays to trace: the shadow ray to the sampled light, then the next segment. Both
-// go through the same call of `trace`, one a turn of the kernel's loop.
+// go through the same call of `trace`, one a turn of the kernel's loop. A shadow ray may take several turns.
 
 #import "kernel/vertex.wgsl"
 #import "kernel/state.wgsl"
-#import "sampler/pcg.wgsl"
+#import "sampler/key.wgsl"
 #import "scene/constants.wgsl"
 #import "scene/dispatch.wgsl"
+#import "scene/sampler.wgsl"
+#import "scene/segment.wgsl"
+#import "scene/shadow.wgsl"
 #import "trace/ray.wgsl"
 
 // The camera path of `key` through `pixel`.
@@ -31,13 +34,20 @@ fn path_ended(path: Path) -> bool {
 // Moves the path on by what its ray has hit.
 fn path_advance(path: ptr<function, Path>, hit: Hit) {
     if ((*path).shadow_light != NONE) {
+        dispatch_fade(path, hit.t);
         if (hit.prim == NONE) {
             (*path).radiance += (*path).shadow_radiance;
+        } else if (dispatch_beam(path, hit)) {
+            return;
         }
         (*path).shadow_light = NONE;
+        dispatch_beam_end(path);
         return;
     }
     (*path).segments += 1u;
+    if (dispatch_segment(path, hit.t)) {
+        return;
+    }
     if (hit.prim == NONE) {
         (*path).radiance += (*path).throughput * dispatch_sky((*path).dir);
         (*path).open = false;

@@ -3,7 +3,8 @@
 
 #import "kernel/film.wgsl"
 #import "kernel/path.wgsl"
-#import "sampler/pcg.wgsl"
+#import "sampler/key.wgsl"
+#import "scene/crossing.wgsl"
 #import "scene/records.wgsl"
 #import "trace/bvh.wgsl"
 
@@ -26,6 +27,7 @@ fn render(@builtin(global_invocation_id) gid: vec3<u32>) {
         if (path_ended(path)) {
             let sample = path.key.sample;
             film_add(&film, path.radiance, sample, path.segments);
+            film.strays += dispatch_strays(&path);
             path = path_begin(sample_key(pixel, sample + 1u, frame.seed), pixel);
         }
     }

@@ -1,8 +1,9 @@
 // What a path remembers between two rays. World frame, normalised units.
 
 #import "camera/film_plane.wgsl"
-#import "sampler/pcg.wgsl"
+#import "sampler/key.wgsl"
 #import "scene/constants.wgsl"
+#import "scene/inside.wgsl"
 
 struct Path {
     // Which random numbers; `bounce` counts the vertices so far.
@@ -34,6 +35,10 @@ struct Path {
     shadow_t: f32,
     shadow_radiance: vec3f,
     shadow_light: u32,
+    // Media that the path is in, if the scene has any.
+    inside: Inside,
+    // Where the path goes on after its shadow ray, if shadow rays go on behind what they hit.
+    beam: Beam,
 }
 
 // A path that is about to leave the camera along `ray`.
@@ -42,6 +47,7 @@ fn state_at_camera(key: SampleKey, ray: CameraRay) -> Path {
         key, vec3f(0.0), 0u, vec3f(1.0), 1.0,
         ray.origin, 0.0, ray.dir, NONE, vec3f(0.0), true,
         ray.dir, 0.0, vec3f(0.0), NONE,
+        inside_begin(ray.origin), beam_begin(),
     );
 }
 

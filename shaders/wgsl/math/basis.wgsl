@@ -2,6 +2,8 @@
 // Duff et al. 2017, "Building an Orthonormal Basis, Revisited", JCGT 6(1): orthogonal to 2.2e-7
 // everywhere, the direction -z included.
 
+#import "math/vector.wgsl"
+
 // Columns of a right-handed frame; `n` is its z axis. World frame.
 struct Basis {
     t: vec3f,
@@ -16,6 +18,17 @@ fn basis_around(n: vec3f) -> Basis {
     let c = n.x * n.y * a;
     let t = vec3f(1.0 + s * n.x * n.x * a, s * c, -s * n.x);
     return Basis(t, vec3f(c, s + n.y * n.y * a, -n.y), n);
+}
+
+// The frame around `n` whose x axis is `t` less its part along `n`; any frame around `n` where nothing
+// of `t` is left, as where no tangent is known.
+fn basis_along(n: vec3f, t: vec3f) -> Basis {
+    let x = t - n * dot(n, t);
+    if (dot(x, x) < 1e-6) {
+        return basis_around(n);
+    }
+    let unit = vector_unit(x);
+    return Basis(unit, vector_cross(n, unit), n);
 }
 
 // World frame from local frame.

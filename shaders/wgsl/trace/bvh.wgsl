@@ -3,6 +3,7 @@
 // of steps, because a tree is finite and a cap would open holes where geometry is hard.
 
 #import "scene/constants.wgsl"
+#import "scene/ends.wgsl"
 #import "scene/leaf.wgsl"
 #import "scene/records.wgsl"
 #import "trace/box.wgsl"
@@ -11,7 +12,7 @@
 // Children still to visit.
 var<private> stack: array<u32, STACK_SIZE>;
 
-// The nearest hit before `ray.t_max`, or a miss. For a shadow ray: some hit on the way.
+// The nearest hit before `ray.t_max`, or a miss. For a shadow ray: some opaque hit on the way, else the nearest.
 fn trace(ray: Ray) -> Hit {
     var hit = ray_miss(ray.t_max);
     var child = load_frame_root();
@@ -37,7 +38,7 @@ fn trace(ray: Ray) -> Hit {
             }
         } else {
             hit = leaf_trace(child, ray, leaf, hit);
-            if (ray.light != NONE && hit.prim != NONE) {
+            if (ray.light != NONE && hit.prim != NONE && dispatch_ends(hit)) {
                 break;
             }
         }

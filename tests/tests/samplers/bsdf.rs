@@ -39,19 +39,19 @@ pub(crate) const CHECKS: usize =
 const FINE: usize = 16;
 
 /// A sampler, its density in double precision, and the cells to compare them in.
-struct Case<S, P> {
-    name: String,
-    grid: Grid,
+pub(crate) struct Case<S, P> {
+    pub(crate) name: String,
+    pub(crate) grid: Grid,
     /// Normal of the surface: no direction below it.
-    up: DVec3,
+    pub(crate) up: DVec3,
     /// Direction of sample `i`; `None` where the sampler gives none.
-    sample: S,
+    pub(crate) sample: S,
     /// Density of direction `d` per steradian.
-    pdf: P,
+    pub(crate) pdf: P,
 }
 
 /// Compares and returns the share of samples without a direction that the density predicts.
-fn compare<S, P>(mut case: Case<S, P>) -> f64
+pub(crate) fn compare<S, P>(mut case: Case<S, P>) -> f64
 where
     S: FnMut(usize) -> Option<DVec3>,
     P: FnMut(DVec3) -> f64,
@@ -101,7 +101,7 @@ fn compare_lobe(test: usize, lobe: Lobe, mu: f64, grid: Grid) -> f64 {
 
 /// Cells for a lobe of width `alpha`: around its mirror direction where it is narrow, around the normal
 /// where it reaches the horizon, which then is an edge of cells.
-fn lobe_grid(mirror: DVec3, normal: DVec3, alpha: f64, mu: f64) -> Grid {
+pub(crate) fn lobe_grid(mirror: DVec3, normal: DVec3, alpha: f64, mu: f64) -> Grid {
     if alpha > 0.2 {
         return Grid::new(normal, mirror, Shape::HEMISPHERE);
     }
@@ -243,7 +243,8 @@ fn lobes() -> Vec<Lobe> {
     lobes
 }
 
-fn sample_at(
+/// The sample of `lobe` for these numbers.
+pub(crate) fn sample_at(
     kernel: &mut single::Kernel<'_>,
     lobe: &Lobe,
     wo: Vec3,
@@ -260,6 +261,12 @@ fn sample_at(
         MaterialKind::Stone => kernel.stone_sample(s, wo, u, v),
         MaterialKind::Wood => kernel.wood_sample(s, wo, u, v),
         MaterialKind::Fabric => kernel.fabric_sample(s, wo, u, v),
+        MaterialKind::Conductor => kernel.conductor_sample(s, wo, u, v),
+        MaterialKind::RoughDielectric => kernel.rough_dielectric_sample(s, wo, u, v),
+        MaterialKind::Clearcoat => kernel.clearcoat_sample(s, wo, u, v, 1.0 - v),
+        MaterialKind::Petal => kernel.petal_sample(s, wo, u, v, v),
+        MaterialKind::Leaf => kernel.leaf_sample(s, wo, u, v),
+        MaterialKind::Water => kernel.water_sample(s, wo, v),
     }
 }
 

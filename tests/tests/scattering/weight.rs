@@ -27,7 +27,7 @@ fn lobes() -> Vec<Lobe> {
 }
 
 /// A direction above the surface, sometimes grazing.
-fn above(stream: &mut Stream, lobe: &Lobe) -> DVec3 {
+pub(crate) fn above(stream: &mut Stream, lobe: &Lobe) -> DVec3 {
     let d = stream.direction();
     let up = d.dot(lobe.normal);
     let d = if up < 0.0 { d - lobe.normal * (2.0 * up) } else { d };

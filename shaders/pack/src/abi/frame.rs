@@ -41,9 +41,19 @@ abi_struct! {
         pub srgb_at: u32,
         /// BVH root: a `ChildRef` as in `Node`; `NONE` for a scene without geometry.
         pub root: u32,
-        /// Estimator switch for tests: 0 MIS (balance), 1 light samples only, 2 BSDF samples only.
+        /// Estimator switch for tests: 0 MIS (balance), 1 light samples only, 2 BSDF samples only,
+        /// 3 MIS (power 2).
         pub estimator: u32,
+        /// `SamplerKind`; the full kernel asks, a specialised one knows.
+        pub sampler: u32,
+        /// Index of the `Medium` outside of everything, or `NONE`.
+        pub air: u32,
+        /// Indices of the `Material`s inside of which the camera is, the one that counts first, then
+        /// `NONE`.
+        pub inside: [u32; 4],
         /// Unused.
-        pub _pad0: [u32; 2],
+        pub _pad0: [u32; 3],
+        /// Index of the `Medium` that is fog, or `NONE`.
+        pub fog: u32,
     }
 }

@@ -16,25 +16,43 @@ pub enum MaterialKind {
     Emissive = 3,
     /// Metallic-roughness: GGX over Lambert.
     Principled = 4,
+    /// Rough metal: GGX with the light of several reflections.
+    Conductor = 5,
+    /// Rough dielectric: GGX reflection and refraction.
+    RoughDielectric = 6,
+    /// Clear coat over Lambert.
+    Clearcoat = 7,
     /// Rough, with the bumps and veins of a field of its own.
     Stone = 8,
     /// Rough, with bumps, rings and gloss along a grain.
     Wood = 9,
     /// Rough thin sheet with bumps that lets light through.
     Fabric = 10,
+    /// Fuzz and wax over a thin scattering slab.
+    Petal = 11,
+    /// Thin sheet: diffuse reflection, tinted transmission.
+    Leaf = 12,
+    /// Smooth dielectric with waves.
+    Water = 13,
 }
 
 impl MaterialKind {
     /// Every kind, in tag order.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 14] = [
         Self::Diffuse,
         Self::Metal,
         Self::Dielectric,
         Self::Emissive,
         Self::Principled,
+        Self::Conductor,
+        Self::RoughDielectric,
+        Self::Clearcoat,
         Self::Stone,
         Self::Wood,
         Self::Fabric,
+        Self::Petal,
+        Self::Leaf,
+        Self::Water,
     ];
 
     /// Their tags, in the same order.
@@ -61,19 +79,24 @@ pub mod material_flag {
     pub const EMIT_BOTH_SIDES: u32 = 1;
     /// Surface points with alpha below `alpha_cutoff` do not exist, for any ray.
     pub const ALPHA_CLIP: u32 = 2;
-    /// Scattering depends on the direction in which texture coordinates grow.
+    /// Scattering depends on texture coordinates, or on the direction in which they grow.
     pub const TANGENT: u32 = 4;
     /// Scattering depends on where the point is in its object, or on which object it is.
     pub const OBJECT: u32 = 8;
+    /// Has an inside: who crosses the surface is in another medium.
+    pub const INTERIOR: u32 = 16;
+    /// Some shadow rays go on behind the surface.
+    pub const THROUGH: u32 = 32;
     /// Every bit.
-    pub const ALL: u32 = EMIT_BOTH_SIDES | ALPHA_CLIP | TANGENT | OBJECT;
+    pub const ALL: u32 = EMIT_BOTH_SIDES | ALPHA_CLIP | TANGENT | OBJECT | INTERIOR | THROUGH;
 }
 
 abi_struct! {
     /// A material, 192 bytes: one record for all kinds; a field that a kind does not name is not
     /// read by it. Colours are linear Rec. 709, lengths and coefficients in normalised units.
     pub struct Material {
-        /// Reflectance (diffuse, metal), base colour (principled), 0 ..= 1; factor on `color_texture`.
+        /// Reflectance (diffuse, metal), reflectance at normal incidence (conductor), base colour (principled,
+    /// clearcoat), 0 ..= 1; factor on `color_texture`.
         pub color: [f32; 3],
         /// `MaterialKind`.
         pub kind: u32,
@@ -116,13 +139,14 @@ abi_struct! {
         pub priority: u32,
         /// Second colour: what a coat reflects, the specular colour, veins of stone, late wood.
         pub tint: [f32; 3],
-        /// Share of a second lobe: surface fuzz, translucency.
+        /// Share of a second lobe: surface fuzz, translucency. Conductor: 1 with the light of several
+    /// reflections, 0 without.
         pub weight: f32,
         /// Stretches a pattern: pattern coordinates are metres of the object times this.
         pub pattern_scale: f32,
         /// Step of the differences that tilt the normal, metres of the object.
         pub bump_step: f32,
-        /// Height of the bumps, metres of the object.
+        /// Height of the bumps, metres of the object. Water: factor on the slopes of the waves.
         pub bump_height: f32,
         /// Share of light that a rough surface reflects as gloss.
         pub gloss: f32,
@@ -136,9 +160,10 @@ abi_struct! {
         pub thickness_edge: f32,
         /// Thickness of a sheet in its middle.
         pub thickness_middle: f32,
-        /// Share of a sheet that is holes.
-        pub gap: f32,
-        /// Principled: factor on the reflectance of the dielectric part.
+        /// Share of the light through a sheet that goes on forward.
+        pub forward: f32,
+        /// Principled: factor on the reflectance of the dielectric part. Clearcoat: mean reflectance of the
+    /// coat for diffuse light from within.
         pub specular: f32,
         /// Principled: share of the surface under a clear coat.
         pub coat: f32,

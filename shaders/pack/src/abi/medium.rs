@@ -1,9 +1,9 @@
-//! What fills the inside of things.
+//! What fills the inside of things, and the space around them.
 
 use super::field::abi_struct;
 
 abi_struct! {
-    /// A homogeneous medium, 32 bytes. Coefficients per normalised unit of length, linear Rec. 709.
+    /// A homogeneous medium, 48 bytes. Coefficients per normalised unit of length, linear Rec. 709.
     pub struct Medium {
         /// Absorption.
         pub sigma_a: [f32; 3],
@@ -11,6 +11,11 @@ abi_struct! {
         pub g: f32,
         /// Scattering.
         pub sigma_s: [f32; 3],
+        /// Length of a segment that leaves the scene inside the medium, normalised units.
+        pub reach: f32,
+        /// Radiance that takes the place of what a segment loses: of every segment in fog, of those
+        /// that leave the scene in other media.
+        pub color: [f32; 3],
         /// Unused.
         pub _pad0: u32,
     }

@@ -25,8 +25,29 @@ impl ToneMap {
     }
 }
 
+/// Where random numbers come from. The numbers are part of the pack format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u32)]
+pub enum SamplerKind {
+    /// Sobol pairs, Owen-scrambled and shuffled for every pixel and purpose.
+    Sobol = 0,
+    /// Independent numbers, hashed by pcg4d.
+    Pcg = 1,
+}
+
+impl SamplerKind {
+    /// Every sampler, in tag order.
+    pub const ALL: [Self; 2] = [Self::Sobol, Self::Pcg];
+
+    /// The sampler with this tag.
+    #[must_use]
+    pub fn from_tag(tag: u32) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| *kind as u32 == tag)
+    }
+}
+
 abi_struct! {
-    /// The RENDER section: exactly one element, 96 bytes.
+    /// The RENDER section: exactly one element, 112 bytes.
     pub struct RenderSettings {
         /// Image size in pixels.
         pub image_size: [u32; 2],
@@ -56,10 +77,19 @@ abi_struct! {
         pub center_z_bits: [u32; 2],
         /// Number of lights in the selection table.
         pub n_lights: u32,
+        /// `SamplerKind`.
+        pub sampler: u32,
+        /// Indices of the `Material`s inside of which the camera is, the one that counts first, then
+        /// `NONE`.
+        pub inside: [u32; 4],
+        /// Index of the `Medium` outside of everything, or `NONE`.
+        pub air: u32,
+        /// Index of the `Medium` that is fog, or `NONE`.
+        pub fog: u32,
         /// Unused.
         pub _pad0: u32,
         /// Unused.
-        pub _pad1: [u32; 4],
+        pub _pad1: u32,
     }
 }
 

@@ -96,11 +96,6 @@ pub(super) fn unused(value: u32) -> Fault {
     (value != 0).then_some(ElementFault::Unused(value))
 }
 
-/// As [`unused`], four of them.
-pub(super) fn unused4(value: [u32; 4]) -> Fault {
-    value.into_iter().find_map(unused)
-}
-
 /// Halves of a finite `f64`.
 pub(super) fn finite64(bits: [u32; 2]) -> Fault {
     let value = f64_from_bits(bits);
@@ -124,6 +119,11 @@ pub(super) fn index(found: u32, table: super::rules::TableRef) -> Fault {
 /// An index into a table, or `NONE`.
 pub(super) fn index_or_none(found: u32, table: super::rules::TableRef) -> Fault {
     if found == NONE { None } else { index(found, table) }
+}
+
+/// Indices into a table, or `NONE`.
+pub(super) fn indices_or_none(found: [u32; 4], table: super::rules::TableRef) -> Fault {
+    found.into_iter().find_map(|found| index_or_none(found, table))
 }
 
 /// A welded vertex id: below three a triangle.

@@ -4,17 +4,18 @@
 //! field that is not in it may hold any value, and the comment there says why.
 
 use crate::abi::{
-    Camera, Light, LightKind, Material, MaterialKind, Medium, Node, Object, RenderSettings, Sky,
-    SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap, TriShade, Triangle, Wrap,
-    material_flag,
+    Camera, Light, LightKind, Material, MaterialKind, Medium, Node, Object, RenderSettings,
+    SamplerKind, Sky, SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap, TriShade,
+    Triangle, Wrap, material_flag,
 };
 use crate::contents::Contents;
 use crate::fault::ElementFault;
 use crate::kind::{Kind, PackRecord};
 
 use super::rule::{
-    bits, corner, cosine, count, direction, finite, finite64, index, index_or_none, not_negative,
-    positive, power_of_two, probability, refractive, tag, unit_range, unused, unused4,
+    bits, corner, cosine, count, direction, finite, finite64, index, index_or_none,
+    indices_or_none, not_negative, positive, power_of_two, probability, refractive, tag,
+    unit_range, unused,
 };
 
 /// Field and fault.
@@ -64,8 +65,12 @@ rules! { pack;
         center_x_bits: finite64(),
         center_y_bits: finite64(),
         center_z_bits: finite64(),
+        sampler: tag(SamplerKind::ALL.len()),
+        air: index_or_none(table(pack, Kind::MEDIUM)),
+        inside: indices_or_none(table(pack, Kind::MATERIAL)),
+        fog: index_or_none(table(pack, Kind::MEDIUM)),
         _pad0: unused(),
-        _pad1: unused4(),
+        _pad1: unused(),
     }
     Camera {
         origin: finite(),
@@ -142,6 +147,8 @@ rules! { pack;
         sigma_a: not_negative(),
         g: cosine(),
         sigma_s: not_negative(),
+        reach: not_negative(),
+        color: not_negative(),
         _pad0: unused(),
     }
     // `priority` is any number.
@@ -179,7 +186,7 @@ rules! { pack;
         g: cosine(),
         thickness_edge: not_negative(),
         thickness_middle: not_negative(),
-        gap: unit_range(),
+        forward: unit_range(),
         specular: unit_range(),
         coat: unit_range(),
         coat_roughness: unit_range(),
@@ -237,7 +244,14 @@ fn material_kind(found: u32) -> Option<ElementFault> {
 fn material(record: &Material, _: &Contents<'_>) -> Option<Broken> {
     let refracts = matches!(
         MaterialKind::from_tag(record.kind),
-        Some(MaterialKind::Dielectric | MaterialKind::Principled)
+        Some(
+            MaterialKind::Dielectric
+                | MaterialKind::Principled
+                | MaterialKind::RoughDielectric
+                | MaterialKind::Clearcoat
+                | MaterialKind::Petal
+                | MaterialKind::Water
+        )
     );
     let bumps = matches!(
         MaterialKind::from_tag(record.kind),

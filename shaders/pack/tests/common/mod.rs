@@ -111,6 +111,9 @@ pub(crate) fn render() -> RenderSettings {
         center_y_bits: f64_bits(0.0),
         center_z_bits: f64_bits(-3.5),
         n_lights: 3,
+        air: NONE,
+        fog: 0,
+        inside: [NONE; 4],
         ..RenderSettings::default()
     }
 }
@@ -149,11 +152,15 @@ fn sky() -> Sky {
 fn materials() -> Vec<Material> {
     let mut materials: Vec<Material> = MaterialKind::ALL.into_iter().map(material).collect();
     materials[0].color_texture = 0;
+    materials[2].medium = 0;
+    materials[2].flags = material_flag::INTERIOR | material_flag::THROUGH;
     materials[3].emission = [4.0; 3];
     materials[3].flags = material_flag::EMIT_BOTH_SIDES;
     materials[3].emission_texture = 2;
+    materials[2].normal_texture = 1;
     materials[4].metallic_roughness_texture = 1;
     materials[4].alpha_texture = 0;
+    materials[4].normal_texture = 1;
     materials[4].flags = material_flag::ALPHA_CLIP | material_flag::TANGENT | material_flag::OBJECT;
     materials[4].alpha_cutoff = 0.5;
     materials[4].normal_texture = 1;
@@ -195,7 +202,7 @@ pub(crate) fn manifest() -> Manifest {
 }
 
 impl Scene {
-    /// Four triangles, three spheres, five materials, three lights, three textures, a sky.
+    /// Four triangles, three spheres, eight materials, three lights, three textures, a sky.
     pub(crate) fn full() -> Self {
         let triangle = |at: f32, id: u32| Triangle {
             v0: [at, 0.0, 0.0],
@@ -235,7 +242,7 @@ impl Scene {
             spheres: vec![sphere(-0.5, 1, NONE), sphere(-0.2, 2, NONE), sphere(0.6, 3, 0)],
             materials: materials(),
             objects: vec![Object::default(); 2],
-            media: vec![Medium::default()],
+            media: vec![Medium { sigma_s: [0.5; 3], ..Medium::default() }],
             lights: lights(),
             textures: vec![
                 texture(TextureFormat::Rgba8Srgb, [4, 2], 0),
@@ -251,7 +258,8 @@ impl Scene {
 
     /// Camera and settings only: no geometry, no sky, no manifest.
     pub(crate) fn empty() -> Self {
-        let render = RenderSettings { root: NONE, stack_need: 0, n_lights: 0, ..render() };
+        let render =
+            RenderSettings { root: NONE, stack_need: 0, n_lights: 0, fog: NONE, ..render() };
         Self {
             render,
             sky: None,

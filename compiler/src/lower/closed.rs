@@ -1,0 +1,105 @@
+//! Things that are filled must be closed, and their outside must be outside.
+
+use std::collections::BTreeMap;
+
+use lang::diagnostic::{Code, Diagnostic};
+use lang::scene::{Instance, MaterialModel, Scene, Shape};
+
+use super::Loaded;
+use crate::import::{Topology, topology};
+
+/// What stands in the text about an inside: the name of the medium, or of the material.
+struct Filling<'a> {
+    material: &'a str,
+    medium: Option<&'a str>,
+}
+
+/// Reports open and inverted shapes under materials that are filled with a medium. `matters`: light
+/// must know what it is inside of, so that clear things are better closed, too.
+pub(super) fn check(
+    scene: &Scene,
+    loaded: &Loaded,
+    matters: bool,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let mut known: BTreeMap<(usize, Option<&str>), Topology> = BTreeMap::new();
+    for instance in &scene.instances {
+        let Some(filling) = filling(scene, instance) else { continue };
+        if filling.medium.is_none() && !matters {
+            continue;
+        }
+        match &instance.shape {
+            Shape::Rectangle { .. } => {
+                diagnostics.push(open(instance, &filling, "a rectangle has no inside".to_owned()));
+            }
+            Shape::Mesh { asset, part } => {
+                let Some(file) = &loaded.assets[*asset] else { continue };
+                let found = known.entry((*asset, part.as_deref())).or_insert_with(|| {
+                    let parts = match part {
+                        Some(name) => file.find_parts(name),
+                        None => (0..file.parts.len()).collect(),
+                    };
+                    let parts: Vec<_> = parts.iter().map(|part| &file.parts[*part]).collect();
+                    topology(&parts)
+                });
+                if found.boundary_edges > 0 {
+                    diagnostics.push(open(instance, &filling, holes(found)));
+                } else if found.signed_volume < 0.0 {
+                    diagnostics.push(inverted(instance, &filling));
+                }
+            }
+            Shape::Sphere { .. } | Shape::Box { .. } => {}
+        }
+    }
+}
+
+fn filling<'a>(scene: &'a Scene, instance: &Instance) -> Option<Filling<'a>> {
+    let material = &scene.materials[instance.material?];
+    let inside = match &material.model {
+        MaterialModel::Dielectric { inside, .. } => inside,
+        // Water that names no medium may be a sea, open at its rim.
+        MaterialModel::Water { inside, .. } if inside.medium.is_some() => inside,
+        _ => return None,
+    };
+    let medium = inside.medium.map(|medium| scene.media[medium].name.text.as_str());
+    Some(Filling { material: &material.name.text, medium })
+}
+
+fn holes(found: &Topology) -> String {
+    let count = |n: u64, one: &str| if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") };
+    let near = found.boundary_near.map_or(String::new(), |p| {
+        format!(", near ({:.3}, {:.3}, {:.3})m of the file", p[0], p[1], p[2])
+    });
+    let (edges, loops) = (found.boundary_edges, found.boundary_loops);
+    format!("{} in {}{near}", count(edges, "boundary edge"), count(loops, "loop"))
+}
+
+fn open(instance: &Instance, filling: &Filling<'_>, what: String) -> Diagnostic {
+    let material = filling.material;
+    let found = if let Some(medium) = filling.medium {
+        let text = format!(
+            "`{material}` has an interior, but this shape is open: light would enter `{medium}` and \
+             never leave"
+        );
+        Diagnostic::error(Code("E0512"), text)
+            .with_help("close the mesh, use `box(...)`, or take a material without `interior`")
+    } else {
+        let text = format!("this shape of `{material}` is open: light that enters stays inside");
+        Diagnostic::warning(Code("W0525"), "open_glass", text)
+            .with_note("in a scene with media or priorities every ray knows what it is inside of")
+            .with_help("close the mesh, or use a thin `box(...)`")
+    };
+    let found = found.at(instance.shape_span, what);
+    match instance.material_span {
+        Some(span) => found.because(span, "because of this material"),
+        None => found,
+    }
+}
+
+fn inverted(instance: &Instance, filling: &Filling<'_>) -> Diagnostic {
+    let text = format!("this mesh of `{}` is inside out", filling.material);
+    Diagnostic::error(Code("E0510"), text)
+        .at(instance.shape_span, "the volume that its triangles enclose is negative")
+        .with_note("triangles must be counter-clockwise seen from outside")
+        .with_help("flip the normals of the mesh in the program that made it")
+}

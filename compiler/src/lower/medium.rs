@@ -1,0 +1,88 @@
+//! Media become `Medium` records, and materials learn that they have an inside.
+
+use lang::scene::{self, MediumModel, Scene};
+use pack::abi::{self, MaterialKind, NONE, material_flag};
+
+use crate::normalize::Normalization;
+
+/// Length of a segment that leaves the scene inside of a thing: without an end, and still a number
+/// that can be multiplied. Normalised units.
+const ENDLESS: f32 = 1e20;
+
+/// What a water is filled with that names no medium.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Water {
+    /// Absorption, per metre.
+    pub(super) sigma_a: scene::Rgb,
+    /// Radiance of the deep, in the water.
+    pub(super) color: scene::Rgb,
+}
+
+/// The records of `Scene::media`, in that order, and then those of waters.
+pub(super) fn records(scene: &Scene, waters: &[Water], frame: &Normalization) -> Vec<abi::Medium> {
+    let air = scene.render.atmosphere;
+    let reach = |(index, medium): (usize, &scene::Medium)| {
+        let around = air == Some(index);
+        let reach = if around { frame.length(medium.sky_distance) } else { ENDLESS };
+        record(medium, frame, reach)
+    };
+    let water = |water: &Water| abi::Medium {
+        sigma_a: water.sigma_a.map(|sigma| frame.per_length(sigma)),
+        color: water.color.map(|c| c as f32),
+        reach: ENDLESS,
+        ..Default::default()
+    };
+    scene.media.iter().enumerate().map(reach).chain(waters.iter().map(water)).collect()
+}
+
+fn record(medium: &scene::Medium, frame: &Normalization, reach: f32) -> abi::Medium {
+    let spectrum = |sigma: scene::Rgb| sigma.map(|sigma| frame.per_length(sigma));
+    match medium.model {
+        MediumModel::Homogeneous { sigma_a, sigma_s, g } => abi::Medium {
+            sigma_a: spectrum(sigma_a),
+            g: g as f32,
+            sigma_s: spectrum(sigma_s),
+            reach,
+            ..Default::default()
+        },
+        MediumModel::Fog { density, color } => abi::Medium {
+            sigma_a: spectrum([density; 3]),
+            color: color.map(|c| c as f32),
+            reach,
+            ..Default::default()
+        },
+    }
+}
+
+/// Indices of the medium around everything and of the fog, each or `NONE`.
+pub(super) fn around(scene: &Scene) -> [u32; 2] {
+    let Some(index) = scene.render.atmosphere else { return [NONE; 2] };
+    match scene.media[index].model {
+        MediumModel::Homogeneous { .. } => [index as u32, NONE],
+        MediumModel::Fog { .. } => [NONE, index as u32],
+    }
+}
+
+/// Whether light must know in this scene what it is inside of: there are media, or priorities.
+pub(super) fn matters(scene: &Scene, materials: &[abi::Material]) -> bool {
+    around(scene)[0] != NONE
+        || materials.iter().any(|material| material.medium != NONE || material.priority > 0)
+}
+
+/// Whether light goes through the surface of this material into an inside.
+pub(super) fn has_inside(material: &abi::Material) -> bool {
+    let kind = MaterialKind::from_tag(material.kind);
+    matches!(
+        kind,
+        Some(MaterialKind::Dielectric | MaterialKind::RoughDielectric | MaterialKind::Water)
+    )
+}
+
+/// Marks the materials that have an inside, where that matters.
+pub(super) fn mark(scene: &Scene, materials: &mut [abi::Material]) {
+    if matters(scene, materials) {
+        for material in materials.iter_mut().filter(|material| has_inside(material)) {
+            material.flags |= material_flag::INTERIOR | material_flag::THROUGH;
+        }
+    }
+}

@@ -1,0 +1,204 @@
+//! `scene/inside.wgsl`, `fog`, `segment`, `crossing`, `shadow`, `through`, `ends`: what media and see-through
+//! surfaces do to a path. Each function depends on one of these features at most, and does nothing in
+//! a scene without it.
+
+use super::imports;
+use crate::FeatureSet;
+use std::fmt::Write as _;
+
+/// A function with its comment; `body` is indented lines.
+fn function(text: &mut String, comment: &str, head: &str, body: &str) {
+    let _ = write!(text, "\n// {comment}\nfn {head} {{\n{body}}}\n");
+}
+
+/// What a path remembers.
+pub(crate) fn inside(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: what a path remembers of media.\n\n");
+    let (volume, begin) = if features.media {
+        text += &imports(["media/volume.wgsl"]);
+        ("Volume", "volume_begin(origin)")
+    } else {
+        ("u32", "0u")
+    };
+    let (aside, empty) = if features.through {
+        text += &imports(["kernel/aside.wgsl"]);
+        ("Aside", "aside_empty()")
+    } else {
+        ("u32", "0u")
+    };
+    let _ = write!(text, "\nalias Inside = {volume};\n\nalias Beam = {aside};\n");
+    let comment = "What a path that leaves the camera at `origin` is in.";
+    let head = "inside_begin(origin: vec3f) -> Inside";
+    function(&mut text, comment, head, &format!("    return {begin};\n"));
+    let comment = "No shadow ray has been moved yet.";
+    function(&mut text, comment, "beam_begin() -> Beam", &format!("    return {empty};\n"));
+    text
+}
+
+/// Fog along a segment.
+pub(crate) fn fog(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: whether this scene has fog.\n\n");
+    text += &imports(["kernel/state.wgsl", "kernel/veil.wgsl"]);
+    let (add, fade) = if features.fog {
+        ("    veil_fog(path, t);\n", "veil_fog_fade(path, t)")
+    } else {
+        ("", "vec3f(1.0)")
+    };
+    let comment = "Adds the fog along the path's segment, up to its hit at `t`.";
+    function(&mut text, comment, "dispatch_fog(path: ptr<function, Path>, t: f32)", add);
+    let comment = "What fog leaves of the path's shadow ray up to its hit at `t`.";
+    let body = format!("    return {fade};\n");
+    function(
+        &mut text,
+        comment,
+        "dispatch_fog_fade(path: ptr<function, Path>, t: f32) -> vec3f",
+        &body,
+    );
+    text
+}
+
+/// The medium along a segment.
+pub(crate) fn segment(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: what lies along a segment.\n\n");
+    text += &imports(["kernel/segment.wgsl", "kernel/state.wgsl", "scene/fog.wgsl"]);
+    let medium = match (features.media, features.scattering) {
+        (true, true) => "    if (segment_scatter(path, t)) {\n        return true;\n    }\n",
+        (true, false) => "    segment_absorb(path, t);\n",
+        (false, _) => "",
+    };
+    let comment =
+        "The path's segment up to its hit at `t`: true if the path was scattered on the way.";
+    let head = "dispatch_segment(path: ptr<function, Path>, t: f32) -> bool";
+    function(
+        &mut text,
+        comment,
+        head,
+        &format!("{medium}    dispatch_fog(path, t);\n    return false;\n"),
+    );
+    text
+}
+
+/// Surfaces between media.
+pub(crate) fn crossing(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: whether things of this scene have an inside.\n\n");
+    text += &imports(["bsdf/scatter.wgsl", "kernel/state.wgsl", "surface/surface.wgsl"]);
+    if features.media {
+        text += &imports(["kernel/crossing.wgsl"]);
+    }
+    let with =
+        |there: &'static str, absent: &'static str| if features.media { there } else { absent };
+    let path = "path: ptr<function, Path>";
+    function(
+        &mut text,
+        "True if the surface is not there for the path, which then goes straight on.",
+        &format!("dispatch_pass({path}, s: Surface, flags: u32, prim: u32) -> bool"),
+        with("    return crossing_pass(path, s, flags, prim);\n", "    return false;\n"),
+    );
+    function(
+        &mut text,
+        "Gives `scatter` the refractive index against what is around it.",
+        &format!("dispatch_bend({path}, scatter: ptr<function, Scatter>, flags: u32)"),
+        with("    crossing_bend(path, scatter, flags);\n", ""),
+    );
+    function(
+        &mut text,
+        "The path leaves the surface along `wi`, and its shadow ray on its own side.",
+        &format!("dispatch_cross({path}, s: Surface, flags: u32, wi: vec3f)"),
+        with("    crossing_cross(path, s, flags, wi);\n", ""),
+    );
+    function(
+        &mut text,
+        "The last vertex at which the path was scattered, or the camera.",
+        &format!("dispatch_vertex({path}) -> vec3f"),
+        with("    return (*path).inside.vertex;\n", "    return (*path).point;\n"),
+    );
+    function(
+        &mut text,
+        "As `FilmPixel::strays`.",
+        &format!("dispatch_strays({path}) -> u32"),
+        with("    return (*path).inside.strays;\n", "    return 0u;\n"),
+    );
+    text
+}
+
+/// What happens to a shadow ray on its way.
+pub(crate) fn shadow(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: what a shadow ray meets.\n\n");
+    text +=
+        &imports(["kernel/segment.wgsl", "kernel/state.wgsl", "scene/fog.wgsl", "trace/ray.wgsl"]);
+    if features.through {
+        text += &imports(["kernel/beam.wgsl"]);
+    }
+    let path = "path: ptr<function, Path>";
+    let fade = if features.media { " * segment_shadow_fade(path, t)" } else { "" };
+    function(
+        &mut text,
+        "Takes away what the shadow ray loses up to its hit at `t`.",
+        &format!("dispatch_fade({path}, t: f32)"),
+        &format!("    (*path).shadow_radiance *= dispatch_fog_fade(path, t){fade};\n"),
+    );
+    let with =
+        |there: &'static str, absent: &'static str| if features.through { there } else { absent };
+    function(
+        &mut text,
+        "Moves the shadow ray behind its hit; false if nothing gets there.",
+        &format!("dispatch_beam({path}, hit: Hit) -> bool"),
+        with("    return beam_advance(path, hit);\n", "    return false;\n"),
+    );
+    function(
+        &mut text,
+        "The shadow ray has come to its end: the path goes on where it was.",
+        &format!("dispatch_beam_end({path})"),
+        with("    beam_end(path);\n", ""),
+    );
+    text
+}
+
+/// What a shadow ray keeps at a surface.
+pub(crate) fn through(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: the see-through surfaces of this scene.\n\n");
+    text += &imports(["kernel/state.wgsl", "scene/constants.wgsl", "surface/surface.wgsl"]);
+    let mut body = String::new();
+    if features.media {
+        text += &imports(["kernel/crossing.wgsl"]);
+        body += "    if ((flags & FLAG_INTERIOR) != 0u) {\n        \
+                 return crossing_through(path, s);\n    }\n";
+    }
+    body += "    return vec3f(0.0);\n";
+    function(
+        &mut text,
+        "What a shadow ray keeps that goes on behind a surface of a material with these flags; 0: nothing.",
+        "dispatch_through(path: ptr<function, Path>, s: Surface, flags: u32) -> vec3f",
+        &body,
+    );
+    text
+}
+
+/// Which hits end the search of a shadow ray.
+pub(crate) fn ends(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: which hits hide a light.\n\n");
+    text += &imports(["scene/constants.wgsl", "scene/records.wgsl", "trace/ray.wgsl"]);
+    let sphere = "load_sphere_material(hit.prim & ~PRIM_SPHERE)";
+    let triangle = "load_tri_shade_material(hit.prim)";
+    let material = match (features.spheres, features.triangles) {
+        (true, true) => format!(
+            "    if ((hit.prim & PRIM_SPHERE) != 0u) {{\n        return {sphere};\n    }}\n    \
+             return {triangle};\n"
+        ),
+        (true, false) => format!("    return {sphere};\n"),
+        _ => format!("    return {triangle};\n"),
+    };
+    function(
+        &mut text,
+        "The material that was hit.",
+        "dispatch_material(hit: Hit) -> u32",
+        &material,
+    );
+    let body = if features.through {
+        "    return (load_material_flags(dispatch_material(hit)) & FLAG_THROUGH) == 0u;\n"
+    } else {
+        "    return true;\n"
+    };
+    function(&mut text, "Nothing gets behind the hit.", "dispatch_ends(hit: Hit) -> bool", body);
+    text
+}

@@ -1,0 +1,78 @@
+// How a path crosses the surfaces between media.
+
+#import "bsdf/scatter.wgsl"
+#import "kernel/state.wgsl"
+#import "media/volume.wgsl"
+#import "scene/constants.wgsl"
+#import "surface/surface.wgsl"
+
+// Moves the path straight through the surface `s`, on primitive `prim`, if it is not there for a path in
+// these media. That is no vertex: density and point of the last one stay, for the weight of a light that
+// the path may find.
+fn crossing_pass(path: ptr<function, Path>, s: Surface, flags: u32, prim: u32) -> bool {
+    if ((flags & FLAG_INTERIOR) == 0u) {
+        return false;
+    }
+    let nest = (*path).inside.nest;
+    if (!volume_interface(nest, s.material, s.front).passes) {
+        return false;
+    }
+    crossing_move(path, s);
+    // Other random numbers for the next segment, which does not count as one.
+    (*path).key.bounce += 1u;
+    (*path).segments -= 1u;
+    (*path).point = s.p;
+    (*path).gap = s.ng * s.gap;
+    (*path).skip = prim;
+    return true;
+}
+
+// Gives `scatter` the refractive index against what is really around it.
+fn crossing_bend(path: ptr<function, Path>, scatter: ptr<function, Scatter>, flags: u32) {
+    if ((flags & FLAG_INTERIOR) == 0u) {
+        return;
+    }
+    let surface = volume_interface((*path).inside.nest, (*scatter).material, (*scatter).front);
+    (*scatter).ior = surface.ior;
+    (*scatter).ior_minus_1 = surface.ior_minus_1;
+}
+
+// The path leaves the surface `s` along `wi`, and its shadow ray, if it has one, on its own side.
+fn crossing_cross(path: ptr<function, Path>, s: Surface, flags: u32, wi: vec3f) {
+    (*path).inside.vertex = s.p;
+    (*path).inside.shadow_nest = (*path).inside.nest;
+    (*path).inside.shadow_medium = (*path).inside.medium;
+    if ((flags & FLAG_INTERIOR) == 0u) {
+        return;
+    }
+    if (dot((*path).shadow_dir, s.ng) < 0.0) {
+        let behind = volume_behind((*path).inside.nest, s.material, s.front);
+        (*path).inside.shadow_nest = behind;
+        (*path).inside.shadow_medium = volume_medium(behind);
+    }
+    if (dot(wi, s.ng) < 0.0) {
+        crossing_move(path, s);
+    }
+}
+
+// The path is behind the surface `s` now.
+fn crossing_move(path: ptr<function, Path>, s: Surface) {
+    let nest = (*path).inside.nest;
+    let behind = volume_behind(nest, s.material, s.front);
+    (*path).inside.strays += volume_stray(nest, s.material, s.front);
+    (*path).inside.nest = behind;
+    (*path).inside.medium = volume_medium(behind);
+}
+
+// What a shadow ray keeps at the surface `s` of a material with an inside: all where that is not there.
+// The ray is behind the surface afterwards.
+fn crossing_through(path: ptr<function, Path>, s: Surface) -> vec3f {
+    let nest = (*path).inside.shadow_nest;
+    if (!volume_interface(nest, s.material, s.front).passes) {
+        return vec3f(0.0);
+    }
+    let behind = volume_behind(nest, s.material, s.front);
+    (*path).inside.shadow_nest = behind;
+    (*path).inside.shadow_medium = volume_medium(behind);
+    return vec3f(1.0);
+}

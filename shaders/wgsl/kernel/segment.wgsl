@@ -1,0 +1,67 @@
+// The medium that a path is in, between two vertices.
+
+#import "kernel/state.wgsl"
+#import "kernel/veil.wgsl"
+#import "kernel/vertex.wgsl"
+#import "math/vector.wgsl"
+#import "media/homogeneous.wgsl"
+#import "sampler/key.wgsl"
+#import "scene/constants.wgsl"
+#import "scene/fog.wgsl"
+#import "scene/records.wgsl"
+#import "scene/sampler.wgsl"
+
+// A point is kept this far in front of the surface at the end of its segment, normalised units: 16 ulp of the
+// largest coordinate. Beyond the surface it would never leave the medium.
+const SEGMENT_MARGIN: f32 = 9.5367432e-7; // 16 * 2^-24
+
+// Takes away what the path's medium absorbs along its segment. Where the segment leaves the scene, the
+// medium's colour takes its place.
+fn segment_absorb(path: ptr<function, Path>, t: f32) {
+    let i = (*path).inside.medium;
+    if (i == NONE) {
+        return;
+    }
+    let m = load_medium(i);
+    if (t > VEIL_LEAVES) {
+        veil_add(path, m, m.reach);
+        return;
+    }
+    (*path).throughput *= homogeneous_fade(m.sigma_a, t + veil_start(path, (*path).dir));
+}
+
+// The same for media that may scatter: true if the path was scattered on its way, and has left its segment.
+fn segment_scatter(path: ptr<function, Path>, t: f32) -> bool {
+    let i = (*path).inside.medium;
+    if (i == NONE) {
+        return false;
+    }
+    let m = load_medium(i);
+    if (vector_max(m.sigma_s) <= 0.0) {
+        segment_absorb(path, t);
+        return false;
+    }
+    let u = sample_2d((*path).key, PURPOSE_DISTANCE);
+    let length = veil_length(path, (*path).dir, t, m.reach);
+    let step = homogeneous_sample(m, (*path).throughput, length, u);
+    (*path).throughput *= step.weight;
+    if (!step.scatters) {
+        return false;
+    }
+    let from_start = max(step.t - veil_start(path, (*path).dir), 0.0);
+    let at = min(from_start, max(0.5 * t, t - SEGMENT_MARGIN));
+    dispatch_fog(path, at);
+    let origin = state_origin((*path).point, (*path).gap, (*path).dir);
+    vertex_medium(path, origin + (*path).dir * at, i);
+    return true;
+}
+
+// What the medium of the path's shadow ray leaves of it up to its hit at `t`.
+fn segment_shadow_fade(path: ptr<function, Path>, t: f32) -> vec3f {
+    let i = (*path).inside.shadow_medium;
+    if (i == NONE) {
+        return vec3f(1.0);
+    }
+    let m = load_medium(i);
+    return homogeneous_fade(m.sigma_a + m.sigma_s, veil_length(path, (*path).shadow_dir, t, m.reach));
+}

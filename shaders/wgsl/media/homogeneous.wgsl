@@ -1,0 +1,82 @@
+// A medium that is the same everywhere: what it leaves of light, and where it scatters.
+
+#import "abi/medium.wgsl"
+#import "math/exp_log.wgsl"
+#import "math/vector.wgsl"
+
+// -log2(e): e^-x is 2^(x times this).
+const HOMOGENEOUS_EXPONENT: f32 = -1.4426950;
+
+// The end of a segment. `weight`: what the throughput is multiplied with.
+struct HomogeneousStep {
+    weight: vec3f,
+    // Length up to the point where the medium scatters; meaningful if `scatters`.
+    t: f32,
+    // The medium scatters before the segment ends.
+    scatters: bool,
+}
+
+// Share of light that passes length `t` of extinction `sigma` (Beer-Lambert).
+fn homogeneous_fade(sigma: vec3f, t: f32) -> vec3f {
+    let k = sigma * HOMOGENEOUS_EXPONENT;
+    return vec3f(exp_log_exp2(k.x * t), exp_log_exp2(k.y * t), exp_log_exp2(k.z * t));
+}
+
+// Share of light that is lost there; `fade`: the share that passes.
+fn homogeneous_loss(sigma: vec3f, t: f32, fade: vec3f) -> vec3f {
+    let x = sigma * t;
+    return vec3f(exp_log_loss(x.x, fade.x), exp_log_loss(x.y, fade.y), exp_log_loss(x.z, fade.z));
+}
+
+// Samples where a path of weight `throughput` is scattered within `t_max`, if it is. `u` in
+// [0, 1 - 2^-24]^2. A channel k is chosen, its free path sampled, and the result weighted by the one-sample
+// balance heuristic over the channels (Veach 1997, 9.2.4), with e = exp(-sigma_t t):
+//   scattered:  sigma_s e / sum P_k sigma_t,k e_k       passed:  e / sum P_k e_k
+// The part of e that is common to all channels cancels. In a grey medium the weight is the albedo, and 1.
+fn homogeneous_sample(m: Medium, throughput: vec3f, t_max: f32, u: vec2f) -> HomogeneousStep {
+    let sigma_t = m.sigma_a + m.sigma_s;
+    let least = min(min(sigma_t.x, sigma_t.y), sigma_t.z);
+    let most = vector_max(sigma_t);
+    if (least == most) {
+        let t = exp_log_neg_log1m(u.y) / most;
+        let scatters = t < t_max;
+        return HomogeneousStep(select(vec3f(1.0), m.sigma_s / most, scatters), t, scatters);
+    }
+    let p = homogeneous_shares(m, sigma_t, throughput);
+    let chosen = select(select(sigma_t.z, sigma_t.y, u.x < p.x + p.y), sigma_t.x, u.x < p.x);
+    // At least 1e-30: the channel is clear, and its free path longer than any segment.
+    let t = exp_log_neg_log1m(u.y) / max(chosen, 1e-30);
+    let scatters = t < t_max;
+    let fade = homogeneous_fade(sigma_t - least, min(t, t_max));
+    let density = select(fade, sigma_t * fade, scatters);
+    let all = dot(p, density);
+    if (all <= 0.0) {
+        // Only where rounding has chosen a channel without a share.
+        return HomogeneousStep(vec3f(0.0), t, false);
+    }
+    return HomogeneousStep(select(fade, m.sigma_s * fade, scatters) / all, t, scatters);
+}
+
+// Probability of each channel: by what it carries, and by how much of that would be scattered. The least
+// factor keeps the weight of a channel that only absorbs below 20.
+fn homogeneous_shares(m: Medium, sigma_t: vec3f, throughput: vec3f) -> vec3f {
+    let albedo = vec3f(
+        homogeneous_albedo(m.sigma_s.x, sigma_t.x),
+        homogeneous_albedo(m.sigma_s.y, sigma_t.y),
+        homogeneous_albedo(m.sigma_s.z, sigma_t.z),
+    );
+    let weight = max(albedo, vec3f(0.05));
+    let sum = dot(throughput, weight);
+    if (sum <= 0.0) {
+        return vec3f(0.33333334);
+    }
+    return throughput * weight / sum;
+}
+
+// Share of the lost light that is scattered; a clear channel loses none.
+fn homogeneous_albedo(sigma_s: f32, sigma_t: f32) -> f32 {
+    if (sigma_t <= 0.0) {
+        return 1.0;
+    }
+    return sigma_s / sigma_t;
+}
