@@ -6,6 +6,7 @@ use crate::eval::function::FUNCTIONS;
 use crate::eval::param_words;
 use crate::explain;
 use crate::schema::{self, Field, FieldType, Kind, TypeSchema};
+use crate::standard;
 use crate::units::{self, UNITS};
 
 /// The whole reference. `docs/reference.md` holds exactly this text.
@@ -21,9 +22,14 @@ pub fn reference_markdown() -> String {
             if !schema.name.is_empty() {
                 let _ = writeln!(out, "### {}\n", schema.path());
             }
+            if kind == Kind::Material {
+                let name = schema.name;
+                let _ = writeln!(out, "![a ball of {name}](balls/{name}.png)\n");
+            }
             body(&mut out, schema);
         }
     }
+    standard_modules(&mut out);
     out.push_str("\n## Functions\n\n| function | value |\n|---|---|\n");
     for function in FUNCTIONS {
         let _ = writeln!(out, "| `{}` | {} |", function.signature(), function.doc);
@@ -69,10 +75,19 @@ prints any of these tables, for example `rtc explain material.metal`.
 - `import \"parts/lantern.rts\" as lantern` makes the `pub` names of a file usable as `lantern.name`;
   `import \"file\" { a, b }` brings some of them, `import \"file\"` all of them, under their own names. What
   an imported file puts into the world are its `pub` instances and lights; its `render` does not count.
+- `import \"std:materials\" { glass }` brings a material that comes with the language.
 - The root file has one `render`. Where it names no camera, film or sky, it takes the only one of the
   file.
 - In `if a then b else c` both branches must make sense, and only the numbers of the taken one count.
 ";
+
+/// The texts of the `std:` modules.
+fn standard_modules(out: &mut String) {
+    out.push_str("\n## Standard modules\n\nThey come with the language; what they say never changes within an edition.\n");
+    for (name, text) in standard::modules() {
+        let _ = writeln!(out, "\n### {name}\n\n```rts\n{text}```");
+    }
+}
 
 /// The page of one type.
 pub(crate) fn type_page(schema: &TypeSchema) -> String {

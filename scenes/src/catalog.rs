@@ -27,6 +27,11 @@ pub const EXAMPLES: &[Example] = &[
         assets: &[],
     },
     Example {
+        name: "materials",
+        about: "a ball of every material, on three steps under a soft lamp",
+        assets: &[],
+    },
+    Example {
         name: "mesh",
         about: "a knotted rope of 256,000 triangles, generated and read as OBJ",
         assets: &["knot.obj"],

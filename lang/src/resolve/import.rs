@@ -6,6 +6,8 @@ use super::{Entry, ItemId, Module, Program, Target, item_name};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::parse;
 use crate::source::{FileId, LoadError, Loader, MAX_FILE_BYTES, SourceSet, Span};
+use crate::standard;
+use crate::suggest::suggest;
 use crate::syntax::{File, Import, ImportNames, Item, ItemKind};
 
 /// Imports may be nested this deep, the root included.
@@ -96,7 +98,12 @@ impl Loading<'_> {
             return None;
         }
         let importing = self.sources.name(file).to_owned();
-        let (name, text) = match self.loader.load(&importing, path) {
+        let standard = path.strip_prefix("std:").and_then(standard::text);
+        let found = match standard {
+            Some(text) => Ok((path.to_owned(), text.to_owned())),
+            None => self.loader.load(&importing, path),
+        };
+        let (name, text) = match found {
             Ok(found) => found,
             Err(error) => {
                 self.diagnostics.push(unreadable(import, &error));
@@ -128,10 +135,7 @@ impl Loading<'_> {
         let (path, span) = (import.path.text.as_str(), import.path.span);
         let error = |text: String| Diagnostic::error(Code("E0209"), text);
         if let Some(module) = path.strip_prefix("std:") {
-            let text = format!("there is no standard module `{module}`");
-            return Some(
-                error(text).at(span, "not known").with_note("this edition has no `std:` modules"),
-            );
+            return no_standard(import, module);
         }
         if path.contains('\\') {
             let fix = Fix::sure("use `/`", span, format!("\"{}\"", path.replace('\\', "/")));
@@ -200,6 +204,27 @@ impl Loading<'_> {
         }
         names.names
     }
+}
+
+/// The complaint about a `std:` module that there is not.
+fn no_standard(import: &Import, module: &str) -> Option<Diagnostic> {
+    if standard::text(module).is_some() {
+        return None;
+    }
+    let span = import.path.span;
+    let error = Diagnostic::error(Code("E0209"), format!("there is no module `std:{module}`"));
+    let error = error.at(span, "not known");
+    Some(match suggest(module, standard::names()).first() {
+        Some(name) => error.with_fix(Fix::guess(
+            format!("did you mean `std:{name}`?"),
+            span,
+            format!("\"std:{name}\""),
+        )),
+        None => {
+            let all: Vec<String> = standard::names().map(|name| format!("`std:{name}`")).collect();
+            error.with_note(format!("there is {}", all.join(", ")))
+        }
+    })
 }
 
 fn import_spans(tree: &File, imported: &[Option<u32>]) -> Vec<(u32, Span)> {
