@@ -2,8 +2,8 @@
 
 import math
 
-from model import (Box, Camera, Diffuse, Glass, Lamp, Mesh, Metal, Rectangle, Scene, Sphere,
-                   SphereLight, Textured, Thing, grey)
+from model import (Box, Camera, Diffuse, Glass, Lamp, Medium, Mesh, Metal, Rectangle, Scene,
+                   Sphere, SphereLight, Textured, Thing, grey)
 
 
 def checkers(tiles, side):
@@ -126,6 +126,49 @@ VEACH = Scene(
 )
 
 
+BOX_CAMERA = Camera((0, 1.5, 2.6), (0, 0.25, 0), 30)
+BOX_LIGHT = SphereLight((1.2, 2.4, 0.6), 0.9, (3, 2.8, 2.5))
+BOX = Thing(Box(1.5, 0.45, 1), "inside", at=(0, 0.275, 0), rotate=(0, 20, 0))
+
+
+def filled_box(name, tests, inside, **fields):
+    """A box over a checkered floor."""
+    return Scene(
+        name=name,
+        tests=tests,
+        camera=BOX_CAMERA,
+        materials={**CHECKERS, "inside": inside},
+        things=[*checkers(8, 4), BOX],
+        lights=[BOX_LIGHT],
+        sky=(0.35, 0.45, 0.6),
+        **fields,
+    )
+
+
+WATER = filled_box(
+    "water",
+    "a box of water that absorbs red most, index 1.333",
+    Glass(1.333, interior=Medium((3, 0.8, 0.4), (0, 0, 0))),
+    depth=64,
+    spp=2048,
+)
+
+SLAB = filled_box(
+    "slab",
+    "a slab without an interface that scatters forwards, each colour its own density",
+    Glass(1, interior=Medium((0.2, 0.3, 0.5), (2, 3, 4), 0.6)),
+    depth=256,
+    spp=2048,
+)
+
+MILK = filled_box(
+    "milk",
+    "a slab of index 1.33 that scatters backwards and absorbs",
+    Glass(1.33, interior=Medium((0.1, 0.3, 0.8), (6, 5, 4), -0.3)),
+    depth=256,
+    spp=2048,
+)
+
 METALS = Scene(
     name="metals",
     tests="GGX metal balls of roughness 0.2, 0.4, 0.7 and 1",
@@ -196,4 +239,5 @@ MESH = Scene(
     depth=8,
 )
 
-ALL = [DIFFUSE, SPHERE_LIGHT, MESH, SMOOTH_GLASS, METALS, VEACH]
+ALL = [DIFFUSE, SPHERE_LIGHT, MESH, SMOOTH_GLASS, WATER, SLAB, MILK, METALS,
+       VEACH]

@@ -86,7 +86,8 @@ def camera(c):
 def dictionary(scene, files):
     """What `mi.load_dict` takes."""
     media = any(isinstance(m, model.Glass) and m.interior for m in scene.materials.values())
-    integrator = "volpathmis" if media else "path"
+    # Not `volpathmis`: its roulette is biased, see the page.
+    integrator = "volpath" if media else "path"
     out = {"type": "scene", "integrator": {"type": integrator, "max_depth": scene.depth},
            "camera": camera(scene.camera)}
     if scene.sky:

@@ -27,13 +27,26 @@ def material(name, m):
             body = f"diffuse {{ color = {m.name}.rgb }}"
         case model.Metal():
             body = f"principled {{ color = {color(m.color)}, metallic = 1, roughness = {m.roughness} }}"
+        case model.Conductor():
+            fields = f"color = {color(m.color)}, roughness = {m.roughness}, compensation = off"
+            body = f"conductor {{ {fields} }}"
         case model.Glass():
-            body = f"dielectric {{ ior = {m.ior} }}"
+            rough = f", roughness = {m.roughness}" if m.roughness else ""
+            inside = f", interior = in_{name}" if m.interior else ""
+            body = f"dielectric {{ ior = {m.ior}{rough}{inside} }}"
         case model.Lamp():
             body = f"emissive {{ color = {color(m.radiance)}, sides = front }}"
         case _:
             raise TypeError(m)
     return f"material {name}: {body}"
+
+
+def medium(name, m):
+    fields = [f"{key} = {numbers(v)}/m" for key, v in (("sigma_a", m.sigma_a), ("sigma_s", m.sigma_s))
+              if any(v)]
+    if m.g:
+        fields.append(f"g = {m.g}")
+    return f"medium in_{name}: homogeneous {{ {', '.join(fields)} }}"
 
 
 def shape(s):
@@ -77,6 +90,8 @@ def text(scene):
     images = [m.name for m in scene.materials.values() if isinstance(m, model.Textured)]
     lines += [f'asset {name} = obj("{name}.obj", unit: m, up: +y)' for name in sorted(meshes)]
     lines += [f'texture {name} = image("{name}.png", space: srgb)' for name in images]
+    lines += [medium(name, m.interior) for name, m in scene.materials.items()
+              if isinstance(m, model.Glass) and m.interior]
     lines += [material(name, m) for name, m in scene.materials.items()]
     lines += [thing(i, t) for i, t in enumerate(scene.things)]
     lines += [light(i, s) for i, s in enumerate(scene.lights)]
