@@ -214,17 +214,12 @@ fn no_standard(import: &Import, module: &str) -> Option<Diagnostic> {
     let span = import.path.span;
     let error = Diagnostic::error(Code("E0209"), format!("there is no module `std:{module}`"));
     let error = error.at(span, "not known");
-    Some(match suggest(module, standard::names()).first() {
-        Some(name) => error.with_fix(Fix::guess(
-            format!("did you mean `std:{name}`?"),
-            span,
-            format!("\"std:{name}\""),
-        )),
-        None => {
-            let all: Vec<String> = standard::names().map(|name| format!("`std:{name}`")).collect();
-            error.with_note(format!("there is {}", all.join(", ")))
-        }
-    })
+    if let Some(name) = suggest(module, standard::names()).first() {
+        let fix = format!("did you mean `std:{name}`?");
+        return Some(error.with_fix(Fix::guess(fix, span, format!("\"std:{name}\""))));
+    }
+    let all: Vec<String> = standard::names().map(|name| format!("`std:{name}`")).collect();
+    Some(error.with_note(format!("there is {}", all.join(", "))))
 }
 
 fn import_spans(tree: &File, imported: &[Option<u32>]) -> Vec<(u32, Span)> {

@@ -3,30 +3,25 @@
 //! `cargo run --release -p tests --bin balls [-- NAME...]` makes all of them, or those named.
 
 use std::path::Path;
-use std::process::ExitCode;
 
 use lang::schema::{Kind, TypeSchema};
-use tests::{ball, picture, scene};
+use tests::{ball, console, picture, scene};
 
 /// Width and height in pixels.
 const SIZE: u32 = 128;
 /// Samples of a pixel.
 const SAMPLES: u32 = 400;
 
-fn main() -> ExitCode {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     let wanted: Vec<String> = std::env::args().skip(1).collect();
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/balls");
     for schema in Kind::Material.types() {
-        if !wanted.is_empty() && !wanted.iter().any(|name| name == schema.name) {
-            continue;
+        if wanted.is_empty() || wanted.iter().any(|name| name == schema.name) {
+            render(schema, &folder)?;
+            console::line(&format!("docs/balls/{}.png", schema.name));
         }
-        if let Err(error) = render(schema, &folder) {
-            eprintln!("{}: {error}", schema.name);
-            return ExitCode::FAILURE;
-        }
-        println!("docs/balls/{}.png", schema.name);
     }
-    ExitCode::SUCCESS
+    Ok(())
 }
 
 /// Renders the example of one material.
