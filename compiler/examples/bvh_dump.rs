@@ -31,7 +31,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let before = (cpu_and_peak().0, resident());
     let start = Instant::now();
-    let primitives = Primitives { triangles, mesh_sizes: &mesh_sizes, spheres: &[] };
+    let primitives = Primitives {
+        triangles,
+        mesh_sizes: &mesh_sizes,
+        mesh_motions: &[],
+        spheres: &[],
+        sphere_motions: &[],
+    };
     let (tree, _) = bvh::build_scene(&primitives, &Cache::disabled())?;
     let wall = start.elapsed().as_secs_f64();
     let after = cpu_and_peak();

@@ -24,7 +24,7 @@ mod topology;
 pub use self::error::{ErrorKind, ImportError};
 pub use self::file::Limits;
 pub use self::gltf::{load_gltf, read_gltf};
-pub use self::image::{Image, Pixels, decode_image, load_image};
+pub use self::image::{Environment, Image, Pixels, decode_image, load_environment, load_image};
 pub use self::material::{ImportedImage, ImportedMaterial, MapUse};
 pub use self::mesh::{Attribute, MeshFile, NO_CORNER, Part};
 pub use self::obj::{load_obj, read_obj};

@@ -17,19 +17,24 @@ mod geometry;
 mod grain;
 mod inside;
 mod light;
+mod light_tree;
 mod material;
 mod medium;
+mod motion;
 mod object;
 mod order;
+mod power;
+mod principled;
 mod sheet;
 mod sky;
+mod sky_table;
 mod texture;
 
 pub use assemble::{Counters, LowerError, Lowered, Times, lower};
 pub use geometry::Placement;
 pub use texture::{TextureTable, srgb_table};
 
-use crate::import::{Image, MeshFile};
+use crate::import::{Environment, Image, MeshFile};
 
 /// What the files of a scene turned out to contain, in the order of `Scene::assets` and
 /// `Scene::textures`; an entry is `None` when its file could not be read.
@@ -39,4 +44,6 @@ pub struct Loaded {
     pub assets: Vec<Option<MeshFile>>,
     /// Images.
     pub textures: Vec<Option<Image>>,
+    /// The image of the sky, if it has one.
+    pub environment: Option<Environment>,
 }

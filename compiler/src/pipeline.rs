@@ -136,8 +136,10 @@ impl Compiled {
             .records(&lowered.objects)
             .records(&lowered.media)
             .records(&lowered.lights)
+            .records(&lowered.light_nodes)
             .records(&lowered.textures)
             .texels(&lowered.texels)
+            .sky_table(&lowered.sky_table)
             .kernel(&self.kernel.text)
             .recipe_id(self.recipe_id);
         let format = pack::abi::TextureFormat::Rgba8Srgb as u32;

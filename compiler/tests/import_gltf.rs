@@ -177,6 +177,72 @@ fn materials_carry_factors_maps_and_extensions() {
 }
 
 #[test]
+fn layers_of_a_material_are_read_from_their_extensions() {
+    let mut document = triangle();
+    let image = document.view(&tiny_png());
+    document.json["images"] = json!([{"bufferView": image, "mimeType": "image/png"}]);
+    document.json["textures"] = json!([{"source": 0}]);
+    document.json["extensionsRequired"] =
+        json!(["KHR_materials_clearcoat", "KHR_materials_volume"]);
+    document.json["materials"] = json!([{"name": "paint", "extensions": {
+        "KHR_materials_specular": {"specularFactor": 0.5, "specularColorFactor": [2, 1, 0.5],
+            "specularTexture": {"index": 0}, "specularColorTexture": {"index": 0}},
+        "KHR_materials_clearcoat": {"clearcoatFactor": 0.75, "clearcoatRoughnessFactor": 0.25,
+            "clearcoatTexture": {"index": 0}, "clearcoatNormalTexture": {"index": 0}},
+        "KHR_materials_transmission": {"transmissionFactor": 1, "transmissionTexture": {"index": 0}},
+        "KHR_materials_volume": {"thicknessFactor": 0.1, "attenuationDistance": 2,
+            "attenuationColor": [0.5, 1, 1]}
+    }, "pbrMetallicRoughness": {"metallicFactor": 0}}]);
+    document.json["meshes"][0]["primitives"][0]["material"] = json!(0);
+    let mesh = load(&document);
+    let [paint] = &mesh.materials[..] else { panic!("{:?}", mesh.materials) };
+    assert_eq!((paint.specular, paint.specular_color), (0.5, [2.0, 1.0, 0.5]));
+    assert_eq!((paint.coat, paint.coat_roughness, paint.transmission), (0.75, 0.25, 1.0));
+    let spaces =
+        [paint.specular_map, paint.specular_color_map, paint.coat_map, paint.transmission_map]
+            .map(|map| map.map(|map| map.space));
+    let (data, srgb) = (Some(ColorSpace::Data), Some(ColorSpace::Srgb));
+    assert_eq!((spaces, paint.coat_roughness_map), ([data, srgb, data, data], None));
+    assert!(paint.solid && paint.is_glass());
+    let said: Vec<&str> = mesh.report.warnings.iter().map(|w| w.message.as_str()).collect();
+    assert_eq!(
+        said,
+        [
+            "1 materials have coats with normal maps of their own, which are not used",
+            "1 materials are solid glass, whose colour, roughness, coat and opaque part are not used",
+            "1 materials absorb light inside, which is left out",
+        ]
+    );
+}
+
+#[test]
+fn a_thin_pane_is_no_glass() {
+    let mut document = triangle();
+    document.json["materials"] = json!([{"extensions": {
+        "KHR_materials_transmission": {"transmissionFactor": 1},
+        "KHR_materials_volume": {"thicknessFactor": 0}
+    }, "pbrMetallicRoughness": {"metallicFactor": 0}}]);
+    document.json["meshes"][0]["primitives"][0]["material"] = json!(0);
+    let mesh = load(&document);
+    assert!(!mesh.materials[0].is_glass() && mesh.materials[0].transmission > 0.0);
+}
+
+#[test]
+fn a_clear_coat_that_is_not_gltf_is_an_error() {
+    for (coat, expected) in [
+        (json!({"clearcoatFactor": "much"}), "a factor of its clear coat is not a number"),
+        (json!({"clearcoatTexture": 3}), "its clearcoatTexture is not glTF"),
+        (json!({"clearcoatTexture": {"index": 7}}), "there is no texture 7"),
+    ] {
+        let mut document = triangle();
+        document.json["materials"] = json!([{"extensions": {"KHR_materials_clearcoat": coat}}]);
+        document.json["meshes"][0]["primitives"][0]["material"] = json!(0);
+        let error = load_bytes(&document.glb(), &[]).expect_err(expected);
+        assert!(error.to_string().contains(expected), "{error}");
+    }
+}
+
+#[test]
 fn opaque_ignores_alpha_and_blend_is_cut_at_one_half() {
     for (mode, expected) in [("OPAQUE", (1.0, None)), ("BLEND", (0.5, Some(0.5)))] {
         let mut document = triangle();

@@ -1,6 +1,8 @@
 //! Images: what is kept of each format, and that everything wrong is one clear line.
 
-use compiler::import::{ErrorKind, Image, ImportError, Limits, Pixels, load_image};
+use compiler::import::{
+    Environment, ErrorKind, Image, ImportError, Limits, Pixels, load_environment, load_image,
+};
 use half::f16;
 use image::codecs::{hdr::HdrEncoder, jpeg::JpegEncoder, png::PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, Rgb};
@@ -89,6 +91,52 @@ fn hdr_and_exr_are_linear_and_clamped_with_a_count() {
     let image = load("a.exr", &exr(|x, y| (x as f32, y as f32, 1e9, 1.0))).expect("exr");
     assert_eq!((image.width, image.height, image.clamped, image.has_alpha), (4, 3, 12, false));
     assert_eq!(halves(&image)[4 * 6..4 * 7], [2.0, 1.0, 65504.0, 1.0]);
+}
+
+fn environment(name: &str, bytes: &[u8]) -> Result<Environment, ImportError> {
+    let folder = TempDir::new().expect("temporary folder");
+    let path = folder.path().join(name);
+    fs::write(&path, bytes).expect("write");
+    load_environment(&path, &Limits::default()).map_err(|mut error| {
+        error.place = error.place.replace(&format!("{}/", folder.path().display()), "");
+        error
+    })
+}
+
+#[test]
+fn environments_keep_suns_that_are_too_bright_for_half_floats() {
+    let sun = |x, y| if (x, y) == (2, 1) { (4e6, 1e5, 1.0, 1.0) } else { (0.5, 0.25, 0.0, 1.0) };
+    let found = environment("a.exr", &exr(sun)).expect("radiance");
+    assert_eq!((found.scale, found.image.clamped, found.image.is_radiance), (64.0, 0, true));
+    let texels = halves(&found.image);
+    let near = |texel: usize, expected: [f64; 3]| {
+        let rgb = &texels[4 * texel..4 * texel + 3];
+        rgb.iter().zip(expected).all(|(value, expected)| {
+            (f64::from(*value) * found.scale - expected).abs() <= expected / 2048.0
+        })
+    };
+    assert!(near(6, [4e6, 1e5, 1.0]) && near(0, [0.5, 0.25, 0.0]), "{texels:?}");
+    let dim = environment("a.exr", &exr(|_, _| (1.0, 65504.0, 0.0, 1.0))).expect("radiance");
+    assert_eq!((dim.scale, halves(&dim.image)[1]), (1.0, 65504.0));
+    let picture = environment("a.png", &png(&[9, 128], [1, 1], ExtendedColorType::La8));
+    assert!(!picture.expect("a picture").image.is_radiance);
+}
+
+#[test]
+fn environments_with_texels_that_are_no_radiance_are_refused_by_the_first() {
+    for (value, shown) in [(-1.5, "-1.5"), (f32::NAN, "NaN"), (f32::INFINITY, "inf")] {
+        let bytes =
+            exr(|x, y| if y > 0 && x > 1 { (1.0, value, 1.0, 1.0) } else { (1.0, 1.0, 1.0, 1.0) });
+        let error = environment("sky.exr", &bytes).expect_err("not radiance");
+        assert_eq!(
+            error.to_string(),
+            format!(
+                "sky.exr: texel (2, 1), counted from the top left, has a channel of {shown}; radiance is a \
+                 finite number, 0 or more"
+            )
+        );
+        assert_eq!(error.kind, ErrorKind::Image);
+    }
 }
 
 #[test]

@@ -23,6 +23,7 @@ mod light;
 mod lint;
 mod material;
 mod medium;
+mod motion;
 mod object;
 mod pattern;
 mod render;
@@ -190,7 +191,7 @@ impl Checker {
         match kind {
             Kind::Material => material::check(ev, &fields),
             Kind::Medium => medium::check(ev, ev.program.name_span(id), &fields),
-            Kind::Light => light::check_light(ev, &fields),
+            Kind::Light => light::check_light(ev, id, &fields),
             Kind::Sky => light::check_sky(ev, &fields),
             Kind::Camera => camera::check(ev, &fields),
             _ => {}

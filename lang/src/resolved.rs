@@ -15,8 +15,11 @@ use crate::scene::{
 use crate::schema::color_text;
 use crate::units::{self, Dim};
 
+/// Fields of a declaration and their values, as they would be written.
+type Fields = Vec<(&'static str, String)>;
+
 /// Name of a type and the fields of a declaration.
-type Declared = (&'static str, Vec<(&'static str, String)>);
+type Declared = (&'static str, Fields);
 
 /// Every declaration of the scene, sorted by kind and name.
 #[must_use]
@@ -58,12 +61,20 @@ fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
         block(out, &format!("instance {}", instance.name.text), &fields)?;
     }
     for light in &scene.lights {
-        let fields = [
+        let mut fields = vec![
             ("center", vector(light.center, "m")),
             ("radius", length(light.radius)),
             ("color", color_text(light.radiance)),
             ("strength", "1".to_owned()),
         ];
+        if let Some(tint) = &light.tint {
+            fields.push(("tint.color", color_text(tint.color)));
+            fields.push(("tint.angle", units::show(tint.angle, Dim::ANGLE)));
+            fields.push(("tint.direction", vector(tint.direction, "")));
+        }
+        if light.velocity.iter().any(|c| c.abs() > 0.0) {
+            fields.push(("velocity", vector(light.velocity, "m/s")));
+        }
         block(out, &format!("light {}: sphere", light.name.text), &fields)?;
     }
     for medium in &scene.media {
@@ -113,6 +124,9 @@ fn instance_fields(scene: &Scene, instance: &Instance) -> Vec<(&'static str, Str
         fields.push(("y_axis", vector(column(1), "")));
         fields.push(("z_axis", vector(column(2), "")));
     }
+    if instance.velocity.iter().any(|c| c.abs() > 0.0) {
+        fields.push(("velocity", vector(instance.velocity, "m/s")));
+    }
     fields
 }
 
@@ -151,6 +165,7 @@ fn write_sky(out: &mut String, sky: &Sky) -> fmt::Result {
             ground,
             blend_high,
             blend_low,
+            blend_ground,
             sun_direction,
             glow,
             glow_power,
@@ -163,8 +178,10 @@ fn write_sky(out: &mut String, sky: &Sky) -> fmt::Result {
                 ("middle", rgb(middle)),
                 ("horizon", rgb(horizon)),
                 ("ground", rgb(ground)),
+                ("base", "1".to_owned()),
                 ("blend.high", number(*blend_high)),
                 ("blend.low", number(*blend_low)),
+                ("blend.ground", number(*blend_ground)),
                 one,
                 ("sun.direction", vector(*sun_direction, "")),
                 ("glow.color", rgb(glow)),
@@ -173,6 +190,14 @@ fn write_sky(out: &mut String, sky: &Sky) -> fmt::Result {
                 ("disc.power", number(*disc_power)),
             ];
             ("gradient", fields)
+        }
+        SkyModel::Image { path, rotate, strength, .. } => {
+            let fields = vec![
+                ("file", format!("\"{path}\"")),
+                ("rotate", units::show(*rotate, Dim::ANGLE)),
+                ("strength", number(*strength)),
+            ];
+            ("image", fields)
         }
     };
     block(out, &format!("sky {}: {kind}", sky.name.text), &fields)

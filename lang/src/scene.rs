@@ -405,6 +405,16 @@ pub struct Principled {
     pub roughness: Scalar,
     /// Refractive index of the dielectric part.
     pub ior: f64,
+    /// Factor on the reflectance of the dielectric part, 0 ..= 1.
+    pub specular: Scalar,
+    /// Colour of that reflectance at normal incidence, any non-negative value.
+    pub specular_color: Color,
+    /// Share under a clear coat, 0 ..= 1.
+    pub coat: Scalar,
+    /// Perceptual roughness of the coat, 0 ..= 1.
+    pub coat_roughness: Scalar,
+    /// Share of the light entering that goes through the sheet, 0 ..= 1.
+    pub transmission: Scalar,
     /// Emitted colour.
     pub emission: Color,
     /// Factor on `emission`.
@@ -431,6 +441,8 @@ pub struct Instance {
     /// Rows of the 3x4 matrix `world_from_object`, metres: scale first, then rotate (about x, then
     /// y, then z), then translate; the objects an instance is nested in come after.
     pub world_from_object: [[f64; 4]; 3],
+    /// World frame, metres per second; `world_from_object` is that of the moment 0.
+    pub velocity: [f64; 3],
 }
 
 /// Geometry of an instance, object frame, metres.
@@ -465,12 +477,27 @@ pub enum Shape {
 pub struct Light {
     /// Declared name.
     pub name: Name,
-    /// Centre, world frame, metres.
+    /// Centre at the moment 0, world frame, metres.
     pub center: [f64; 3],
+    /// World frame, metres per second.
+    pub velocity: [f64; 3],
     /// Radius, metres, > 0.
     pub radius: f64,
     /// Radiance, W/(m2 sr) up to the scene's own scale.
     pub radiance: Rgb,
+    /// What colours part of its light.
+    pub tint: Option<Tint>,
+}
+
+/// A factor on the light of a sphere light by the direction from which it comes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tint {
+    /// The factor.
+    pub color: Rgb,
+    /// Largest angle between a tinted ray towards the light and `direction`, radians, 0 .. pi.
+    pub angle: f64,
+    /// Unit vector towards the light, world frame.
+    pub direction: [f64; 3],
 }
 
 /// What a ray sees that leaves the scene.
@@ -478,7 +505,7 @@ pub struct Light {
 pub struct Sky {
     /// Declared name.
     pub name: Name,
-    /// Constant or gradient.
+    /// Where its radiance comes from.
     pub model: SkyModel,
 }
 
@@ -487,21 +514,24 @@ pub struct Sky {
 pub enum SkyModel {
     /// One radiance for every direction.
     Constant(Rgb),
-    /// Bands over the sine of the elevation: `zenith` at 1, `middle` at `blend_high`, `horizon` at
-    /// 0, `ground` at and below `blend_low`; plus glow and disc around `sun_direction`.
+    /// Bands over the sine of the elevation: `zenith` at 1, `horizon` at `blend_low`, `middle` at
+    /// `blend_high` of the way between them, `ground` from `blend_ground` below `blend_low` downwards;
+    /// plus glow and disc around `sun_direction`.
     Gradient {
         /// Straight up.
         zenith: Rgb,
-        /// At sine `blend_high`.
+        /// Between horizon and zenith.
         middle: Rgb,
-        /// At the horizon.
+        /// At sine `blend_low`.
         horizon: Rgb,
-        /// Below sine `blend_low`.
+        /// Lowest.
         ground: Rgb,
-        /// Sine of the elevation, in (0, 1).
+        /// Share of the height from `blend_low` to the zenith, in (0, 1).
         blend_high: f64,
-        /// Sine of the elevation, in (-1, 0).
+        /// Sine of the elevation, in (-1, 1).
         blend_low: f64,
+        /// How much below `blend_low` the ground is reached, > 0; beyond -1 it is not quite.
+        blend_ground: f64,
         /// Unit vector towards the sun.
         sun_direction: [f64; 3],
         /// Added radiance, times `cos^glow_power`.
@@ -512,6 +542,17 @@ pub enum SkyModel {
         disc: Rgb,
         /// Exponent, >= 1.
         disc_power: f64,
+    },
+    /// A lat-long image: its middle towards -z, its right half towards +x, its top row straight up.
+    Image {
+        /// Path relative to the directory of the `.rts` file that declares it, as written.
+        path: String,
+        /// The path literal.
+        path_span: Span,
+        /// Turn about +y, radians, right-handed.
+        rotate: f64,
+        /// Factor on the radiance in the image.
+        strength: f64,
     },
 }
 

@@ -31,6 +31,8 @@ impl Dim {
     pub const TEMPERATURE: Self = Self([0, 0, 0, 1, 0, 0]);
     /// Pixels.
     pub const PIXEL: Self = Self([0, 0, 0, 0, 1, 0]);
+    /// Metres per second.
+    pub const VELOCITY: Self = Self([1, 0, -1, 0, 0, 0]);
     /// Photographic stops.
     pub const EV: Self = Self([0, 0, 0, 0, 0, 1]);
 

@@ -164,6 +164,22 @@ fn objects_come_after_what_they_hold() {
 }
 
 #[test]
+fn what_a_group_holds_moves_with_the_group() {
+    let scene = scene_of_text(&with_view(
+        "material m: diffuse { color = linear(0.5) }\n\
+         object inner { shape = sphere(radius: 1m), material = m, velocity = (1, 0, 0)m/s }\n\
+         object outer { shape = [inner], rotate = (0, 0, 90)deg, scale = 2, velocity = (0, 0, 3)m/s }\n\
+         instance a: outer { rotate = (90, 0, 0)deg, velocity = (0, 36, 0)km/h }\n\
+         instance b: inner { }\n\
+         light l: sphere { center = (0, 9, 0)m, radius = 1m, velocity = (0, 0, 50)mm/ms }",
+    ));
+    // x goes to 2y about z, then y to z and z to -y about x.
+    let [a, b] = [0, 1].map(|i| scene.instances[i].velocity);
+    assert_eq!((a, b), ([0.0, -3.0 + 10.0, 2.0], [1.0, 0.0, 0.0]));
+    assert_eq!(scene.lights[0].velocity, [0.0, 0.0, 50.0]);
+}
+
+#[test]
 fn the_lens_and_the_field_of_view_agree() {
     let camera = |fields: &str| {
         let text = format!(
@@ -193,6 +209,40 @@ fn power_is_spread_over_the_sphere() {
     ));
     let expected = 10.0 / (4.0 * std::f64::consts::PI.powi(2) * 0.25);
     assert!((scene.lights[0].radiance[0] - expected).abs() < 1e-12);
+}
+
+#[test]
+fn a_sun_is_placed_by_direction_distance_and_angle() {
+    let scene = scene_of_text(&with_view(
+        "light l: sphere { direction = (3, 0, 4), distance = 10m, angular_radius = 30deg, \
+         tint.color = linear(1, 0.6, 0.2) }",
+    ));
+    let light = &scene.lights[0];
+    let near = |found: [f64; 3], expected: [f64; 3]| {
+        found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12)
+    };
+    assert!(near(light.center, [6.0, 0.0, 8.0]), "{light:?}");
+    assert!((light.radius - 5.0).abs() < 1e-12, "{light:?}");
+    let tint = light.tint.expect("a tint is written");
+    assert!(near(tint.direction, [0.6, 0.0, 0.8]) && near(tint.color, [1.0, 0.6, 0.2]));
+    assert!((tint.angle.to_degrees() - 18.0).abs() < 1e-12);
+}
+
+#[test]
+fn the_base_scales_the_bands_alone() {
+    let with = |base: &str| {
+        let field = format!("sun.direction = (0, 1, 0), base = {base}");
+        let text = with_view("").replace("constant { }", &format!("gradient {{ {field} }}"));
+        match scene_of_text(&text).sky.map(|sky| sky.model) {
+            Some(SkyModel::Gradient { zenith, ground, glow, disc, .. }) => {
+                (zenith, ground, glow, disc)
+            }
+            other => panic!("{other:?}"),
+        }
+    };
+    let (one, half) = (with("1"), with("0.5"));
+    assert_eq!((half.0, half.1), (one.0.map(|c| c * 0.5), one.1.map(|c| c * 0.5)));
+    assert_eq!((half.2, half.3), (one.2, one.3));
 }
 
 #[test]

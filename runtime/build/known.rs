@@ -31,8 +31,20 @@ type Texts = BTreeMap<String, BTreeSet<(usize, u64)>>;
 
 /// Rust source of `KNOWN: &[Known]`, sorted by text, and of `SWITCHES: &[Switch]`.
 pub(crate) fn table() -> Result<String, Box<dyn Error>> {
-    let families =
-        [materials(), media(), geometry(), views(), formats(), asked(), normals(), samplers()];
+    let families = [
+        materials(),
+        media(),
+        geometry(),
+        views(),
+        formats(),
+        asked(),
+        normals(),
+        samplers(),
+        tints(),
+        trees(),
+        layers(),
+        motion(),
+    ];
     let mut declarations: BTreeMap<String, Texts> = BTreeMap::new();
     for (f, family) in families.iter().enumerate() {
         for (bits, features) in &family.members {
@@ -174,19 +186,23 @@ fn materials() -> Family {
 fn media() -> Family {
     let mut members = Vec::new();
     for (media, scattering) in [(false, false), (true, false), (true, true)] {
-        for (fog, through) in [(false, false), (false, true), (true, false), (true, true)] {
+        let behind = [(false, false), (true, false), (true, true)];
+        let both = behind.map(|behind| [(false, behind), (true, behind)]);
+        for (fog, (through, sheets)) in both.into_iter().flatten() {
             let rows = [
                 (media, bit::MEDIA),
                 (scattering, bit::SCATTERING),
                 (fog, bit::FOG),
                 (through, bit::THROUGH),
+                (sheets, bit::SHEETS),
             ];
             let bits = rows.iter().filter(|row| row.0).map(|row| row.1).sum();
-            let features = FeatureSet { media, scattering, fog, through, ..FeatureSet::full() };
+            let features =
+                FeatureSet { media, scattering, fog, through, sheets, ..FeatureSet::full() };
             members.push((bits, features));
         }
     }
-    Family { mask: bit::MEDIA | bit::SCATTERING | bit::FOG | bit::THROUGH, members }
+    Family { mask: bit::MEDIA | bit::SCATTERING | bit::FOG | bit::THROUGH | bit::SHEETS, members }
 }
 
 /// Rust source of `SWITCHES: &[Switch]`: the functions that switch over the kinds of materials. With
@@ -227,6 +243,20 @@ fn asked() -> Family {
     Family { mask: bit::OBJECTS, members }
 }
 
+/// Layers of principled surfaces.
+fn layers() -> Family {
+    let bits = [bit::PRINCIPLED_SPECULAR, bit::PRINCIPLED_COAT, bit::PRINCIPLED_TRANSMISSION];
+    let member = |rows: BTreeSet<u64>| {
+        let [principled_specular, principled_coat, principled_transmission] =
+            bits.map(|bit| rows.contains(&bit));
+        let full = FeatureSet::full();
+        let features =
+            FeatureSet { principled_specular, principled_coat, principled_transmission, ..full };
+        (rows.iter().sum(), features)
+    };
+    Family { mask: bits.iter().sum(), members: subsets(&bits).into_iter().map(member).collect() }
+}
+
 /// What tilts shading normals.
 fn normals() -> Family {
     let members = [(0, false), (bit::NORMAL_MAPS, true)].into_iter();
@@ -236,14 +266,23 @@ fn normals() -> Family {
     Family { mask: bit::NORMAL_MAPS, members }
 }
 
+/// Whether anything moves.
+fn motion() -> Family {
+    let members = [(0, false), (bit::MOTION, true)].into_iter();
+    let members =
+        members.map(|(bits, motion)| (bits, FeatureSet { motion, ..FeatureSet::full() })).collect();
+    Family { mask: bit::MOTION, members }
+}
+
 fn skies_and_lens() -> Vec<(u64, FeatureSet)> {
     let of = |sky: &SkyKind| match sky {
         SkyKind::Constant => bit::SKY_CONSTANT,
         SkyKind::Gradient => bit::SKY_GRADIENT,
+        SkyKind::Image => bit::SKY_IMAGE,
     };
     let mut members = Vec::new();
     for lens in [false, true] {
-        for skies in subsets(&[SkyKind::Constant, SkyKind::Gradient]) {
+        for skies in subsets(&SkyKind::ALL) {
             let bits = skies.iter().map(of).sum::<u64>() | if lens { bit::LENS } else { 0 };
             members.push((bits, FeatureSet { lens, skies, ..FeatureSet::full() }));
         }
@@ -251,8 +290,24 @@ fn skies_and_lens() -> Vec<(u64, FeatureSet)> {
     members
 }
 
+/// Tinted lights.
+fn tints() -> Family {
+    let member =
+        |tint| (if tint { bit::TINT } else { 0 }, FeatureSet { tint, ..FeatureSet::full() });
+    Family { mask: bit::TINT, members: [false, true].map(member).into() }
+}
+
+/// The tree of lights.
+fn trees() -> Family {
+    let member = |light_tree| {
+        let bits = if light_tree { bit::LIGHT_TREE } else { 0 };
+        (bits, FeatureSet { light_tree, ..FeatureSet::full() })
+    };
+    Family { mask: bit::LIGHT_TREE, members: [false, true].map(member).into() }
+}
+
 fn views() -> Family {
-    let mask = bit::SKY_CONSTANT | bit::SKY_GRADIENT | bit::LENS;
+    let mask = bit::SKY_CONSTANT | bit::SKY_GRADIENT | bit::SKY_IMAGE | bit::LENS;
     Family { mask, members: skies_and_lens() }
 }
 
@@ -287,11 +342,11 @@ fn samplers() -> Family {
 /// Shapes, lights, cut-outs, and whether there are textures at all. Any formats of textures stand
 /// for all: their own family covers them.
 fn geometry() -> Family {
-    let lights = [LightKind::Sphere, LightKind::Rectangle, LightKind::Triangle];
     let of = |kind: &LightKind| match kind {
         LightKind::Sphere => bit::LIGHT_SPHERE,
         LightKind::Rectangle => bit::LIGHT_RECTANGLE,
         LightKind::Triangle => bit::LIGHT_TRIANGLE,
+        LightKind::Sky => bit::LIGHT_SKY,
     };
     let format_bits: Vec<u64> =
         subsets(&FORMATS.map(|row| row.1)).iter().map(|rows| rows.iter().sum()).collect();
@@ -312,7 +367,7 @@ fn geometry() -> Family {
             (true, false, true),
             (true, true, true),
         ] {
-            for lights in subsets(&lights) {
+            for lights in subsets(&LightKind::ALL) {
                 let mut bits = lights.iter().map(of).sum::<u64>();
                 bits |= if triangles { bit::TRIANGLES } else { 0 };
                 bits |= if spheres { bit::SPHERES } else { 0 };
@@ -321,6 +376,7 @@ fn geometry() -> Family {
                 let possible = lights.iter().all(|kind| match kind {
                     LightKind::Sphere => spheres,
                     LightKind::Rectangle | LightKind::Triangle => triangles,
+                    LightKind::Sky => triangles || spheres,
                 });
                 if !possible {
                     continue;
@@ -348,6 +404,7 @@ fn geometry() -> Family {
         | bit::LIGHT_SPHERE
         | bit::LIGHT_RECTANGLE
         | bit::LIGHT_TRIANGLE
+        | bit::LIGHT_SKY
         | bit::ALPHA_CLIP
         | bit::TANGENTS
         | FORMATS.iter().map(|row| row.1).sum::<u64>();

@@ -20,7 +20,7 @@ const BOUND: [(u32, Kind); 5] = [
 ];
 
 /// Small tables that share one buffer, in this order.
-const HEAP: [Kind; 8] = [
+const HEAP: [Kind; 10] = [
     Kind::CAMERA,
     Kind::SKY,
     Kind::MATERIAL,
@@ -29,6 +29,8 @@ const HEAP: [Kind; 8] = [
     Kind::LIGHT,
     Kind::TEXTURE,
     Kind::SRGBLUT,
+    Kind::SKYTABLE,
+    Kind::LIGHTNODE,
 ];
 
 /// Bytes of one window of a section: the largest binding that every device has. Window `w` of binding
@@ -106,10 +108,25 @@ impl Scene {
             }
             at
         });
-        let [camera_at, sky_at, material_at, object_at, medium_at, light_at, texture_at, srgb_at] =
-            at;
+        let [
+            camera_at,
+            sky_at,
+            material_at,
+            object_at,
+            medium_at,
+            light_at,
+            texture_at,
+            srgb_at,
+            sky_table_at,
+            light_tree_at,
+        ] = at;
         // The full kernel asks this number whether there is a sky; a specialised one knows.
         let sky_at = if self.pack.sky().is_some() { sky_at } else { NONE };
+        let has_tree = self.pack.section_bytes(Kind::LIGHTNODE).is_some();
+        let light_tree_at = if has_tree { light_tree_at } else { NONE };
+        // Likewise whether there are objects.
+        let has_objects = self.pack.section_bytes(Kind::OBJECT).is_some();
+        let object_at = if has_objects { object_at } else { NONE };
         let frame = Frame {
             image_size: job.image_size,
             seed: job.seed,
@@ -124,6 +141,8 @@ impl Scene {
             light_at,
             texture_at,
             srgb_at,
+            sky_table_at,
+            light_tree_at,
             root: settings.root,
             estimator: job.estimator,
             sampler: settings.sampler,

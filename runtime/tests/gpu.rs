@@ -119,7 +119,7 @@ fn an_unknown_name_lists_what_there_is() {
 fn a_lost_device_is_replaced_and_the_picture_is_the_same() {
     let Some(device) = device() else { return };
     let scene = scene();
-    let samples = SampleRange { start: 0, end: 64 };
+    let samples = SampleRange { start: 0, end: 128 };
     let job = Job { submission: Duration::from_nanos(1), samples, ..Job::of_scene(&scene) };
     let notes = Arc::new(Mutex::new(Vec::new()));
     let sink = Arc::clone(&notes);

@@ -41,6 +41,11 @@ pub const EXAMPLES: &[Example] = &[
         about: "a tea table from a generated GLB: textures, brass, alpha, a glowing lamp",
         assets: &["tea_table.glb"],
     },
+    Example {
+        name: "terrace",
+        about: "an evening sky from an HDR image, whose sun is sampled as a light",
+        assets: &["evening.hdr"],
+    },
 ];
 
 /// The example called `name`.

@@ -1,4 +1,4 @@
-//! Procedural assets: parameters become OBJ and GLB files beside the scene that uses them.
+//! Procedural assets: parameters become OBJ, GLB and HDR files beside the scene that uses them.
 //!
 //! The same code gives the same bytes on every machine: all transcendental functions are `libm`'s,
 //! and nothing depends on time, threads or directories. It does not know the renderer.
@@ -8,6 +8,7 @@
     reason = "files hold f32, u32 and bytes; the numbers written here are small"
 )]
 
+mod evening;
 mod glb;
 mod knot;
 mod lathe;
@@ -27,6 +28,7 @@ pub fn generate(name: &str, dir: &Path) -> std::io::Result<PathBuf> {
     let path = dir.join(name);
     match name {
         "knot.obj" => write_atomically(&path, &knot::obj(knot::Resolution::FULL)),
+        "evening.hdr" => write_atomically(&path, &evening::hdr()?),
         "tea_table.glb" => write_atomically(&path, &tea_table::glb()),
         _ => Err(std::io::Error::other(format!("no generator makes `{name}`"))),
     }?;

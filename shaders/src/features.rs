@@ -21,6 +21,10 @@ pub struct FeatureSet {
     pub materials: BTreeSet<MaterialKind>,
     /// Kinds in the light selection table.
     pub lights: BTreeSet<LightKind>,
+    /// Lights are chosen by a tree.
+    pub light_tree: bool,
+    /// Some light is tinted by direction.
+    pub tint: bool,
     /// Kinds of sky; none is black. A scene has at most one, the full kernel knows all.
     pub skies: BTreeSet<SkyKind>,
     /// The camera has a lens of radius > 0.
@@ -45,6 +49,16 @@ pub struct FeatureSet {
     pub fog: bool,
     /// Some material has the flag `THROUGH`.
     pub through: bool,
+    /// And has no inside: a thin sheet.
+    pub sheets: bool,
+    /// Some principled material has a specular factor or colour.
+    pub principled_specular: bool,
+    /// Some principled material has a coat.
+    pub principled_coat: bool,
+    /// Some principled material lets light through.
+    pub principled_transmission: bool,
+    /// Some object moves while the shutter is open.
+    pub motion: bool,
     /// Entries of the traversal stack, at least 1: `RenderSettings::stack_need`.
     pub stack_size: u32,
     /// How many bindings each section is split into.
@@ -94,6 +108,8 @@ impl FeatureSet {
             smooth_normals: false,
             materials: BTreeSet::new(),
             lights: BTreeSet::new(),
+            light_tree: false,
+            tint: false,
             skies: BTreeSet::new(),
             lens: false,
             samplers: [SamplerKind::Sobol].into(),
@@ -106,6 +122,11 @@ impl FeatureSet {
             scattering: false,
             fog: false,
             through: false,
+            sheets: false,
+            principled_specular: false,
+            principled_coat: false,
+            principled_transmission: false,
+            motion: false,
             stack_size: 1,
             windows: Windows::default(),
         }
@@ -119,8 +140,10 @@ impl FeatureSet {
             spheres: true,
             smooth_normals: true,
             materials: MaterialKind::ALL.into(),
-            lights: [LightKind::Sphere, LightKind::Rectangle, LightKind::Triangle].into(),
-            skies: [SkyKind::Constant, SkyKind::Gradient].into(),
+            lights: LightKind::ALL.into(),
+            light_tree: true,
+            tint: true,
+            skies: SkyKind::ALL.into(),
             lens: true,
             samplers: SamplerKind::ALL.into(),
             textures: [
@@ -137,6 +160,11 @@ impl FeatureSet {
             scattering: true,
             fog: true,
             through: true,
+            sheets: true,
+            principled_specular: true,
+            principled_coat: true,
+            principled_transmission: true,
+            motion: true,
             stack_size: 96,
             windows: Windows::default(),
         }
@@ -148,12 +176,19 @@ impl FeatureSet {
         self.triangles || self.spheres
     }
 
+    /// Whether some light is a surface that rays can hit.
+    #[must_use]
+    pub fn surface_lights(&self) -> bool {
+        self.lights.iter().any(|kind| *kind != LightKind::Sky)
+    }
+
     /// The buffers that the linked kernel declares, by number. An error if they are more than every
     /// device can bind.
     pub fn bindings(&self) -> Result<Vec<Binding>, ShaderError> {
         let windows = &self.windows;
         let geometry = self.geometry();
-        let textures = geometry && !self.textures.is_empty();
+        let seen = geometry || self.skies.contains(&SkyKind::Image);
+        let textures = seen && !self.textures.is_empty();
         let sections = [
             (0, "frame_words", true, 1),
             (1, "film_words", true, 1),

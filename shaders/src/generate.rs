@@ -1,10 +1,14 @@
 //! A [`FeatureSet`] becomes the `scene/…` modules: everything that differs from scene to scene.
 
 mod bindings;
+mod choice;
 mod constants;
 mod dispatch;
 mod media;
+mod motion;
+mod principled;
 mod records;
+mod sky;
 mod traversal;
 
 use crate::{FeatureSet, ShaderError};
@@ -14,23 +18,32 @@ use std::fmt::Write as _;
 /// The generated modules of a scene: name and text, sorted by name.
 pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, String)>, ShaderError> {
     Ok(vec![
+        ("scene/bare.wgsl", principled::bare(features)),
         ("scene/bindings.wgsl", bindings::text(&features.bindings()?)),
         ("scene/candidate.wgsl", traversal::candidate(features)),
         ("scene/constants.wgsl", constants::text(features)),
         ("scene/crossing.wgsl", media::crossing(features)),
         ("scene/dispatch.wgsl", dispatch::path(features)),
         ("scene/dispatch_bsdf.wgsl", dispatch::bsdf(features)),
+        ("scene/dispatch_choice.wgsl", choice::text(features)),
         ("scene/dispatch_light.wgsl", dispatch::light(features)),
         ("scene/dispatch_pattern.wgsl", dispatch::pattern(features)),
         ("scene/ends.wgsl", media::ends(features)),
         ("scene/fog.wgsl", media::fog(features)),
         ("scene/inside.wgsl", media::inside(features)),
+        ("scene/dispatch_radiance.wgsl", sky::radiance(features)),
+        ("scene/dispatch_sky.wgsl", sky::sky(features)),
+        ("scene/dispatch_tint.wgsl", choice::tint(features)),
+        ("scene/layers.wgsl", principled::layers(features)),
         ("scene/leaf.wgsl", traversal::leaf(features)),
+        ("scene/motion.wgsl", motion::text(features)),
         ("scene/place.wgsl", dispatch::place(features)),
+        ("scene/principled.wgsl", principled::outer(features)),
         ("scene/records.wgsl", records::text()),
         ("scene/sampler.wgsl", dispatch::sampler(features)),
         ("scene/segment.wgsl", media::segment(features)),
         ("scene/shadow.wgsl", media::shadow(features)),
+        ("scene/straight.wgsl", dispatch::straight(features)),
         ("scene/texel.wgsl", dispatch::texel(features)),
         ("scene/texture.wgsl", dispatch::texture(features)),
         ("scene/through.wgsl", media::through(features)),

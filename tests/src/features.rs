@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use compiler::pipeline::Compiled;
+use lang::scene::Scene;
 use pack::{Checked, Pack};
 
 /// A scene that exercises one feature.
@@ -27,12 +28,13 @@ pub const CASES: &[Case] = &[
     // Without geometry, without a sky, with one sort of geometry.
     case("sky alone", &[SKY]),
     Case { camera: LENS, ..case("gradient sky alone, through a lens", &[GRADIENT]) },
+    case("image sky alone", &[PANORAMA]),
     case("spheres alone", &[SKY, CLAY, BALL]),
     case("triangles alone", &[SKY, CLAY, BOX]),
     case("black sky", &[SPHERE_LIGHT, CLAY, BALL, FLOOR]),
     Case { camera: LENS, ..case("lens", &[SKY, CLAY, BALL, FLOOR]) },
     // The other sampler, at everything that draws numbers, and in the kernel without geometry.
-    Case { camera: LENS, render: PCG, ..case("independent samples", ALL) },
+    Case { camera: LENS_AND_SHUTTER, render: PCG, ..case("independent samples", DRAWS) },
     Case { render: PCG, ..case("independent samples of the sky", &[GRADIENT]) },
     // Materials.
     case("diffuse", &[GRADIENT, CLAY, BALL, FLOOR]),
@@ -101,6 +103,22 @@ pub const CASES: &[Case] = &[
         &[LAMP, PANEL, GLOWING_TENT, SPHERE_LIGHT, SKY, PLASTIC, BALL, FLOOR],
     ),
     case("light with a picture and holes", &[WEAR, PAINT, LACE_LAMP, PANEL, CLAY, BALL, FLOOR]),
+    // The sky as a light.
+    case("image sky", &[PANORAMA, PLASTIC, BALL, FLOOR]),
+    case("image sky on metal", &[PANORAMA, FUZZY, BALL, TENT, FLOOR]),
+    case(
+        "image sky and other lights",
+        &[PANORAMA, SPHERE_LIGHT, LAMP, PANEL, PLASTIC, BALL, FLOOR],
+    ),
+    case("a picture as the sky, turned", &[POSTCARD, CLAY, BALL, FLOOR]),
+    case("gradient sky without a sun", &[BANDS, PLASTIC, BALL, FLOOR]),
+    case("tinted light", &[TINTED, SKY, PLASTIC, BALL, FLOOR]),
+    case("tree of lights", &[LAMP, MANY_LAMPS, PLASTIC, BALL, FLOOR]),
+    case(
+        "tree of lights of every kind and the sky",
+        &[PANORAMA, TINTED, LAMP_BOTH, PANEL, MANY_LAMPS, SPARKS, FUZZY, BALL, FLOOR],
+    ),
+    case("gradient sky and a sphere light", &[GRADIENT, SPHERE_LIGHT, PLASTIC, BALL, FLOOR]),
     // Textures.
     case("sRGB texture, repeated", &[SKY, PAINT, PAINTED, BALL, QUILT]),
     case("texture on spheres alone", &[SKY, PAINT, PAINTED, BALL]),
@@ -113,6 +131,16 @@ pub const CASES: &[Case] = &[
     case("alpha on triangles", &[GRADIENT, SPHERE_LIGHT, WEAR, LACE, TENT, FLOOR]),
     case("smooth normals", &[GRADIENT, SPHERE_LIGHT, PLASTIC, TENT, FLOOR]),
     case("mirrored instances", &[GRADIENT, SPHERE_LIGHT, PLASTIC, MIRRORED, FLOOR]),
+    // Layers of principled surfaces, smooth and rough, with and without textures.
+    case("coat", &[GRADIENT, SPHERE_LIGHT, COATED, BALL, TENT, FLOOR]),
+    case("smooth coat", &[GRADIENT, SPHERE_LIGHT, VARNISH, BALL, FLOOR]),
+    case("specular colour", &[GRADIENT, SPHERE_LIGHT, SILK, BALL, FLOOR]),
+    case("pane", &[GRADIENT, SPHERE_LIGHT, PANE, BALL, TENT, FLOOR]),
+    case("frosted pane", &[GRADIENT, SPHERE_LIGHT, FROSTED_PANE, BALL, TENT, FLOOR]),
+    case(
+        "every layer, textured",
+        &[GRADIENT, LAMP, PANEL, PAINT, WEAR, BUMPS, LAYERED, BALL, QUILT, FLOOR],
+    ),
     // Normal maps: steep, over mirrored coordinates and interpolated normals, from both sides.
     case(
         "normal map on plastic",
@@ -134,15 +162,36 @@ pub const CASES: &[Case] = &[
     case("water", &[GRADIENT, SPHERE_LIGHT, POND, CLAY, BALL, FLOOR]),
     case("sea", &[GRADIENT, SPHERE_LIGHT, SEA, CLAY, BALL]),
     case("priorities alone", &[GRADIENT, LAMP, PANEL, PRIORITIES, FLOOR]),
-    Case { camera: LENS, ..case("all", ALL) },
+    // Things that move while the shutter is open.
+    Case { camera: SHUTTER, ..case("moving sphere", &[GRADIENT, PLASTIC, MOVING_BALL, FLOOR]) },
+    Case { camera: SHUTTER, ..case("moving box alone", &[SKY, CLAY, MOVING_BOX]) },
+    Case {
+        camera: SHUTTER,
+        ..case("moving cut-outs", &[SKY, SPHERE_LIGHT, WEAR, LACE, MOVING_BALL, MOVING_TENT, FLOOR])
+    },
+    Case {
+        camera: SHUTTER,
+        ..case(
+            "moving lights",
+            &[LAMP, MOVING_PANEL, MOVING_SHADE, MOVING_LIGHT, PLASTIC, BALL, FLOOR],
+        )
+    },
+    Case {
+        camera: SHUTTER,
+        ..case(
+            "moving light with a picture and holes",
+            &[WEAR, PAINT, LACE_LAMP, MOVING_PANEL, CLAY, MOVING_BALL, FLOOR],
+        )
+    },
+    Case { camera: LENS_AND_SHUTTER, ..case("all", ALL) },
 ];
 
 const ALL: &[&str] = &[
     GRADIENT,
-    SPHERE_LIGHT,
+    TINTED,
     LAMP,
-    PANEL,
-    GLOWING_TENT,
+    MOVING_PANEL,
+    MANY_LAMPS,
     WEAR,
     PAINT,
     GLOW,
@@ -157,9 +206,15 @@ const ALL: &[&str] = &[
     FLOOR,
 ];
 
+/// Something of everything that draws random numbers.
+const DRAWS: &[&str] =
+    &[GRADIENT, SPHERE_LIGHT, LAMP, PANEL, BRUSHED, MOVING_BALL, MILK, NESTED_BALLS, SAKURA, FLOOR];
+
 const PCG: &str = ", sampler = pcg";
 
 const LENS: &str = "  aperture = 40cm\n  focus = 5m\n";
+const SHUTTER: &str = "  shutter = -5ms..15ms\n";
+const LENS_AND_SHUTTER: &str = "  aperture = 40cm\n  focus = 5m\n  shutter = 0ms..20ms\n";
 
 const SKY: &str = "sky day: constant { color = linear(0.6, 0.8, 1.0) }\n";
 const GRADIENT: &str = "sky day: gradient {
@@ -168,7 +223,22 @@ const GRADIENT: &str = "sky day: gradient {
   disc.color = linear(20)
 }\n";
 
+const BANDS: &str = "sky day: gradient { blend.high = 0.6, blend.low = 0.1, base = 2 }\n";
+/// A sun of one texel over a dim sky.
+const PANORAMA: &str = "sky garden: image { file = \"panorama.exr\", strength = 0.5 }\n";
+const POSTCARD: &str = "sky card: image { file = \"paint.png\", rotate = 200deg }\n";
+
 const SPHERE_LIGHT: &str = "light bulb: sphere { center = (2, 4, 2)m, radius = 30cm, color = blackbody(3200K), strength = 20 }\n";
+const TINTED: &str = "light bulb: sphere {
+  center = (2, 4, 2)m
+  radius = 90cm
+  strength = 5
+  tint.color = linear(1, 0.65, 0.22)
+  tint.angle = 14deg
+}\n";
+const MANY_LAMPS: &str = "asset canopy = obj(\"tent.obj\", unit: m, up: +y)
+instance shade[i in 0..6] { shape = canopy, material = lamp, at = (i - 2.5, 2.2 + 0.3 * i, 0.5)m, scale = 0.4 }\n";
+const SPARKS: &str = "instance spark[i in 0..5] { shape = sphere(radius: 5cm), material = lamp, at = (i - 2, 0.3, 2)m }\n";
 const LAMP: &str =
     "material lamp: emissive { color = linear(1, 0.9, 0.7), strength = 8, sides = front }\n";
 const LAMP_BOTH: &str = "material lamp: emissive { color = linear(0.7, 0.9, 1), strength = 8 }\n";
@@ -211,10 +281,25 @@ const PRIORITIES: &str = "material m: dielectric { ior = 1.5, priority = 2 }
 material n: dielectric { ior = 1.33, priority = 1 }
 instance ball { shape = sphere(radius: 1m), material = n, at = (0, 1, 0)m }
 instance crate { shape = box(size: (1.5, 0.5, 1.5)m), material = m, at = (0, 0.5, 0.3)m }\n";
+const MOVING_LIGHT: &str = "light bulb: sphere { center = (2, 4, 2)m, radius = 30cm, strength = 20, velocity = (-80, -20, 30)m/s }\n";
+const MOVING_PANEL: &str = "instance panel {
+  shape = rectangle(size: (2, 1)m)
+  material = lamp
+  rotate = (180, 0, 30)deg
+  at = (0, 4, 0)m
+  velocity = (40, -30, 10)m/s
+}\n";
+const MOVING_SHADE: &str = "asset canopy = obj(\"tent.obj\", unit: m, up: +y)
+object wing { shape = canopy, material = lamp, at = (-1, 2.5, 0.5)m, velocity = (0, 30, 0)m/s }
+instance shade { shape = [wing], velocity = (50, 0, 0)m/s }\n";
 
 const FLOOR: &str = "material grey: diffuse { color = linear(0.6) }
 instance floor { shape = rectangle(size: (20, 20)m), material = grey }\n";
 const BALL: &str = "instance ball { shape = sphere(radius: 1m), material = m, at = (0, 1, 0)m }\n";
+const MOVING_BALL: &str = "instance ball { shape = sphere(radius: 1m), material = m, at = (0, 1, 0)m, velocity = (60, 10, -30)m/s }\n";
+const MOVING_BOX: &str = "instance crate { shape = box(size: (1, 1, 1)m), material = m, rotate = (0, 30, 0)deg, at = (0, 0.7, 1)m, velocity = (0, 40, 20)m/s }\n";
+const MOVING_TENT: &str = "asset tent = obj(\"tent.obj\", unit: m, up: +y)
+instance canvas { shape = tent, material = m, at = (1.2, 0, 1.6)m, scale = (1, 1.5, 1), velocity = (-50, 0, -10)m/s }\n";
 const BOX: &str = "instance crate { shape = box(size: (1, 1, 1)m), material = m, rotate = (0, 30, 0)deg, at = (0, 0.7, 1)m }\n";
 const TENT: &str = "asset tent = obj(\"tent.obj\", unit: m, up: +y)
 instance canvas { shape = tent, material = m, at = (1.2, 0, 1.6)m, scale = (1, 1.5, 1) }\n";
@@ -224,6 +309,25 @@ instance two { shape = tent, material = m, at = (-1, 0.9, 1)m, scale = (-1.5, -1
 /// Texture coordinates from -1.4 to 2.3.
 const QUILT: &str = "asset quilt = obj(\"quilt.obj\", unit: m, up: +y)
 instance spread { shape = quilt, material = m, rotate = (70, 0, 0)deg, at = (-1.6, 1, 1)m }\n";
+
+const COATED: &str = "material m: principled { color = linear(0.5, 0.05, 0.02), roughness = 0.6, coat.weight = 0.9, coat.roughness = 0.2 }\n";
+const VARNISH: &str =
+    "material m: principled { color = linear(0.4, 0.2, 0.1), metallic = 0.3, coat.weight = 1 }\n";
+const SILK: &str = "material m: principled { color = linear(0.3), specular = 0.8, specular.color = linear(4, 2, 0.5), roughness = 0.4 }\n";
+const PANE: &str =
+    "material m: principled { color = linear(0.9, 1, 0.8), roughness = 0, transmission = 1 }\n";
+const FROSTED_PANE: &str = "material m: principled { color = linear(0.9, 0.8, 1), roughness = 0.4, transmission = 0.7, metallic = 0.1 }\n";
+const LAYERED: &str = "material m: principled {
+  color = paint.rgb
+  roughness = wear.g
+  metallic = wear.b
+  specular = wear.g
+  specular.color = paint.rgb
+  coat.weight = wear.b
+  coat.roughness = wear.g
+  transmission = wear.a
+  normal = bumps.rgb
+}\n";
 
 /// The back of the quilt.
 const QUILT_BACK: &str = "asset quilt = obj(\"quilt.obj\", unit: m, up: +y)
@@ -240,6 +344,8 @@ const CLAY: &str = "material m: diffuse { color = linear(0.7, 0.4, 0.2) }\n";
 const PLASTIC: &str = "material m: principled { color = linear(0.1, 0.3, 0.8), roughness = 0.3 }\n";
 const LEAF: &str = "material m: leaf { color = linear(0.5, 0.6, 0.2), translucency = 40% }\n";
 const PETAL: &str = "material m: petal { color = linear(0.9, 0.6, 0.7), sigma_s = 5/mm }\n";
+const SAKURA: &str = "material sakura: petal { color = linear(0.9, 0.6, 0.7) }
+instance blossom { shape = sphere(radius: 30cm), material = sakura, at = (1.6, 0.3, 1)m }\n";
 const FUZZY: &str = "material m: metal { color = linear(0.8), fuzz = 0.2 }\n";
 const GOLD: &str = "material m: conductor { color = linear(1, 0.7, 0.3), roughness = 0.4 }\n";
 const IRON: &str =
@@ -301,6 +407,10 @@ const MANY: &str = "material m: principled {
   normal = bumps.rgb
   roughness = wear.g
   metallic = wear.b
+  specular = 0.5
+  coat.weight = 0.3
+  coat.roughness = wear.g
+  transmission = 0.2
   emission.color = glow.rgb
   emission.strength = 0.1
   alpha = wear.a
@@ -315,9 +425,9 @@ material lacquer: clearcoat { color = linear(0.7, 0.1, 0.1) }
 material maple: leaf { color = linear(0.5, 0.2, 0.1) }
 material sakura: petal { color = linear(0.9, 0.6, 0.7) }
 asset tent = obj(\"tent.obj\", unit: m, up: +y)
-instance a { shape = sphere(radius: 60cm), material = glass, at = (-1.5, 0.6, 1)m }
+instance a { shape = sphere(radius: 60cm), material = glass, at = (-1.5, 0.6, 1)m, velocity = (20, 0, 0)m/s }
 instance b { shape = box(size: (1, 1, 1)m), material = clay, rotate = (0, 30, 0)deg, at = (1.8, 0.5, -1)m }
-instance c { shape = tent, material = m, at = (0.6, 0, 1.4)m, scale = (-1, 1, 1) }
+instance c { shape = tent, material = m, at = (0.6, 0, 1.4)m, scale = (-1, 1, 1), velocity = (0, 15, 0)m/s }
 instance d { shape = sphere(radius: 50cm), material = brass, at = (0, 0.5, -1)m }
 instance e { shape = sphere(radius: 40cm), material = m, at = (-0.4, 1.6, 0)m }
 instance f { shape = sphere(radius: 30cm), material = steel, at = (0.8, 1.6, 0)m }
@@ -351,6 +461,15 @@ pub fn named(name: &str) -> &'static Case {
 /// When the case is not a scene.
 #[must_use]
 pub fn compiled(case: &Case) -> Compiled {
+    changed(case, |_| {})
+}
+
+/// Compiles a case after `change` has altered its checked scene.
+///
+/// # Panics
+/// When the case is not a scene.
+#[must_use]
+pub fn changed(case: &Case, change: impl FnOnce(&mut Scene)) -> Compiled {
     let dir = tempfile::tempdir().expect("a temporary directory can be made");
     write_files(dir.path());
     let Case { parts, camera, render, .. } = case;
@@ -367,7 +486,7 @@ camera eye: perspective {{
 film small {{ size = (40, 30)px }}
 render main: path {{ camera = eye, film = small, samples = 8, depth = 8, seed = 7{render}{air} }}\n",
     );
-    crate::scene::compile_in(dir.path(), &text)
+    crate::scene::compile_changed(dir.path(), &text, change)
 }
 
 /// Compiles a case into a checked pack.
@@ -390,6 +509,12 @@ fn write_files(dir: &Path) {
     save("wear.png", |x, y| [0, 60 + x * 12, y * 30, if (x + y) % 3 == 0 { 0 } else { 255 }]);
     let glow = |x: usize, y: usize| (x as f32 * 0.25, y as f32 * 0.5, 1.5_f32);
     exr::prelude::write_rgb_file(dir.join("glow.exr"), 6, 5, glow)
+        .expect("an image can be written");
+    let sun = |x: usize, y: usize| {
+        let dim = 0.1 + 0.05 * (x % 3) as f32 + 0.02 * y as f32;
+        if (x, y) == (5, 2) { (400.0, 300.0, 150.0) } else { (dim, dim, 0.3_f32) }
+    };
+    exr::prelude::write_rgb_file(dir.join("panorama.exr"), 16, 8, sun)
         .expect("an image can be written");
     for (name, text) in [("tent.obj", TENT_OBJ), ("quilt.obj", QUILT_OBJ)] {
         std::fs::write(dir.join(name), text).expect("a mesh can be written");

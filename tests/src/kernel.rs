@@ -1,10 +1,12 @@
 //! Hand-made records → the generated kernel, in both precisions, so that tests can call any WGSL function.
 
+use crate::layers::Layers;
 use bytemuck::Pod;
+use compiler::lower::Lowered;
 use glam::{DVec2, DVec3, UVec4, Vec3};
 use pack::abi::{
-    Camera, Frame, Light, Material, MaterialKind, Medium, NONE, Node, Object, SamplerKind, Sphere,
-    TriShade, Triangle,
+    Camera, Frame, Light, LightNode, Material, MaterialKind, Medium, NONE, Node, Object,
+    SamplerKind, Sky, Sphere, TriShade, Triangle,
 };
 use runtime::kernel::{f32 as single, f64 as double};
 
@@ -32,7 +34,8 @@ impl Default for Bench {
 }
 
 impl Bench {
-    /// No geometry, no lights, no sky. Random numbers are independent, as chi-square tests take them.
+    /// No geometry, no lights, no sky; one material without textures or layers. Random numbers are
+    /// independent, as chi-square tests take them.
     #[must_use]
     pub fn new() -> Self {
         let sampler = SamplerKind::Pcg as u32;
@@ -43,6 +46,7 @@ impl Bench {
             air: NONE,
             fog: NONE,
             inside: [NONE; 4],
+            light_tree_at: NONE,
             image_size: [64, 64],
             ..Frame::default()
         };
@@ -50,7 +54,7 @@ impl Bench {
         let bench = Self {
             frame,
             frame_words: none(),
-            heap: none(),
+            heap: words(&[Material::from(Layers::PLAIN)]),
             nodes: none(),
             triangles: none(),
             shades: none(),
@@ -106,6 +110,36 @@ impl Bench {
         self.frame.medium_at = self.heap_end();
         self.heap.extend(words(media));
         self.framed()
+    }
+
+    /// With a tree over the table of lights.
+    #[must_use]
+    pub fn light_tree(mut self, nodes: &[LightNode]) -> Self {
+        self.frame.light_tree_at = self.heap_end();
+        self.heap.extend(words(nodes));
+        self.framed()
+    }
+
+    /// With a sky and the table by which it is sampled.
+    #[must_use]
+    pub fn sky(mut self, sky: Sky, table: &[[f32; 4]]) -> Self {
+        self.frame.sky_at = self.heap_end();
+        self.heap.extend(words(&[sky]));
+        self.frame.sky_table_at = self.heap_end();
+        self.heap.extend(words(table));
+        self.framed()
+    }
+
+    /// With the shapes of a compiled scene and what they belong to.
+    #[must_use]
+    pub fn shapes(self, lowered: &Lowered) -> Self {
+        let mut bench = self.objects(&lowered.objects).materials(&lowered.materials);
+        bench.nodes = words(&lowered.nodes);
+        bench.triangles = words(&lowered.triangles);
+        bench.shades = words(&lowered.shades);
+        bench.spheres = words(&lowered.spheres);
+        bench.frame.root = lowered.render.root;
+        bench.framed()
     }
 
     /// With a camera for an image of `size` pixels.

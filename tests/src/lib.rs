@@ -8,6 +8,7 @@ pub mod console;
 pub mod corrections;
 pub mod features;
 pub mod kernel;
+pub mod layers;
 pub mod picture;
 pub mod scene;
 pub mod statistics;

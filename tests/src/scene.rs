@@ -5,6 +5,7 @@ use std::path::Path;
 use compiler::cache::Cache;
 use compiler::import::Limits;
 use compiler::pipeline::{self, Compiled, Options};
+use lang::scene::Scene;
 use lang::source::{LoadError, Loader};
 use pack::{Checked, Pack};
 
@@ -32,6 +33,19 @@ pub fn compile_in(root: &Path, text: &str) -> Compiled {
 /// As `compile_in`.
 #[must_use]
 pub fn compile_with(root: &Path, text: &str, cache: &Cache) -> Compiled {
+    compile_as(root, text, cache, |_| {})
+}
+
+/// As `compile_in`; `change` alters the checked scene before it is lowered.
+///
+/// # Panics
+/// As `compile_in`.
+#[must_use]
+pub fn compile_changed(root: &Path, text: &str, change: impl FnOnce(&mut Scene)) -> Compiled {
+    compile_as(root, text, &Cache::disabled(), change)
+}
+
+fn compile_as(root: &Path, text: &str, cache: &Cache, change: impl FnOnce(&mut Scene)) -> Compiled {
     let name = root.join("test.rts").display().to_string();
     let analysis = lang::analyze(&name, text, &mut NoImports, &lang::Options::default());
     let mut diagnostics = analysis.diagnostics;
@@ -39,9 +53,10 @@ pub fn compile_with(root: &Path, text: &str, cache: &Cache) -> Compiled {
         let lines = list.iter().map(|d| lang::diagnostic::short(&analysis.sources, d));
         lines.collect::<Vec<_>>().join("\n")
     };
-    let Some(scene) = &analysis.scene else { panic!("{}", shown(&diagnostics)) };
+    let Some(mut scene) = analysis.scene else { panic!("{}", shown(&diagnostics)) };
+    change(&mut scene);
     let options = Options { root, cache, limits: Limits::default(), defines: &[] };
-    match pipeline::compile(scene, &analysis.sources, &options, &mut diagnostics) {
+    match pipeline::compile(&scene, &analysis.sources, &options, &mut diagnostics) {
         Ok(compiled) => compiled,
         Err(error) => panic!("{error}\n{}", shown(&diagnostics)),
     }

@@ -35,6 +35,25 @@ film f { size = (24, 24)px }
 render main: path { camera = eye, film = f, samples = 16, depth = 64, seed = 1 }
 ";
 
+/// A floor under petals and panes: light comes to it straight through one or two of them, and scattered.
+const SHEETS: &str = "rts 1
+material white: diffuse { color = linear(0.7) }
+material sakura: petal { color = linear(0.9, 0.8, 0.7), sigma_s = 2/mm, thickness = 0.2mm..0.4mm }
+material pane: principled { color = linear(0.9, 0.95, 0.9), roughness = 0, transmission = 0.8 }
+material cover: principled { color = linear(0.9), roughness = 0, transmission = 1, coat.weight = 0.5, coat.roughness = 0.3 }
+material lamp: emissive { color = linear(1, 0.9, 0.8), strength = 3 }
+instance floor { shape = rectangle(size: (4, 4)m), material = white }
+instance a { shape = rectangle(size: (2, 2)m), material = sakura, at = (-0.9, 1, 0)m, rotate = (10, 0, 0)deg }
+instance b { shape = rectangle(size: (2, 2)m), material = pane, at = (0.9, 1.2, 0)m, rotate = (0, 0, 15)deg }
+instance c { shape = rectangle(size: (3, 1)m), material = cover, at = (0, 1.8, 0.4)m, rotate = (170, 0, 0)deg }
+instance panel { shape = rectangle(size: (2, 2)m), material = lamp, at = (0, 3.9, 0)m, rotate = (180, 0, 0)deg }
+instance glow { shape = sphere(radius: 40cm), material = lamp, at = (1.4, 2.6, 0.3)m }
+sky dim: gradient { sun.direction = (0.3, 0.8, 0.2), disc.color = linear(3) }
+camera eye: perspective { from = (0, 1.6, 5)m, to = (0, 0.6, 0)m, fov.vertical = 45deg }
+film f { size = (24, 24)px }
+render main: path { camera = eye, film = f, samples = 16, depth = 64, seed = 1 }
+";
+
 /// The same in a room of smoke, with a box of milk whose surface is not there and a filled glass ball.
 const SMOKE: &str = "rts 1
 medium smoke: homogeneous { sigma_a = (0.01, 0.02, 0.04)/m, sigma_s = (0.1, 0.15, 0.3)/m, g = 0.5, sky_distance = 5m }
@@ -64,6 +83,8 @@ render main: path { camera = eye, film = f, atmosphere = smoke, samples = 64, de
 
 /// Longest path there.
 const SMOKE_DEPTH: u32 = 64;
+/// The same for [`SHEETS`].
+const SHEETS_DEPTH: u32 = 64;
 
 /// Pictures of each estimator: enough for the spread to be known to 13 %.
 const SEEDS: u32 = 32;
@@ -136,6 +157,14 @@ fn all_estimators_agree() {
 #[test]
 fn all_estimators_agree_in_media() {
     agree((SMOKE, SMOKE_DEPTH), &[0, 1, 2]);
+}
+
+/// At the full depth, and where the longest path ends at the first thing behind a sheet.
+#[test]
+fn all_estimators_agree_behind_sheets() {
+    for depth in [2, SHEETS_DEPTH] {
+        agree((SHEETS, depth), &[0, 1, 2]);
+    }
 }
 
 /// All ways to the picture that use one of these estimators.

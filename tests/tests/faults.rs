@@ -96,6 +96,36 @@ fn every_page_about_files_has_an_example_that_fails_as_it_says() {
 }
 
 #[test]
+fn odd_images_of_a_sky_are_warned_about_and_bad_ones_refused() {
+    let dir = tempfile::tempdir().expect("a temporary directory can be made");
+    let save = |name: &str, size: [usize; 2], value: f32| {
+        exr::prelude::write_rgb_file(dir.path().join(name), size[0], size[1], |_, _| {
+            (value, value, value)
+        })
+        .expect("writable");
+    };
+    save("good.exr", [8, 4], 1.0);
+    save("square.exr", [4, 4], 1.0);
+    save("negative.exr", [8, 4], -1.0);
+    image::RgbaImage::new(8, 4).save(dir.path().join("picture.png")).expect("writable");
+    for (file, expected) in [
+        ("good.exr", &[] as &[&str]),
+        ("square.exr", &["W0528"]),
+        ("picture.png", &["W0529"]),
+        ("negative.exr", &["E0602"]),
+        ("absent.hdr", &["E0514"]),
+    ] {
+        let tail = TAIL.replace("constant { }", &format!("image {{ file = \"{file}\" }}"));
+        let (sources, found) = findings(dir.path(), &format!("rts 1\n{tail}"));
+        let codes: Vec<&str> = found.iter().map(|d| d.code.0).collect();
+        let shown: Vec<String> = found.iter().map(|d| diagnostic::short(&sources, d)).collect();
+        // A black picture gives no light, which is said, too.
+        let codes: Vec<&str> = codes.into_iter().filter(|c| *c != "E0710").collect();
+        assert_eq!(codes, expected, "{file}: {shown:#?}");
+    }
+}
+
+#[test]
 fn the_programs_end_with_the_exit_codes_that_they_document() {
     let dir = folder();
     let path = |name: &str| dir.path().join(name).display().to_string();

@@ -16,12 +16,16 @@ mod bsdf;
 mod camera;
 #[path = "samplers/light.rs"]
 mod light;
+#[path = "samplers/light_tree.rs"]
+mod light_tree;
 #[path = "samplers/matte.rs"]
 mod matte;
 #[path = "samplers/media.rs"]
 mod media;
 #[path = "samplers/sheet.rs"]
 mod sheet;
+#[path = "samplers/sky.rs"]
+mod sky;
 #[path = "samplers/sobol.rs"]
 mod sobol;
 #[path = "samplers/specular.rs"]
@@ -43,6 +47,8 @@ const CHECKS: usize = bsdf::CHECKS
     + media::CHECKS
     + sheet::CHECKS
     + specular::CHECKS
+    + light_tree::CHECKS
+    + sky::CHECKS
     + uniform::CHECKS;
 
 /// Fails where the counts are too far from what was expected; names the case.

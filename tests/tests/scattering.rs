@@ -5,6 +5,8 @@
 
 #[path = "scattering/energy.rs"]
 mod energy;
+#[path = "scattering/layers.rs"]
+mod layers;
 #[path = "scattering/matte.rs"]
 mod matte;
 #[path = "scattering/pattern.rs"]
@@ -45,10 +47,10 @@ fn albedo(kernel: &mut double::Kernel<'_>, lobe: &Lobe, wo: DVec3, fine: usize) 
     let rough =
         grid(lobe, wo).integrate_above(fine, lobe.normal, |wi| kernel.dispatch_eval(s, wo, wi).x);
     let mut sum: f64 = rough.iter().sum();
-    let smooth = s.roughness * s.roughness < double::PRINCIPLED_SMOOTH;
+    let smooth = s.roughness * s.roughness < double::GLOSS_SMOOTH;
     if lobe.kind == MaterialKind::Principled && smooth {
-        let f0 = kernel.principled_f0(s);
-        sum += kernel.fresnel_schlick(f0, lobe.normal.dot(wo)).x;
+        let p = kernel.principled_at(s);
+        sum += kernel.principled_fresnel(p, lobe.normal.dot(wo)).x;
     }
     sum
 }

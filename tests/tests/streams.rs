@@ -7,7 +7,7 @@ use pack::abi::SamplerKind;
 use runtime::Film;
 use tests::{picture, scene};
 
-/// A ball and a mirror on a floor below the sky. `more` are declarations, `color` is that of all.
+/// A ball and a mirror on a floor below the sky, which has no sun and is no light. `more` are declarations, `color` is that of all.
 fn text(sampler: SamplerKind, color: f64, more: &str) -> String {
     let sampler = match sampler {
         SamplerKind::Sobol => "sobol",
@@ -15,7 +15,7 @@ fn text(sampler: SamplerKind, color: f64, more: &str) -> String {
     };
     format!(
         "rts 1
-sky day: gradient {{ sun.direction = (0.3, 0.5, 0.4), disc.color = linear(20) }}
+sky day: gradient {{ }}
 material clay: diffuse {{ color = linear({color}) }}
 material steel: metal {{ color = linear({color}), fuzz = 0.2 }}
 instance floor {{ shape = rectangle(size: (20, 20)m), material = clay }}

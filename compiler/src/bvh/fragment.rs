@@ -125,6 +125,18 @@ impl Fragment {
         Self::new(lo, hi, index)
     }
 
+    /// The box of all places where the primitive is while it moves by `motion`, with room for what the
+    /// kernel rounds on the way: the product with the time and the sum, 2^-24 each.
+    #[must_use]
+    pub fn swept(&self, motion: [f32; 3]) -> Self {
+        let (lo, hi) = (self.lo.truncate().to_array(), self.hi.truncate().to_array());
+        let reach = motion.map(f64::from);
+        let room = reach.map(|m| libm::fabs(m) / 4_194_304.0);
+        let low = |k: usize| round_down(f64::from(lo[k]) + reach[k].min(0.0) - room[k]);
+        let high = |k: usize| round_up(f64::from(hi[k]) + reach[k].max(0.0) + room[k]);
+        Self::new([0, 1, 2].map(low), [0, 1, 2].map(high), self.index())
+    }
+
     /// Index of the primitive.
     #[inline]
     #[must_use]

@@ -16,15 +16,19 @@ use crate::cache::{Cache, CacheWarning, Cached, Source};
 /// Meshes of fewer triangles share a group: the cache would not keep their trees anyway.
 pub const SMALL_MESH: usize = crate::cache::MIN_PRIMITIVES;
 
-/// The primitives of a scene, in the frame in which the kernel sees them.
+/// The primitives of a scene when the shutter opens, in the frame in which the kernel sees them.
 #[derive(Clone, Copy, Debug)]
 pub struct Primitives<'a> {
     /// Corners of all triangles, mesh after mesh.
     pub triangles: &'a [[[f32; 3]; 3]],
     /// How many triangles each mesh has; the sum is `triangles.len()`.
     pub mesh_sizes: &'a [usize],
+    /// How far each mesh comes while the shutter is open; empty where nothing moves.
+    pub mesh_motions: &'a [[f32; 3]],
     /// Centre and radius of all spheres.
     pub spheres: &'a [([f32; 3], f32)],
+    /// How far each sphere comes while the shutter is open; empty where nothing moves.
+    pub sphere_motions: &'a [[f32; 3]],
 }
 
 /// What building cost and what the cache did.
@@ -106,7 +110,10 @@ pub fn build_scene(
 fn check_counts(primitives: &Primitives) -> Result<(), BvhError> {
     let count = primitives.triangles.len();
     let listed = primitives.mesh_sizes.iter().try_fold(0_usize, |sum, &n| sum.checked_add(n));
-    if listed != Some(count) {
+    let fits = |motions: &[[f32; 3]], n: usize| motions.is_empty() || motions.len() == n;
+    let moved = fits(primitives.mesh_motions, primitives.mesh_sizes.len())
+        && fits(primitives.sphere_motions, primitives.spheres.len());
+    if listed != Some(count) || !moved {
         return Err(BvhError::Sizes { count });
     }
     let counts = [count, primitives.spheres.len()];
@@ -129,17 +136,24 @@ fn build_groups(
         let end = u32::try_from(primitives.spheres.len()).expect("counts were checked");
         todo.push((GroupKind::Spheres, std::iter::once(0..end).collect()));
     }
+    let moves = Moves::new(primitives);
     let results: Vec<_> = todo
         .into_par_iter()
         .map(|(kind, members)| {
             let fragments = match kind {
                 GroupKind::Triangles => (0..)
                     .zip(members.iter().flat_map(Clone::clone))
-                    .map(|(i, t)| Fragment::of_triangle(&primitives.triangles[t as usize], i))
+                    .map(|(i, t)| {
+                        let box_ = Fragment::of_triangle(&primitives.triangles[t as usize], i);
+                        moves.triangle(t).map_or(box_, |motion| box_.swept(motion))
+                    })
                     .collect(),
                 GroupKind::Spheres => (0..)
                     .zip(primitives.spheres)
-                    .map(|(i, &(center, radius))| Fragment::of_sphere(center, radius, i))
+                    .map(|(i, &(center, radius))| {
+                        let box_ = Fragment::of_sphere(center, radius, i);
+                        moves.sphere(i).map_or(box_, |motion| box_.swept(motion))
+                    })
                     .collect(),
             };
             cache.tree(fragments).map(|cached| (kind, members, cached))
@@ -150,6 +164,41 @@ fn build_groups(
         Group { kind, tree: cached.tree, members }
     };
     Ok(results.into_iter().map(finish).collect())
+}
+
+/// How far single primitives come.
+struct Moves<'a> {
+    /// Where each mesh ends; empty where nothing moves.
+    ends: Vec<u32>,
+    meshes: &'a [[f32; 3]],
+    spheres: &'a [[f32; 3]],
+}
+
+impl<'a> Moves<'a> {
+    fn new(primitives: &Primitives<'a>) -> Self {
+        let mut end = 0;
+        let sizes = primitives.mesh_sizes.iter().take(primitives.mesh_motions.len());
+        let ends = sizes.map(|size| {
+            end += u32::try_from(*size).expect("counts were checked");
+            end
+        });
+        let (meshes, spheres) = (primitives.mesh_motions, primitives.sphere_motions);
+        Self { ends: ends.collect(), meshes, spheres }
+    }
+
+    /// `None` for a triangle that stands still.
+    fn triangle(&self, index: u32) -> Option<[f32; 3]> {
+        let mesh = self.ends.partition_point(|end| *end <= index);
+        self.meshes.get(mesh).copied().filter(|motion| motion.iter().any(|c| c.abs() > 0.0))
+    }
+
+    /// `None` for a sphere that stands still.
+    fn sphere(&self, index: u32) -> Option<[f32; 3]> {
+        self.spheres
+            .get(index as usize)
+            .copied()
+            .filter(|motion| motion.iter().any(|c| c.abs() > 0.0))
+    }
 }
 
 impl BuildReport {

@@ -11,6 +11,7 @@
 mod accessor;
 mod bake;
 mod container;
+mod layers;
 mod material;
 mod node;
 mod primitive;
@@ -26,11 +27,14 @@ use ::gltf::json::{Root, Value, deserialize};
 use std::path::Path;
 
 /// Extensions that are understood.
-const SUPPORTED: [&str; 6] = [
+const SUPPORTED: [&str; 9] = [
+    "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
+    "KHR_materials_specular",
     "KHR_materials_transmission",
     "KHR_materials_unlit",
+    "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
 ];

@@ -8,6 +8,7 @@
 //! The format is recognised by the first bytes, never by the name. Width and height are checked
 //! against the limit before any texel is decoded.
 
+mod environment;
 mod exr;
 mod guard;
 mod hdr;
@@ -15,6 +16,8 @@ mod hdr;
 use super::error::{ErrorKind, ImportError, excerpt};
 use super::file::{Limits, read_file};
 use ::image::{DynamicImage, ImageDecoder as _, ImageFormat, ImageReader};
+pub use environment::{Environment, load_environment};
+
 use half::f16;
 use std::io::Cursor;
 use std::path::Path;
@@ -32,6 +35,8 @@ pub struct Image {
     pub has_alpha: bool,
     /// Channels that were clamped because they were not finite or beyond what a half float holds.
     pub clamped: u64,
+    /// The file holds radiance: it is HDR or EXR.
+    pub is_radiance: bool,
 }
 
 /// Texels, four channels each.
@@ -61,8 +66,8 @@ enum Format {
 /// Decodes an image in memory; `place` is named in errors.
 pub fn decode_image(bytes: &[u8], place: &str, limits: &Limits) -> Result<Image, ImportError> {
     guard::quietly(|| match recognise(bytes, place)? {
-        Format::Exr => exr::decode(bytes, place, limits),
-        Format::Hdr => hdr::decode(bytes, place, limits),
+        Format::Exr => exr::decode(bytes, place, limits, 1.0).map(HalfImage::finish),
+        Format::Hdr => hdr::decode(bytes, place, limits, 1.0).map(HalfImage::finish),
         format => decode_ldr(bytes, format, place, limits),
     })
     .unwrap_or_else(|| Err(gave_up(place)))
@@ -186,11 +191,25 @@ fn decode_ldr(
         let half = |value: &u16| f16::from_f32(f32::from(*value) / 65535.0).to_bits();
         let texels: Vec<u16> = decoded.into_rgba16().iter().map(half).collect();
         let has_alpha = texels.chunks_exact(4).any(|texel| texel[3] < HALF_ONE);
-        Image { width, height, data: Pixels::Rgba16F(texels), has_alpha, clamped: 0 }
+        Image {
+            width,
+            height,
+            data: Pixels::Rgba16F(texels),
+            has_alpha,
+            clamped: 0,
+            is_radiance: false,
+        }
     } else {
         let texels = decoded.into_rgba8().into_raw();
         let has_alpha = texels.chunks_exact(4).any(|texel| texel[3] < u8::MAX);
-        Image { width, height, data: Pixels::Rgba8(texels), has_alpha, clamped: 0 }
+        Image {
+            width,
+            height,
+            data: Pixels::Rgba8(texels),
+            has_alpha,
+            clamped: 0,
+            is_radiance: false,
+        }
     })
 }
 
@@ -203,17 +222,34 @@ struct HalfImage {
     texels: Vec<u16>,
     has_alpha: bool,
     clamped: u64,
+    /// The largest finite colour channel, and the first that is negative or not finite, with its texel.
+    largest: f32,
+    bad: Option<(usize, f32)>,
 }
 
 impl HalfImage {
     /// All texels opaque black.
     fn new(size: [u32; 2]) -> Self {
         let n_pixels = size[0] as usize * size[1] as usize;
-        Self { size, texels: vec![0; 4 * n_pixels], has_alpha: false, clamped: 0 }
+        Self {
+            size,
+            texels: vec![0; 4 * n_pixels],
+            has_alpha: false,
+            clamped: 0,
+            largest: 0.0,
+            bad: None,
+        }
     }
 
     /// Sets one texel; a position outside is ignored.
     fn set(&mut self, texel_idx: usize, rgba: [f32; 4]) {
+        for value in &rgba[..3] {
+            if *value >= 0.0 && value.is_finite() {
+                self.largest = self.largest.max(*value);
+            } else if self.bad.is_none_or(|(first, _)| texel_idx < first) {
+                self.bad = Some((texel_idx, *value));
+            }
+        }
         let mut bits = [0; 4];
         for (bits, value) in bits.iter_mut().zip(rgba) {
             let (half, fits) = to_half(value);
@@ -233,6 +269,7 @@ impl HalfImage {
             data: Pixels::Rgba16F(self.texels),
             has_alpha: self.has_alpha,
             clamped: self.clamped,
+            is_radiance: true,
         }
     }
 }

@@ -25,6 +25,7 @@ pub struct MapUse {
 
 /// A material of a mesh file. Every map multiplies the factor of the same name.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a property of its own in the file")]
 pub struct ImportedMaterial {
     /// Name in the file; `material 3` where it has none.
     pub name: String,
@@ -42,9 +43,30 @@ pub struct ImportedMaterial {
     pub roughness: f64,
     /// Green is a factor on `roughness`, blue on `metallic`.
     pub metallic_roughness_map: Option<MapUse>,
-    /// 0 opaque … 1 clear: how much of the dielectric part is glass (`KHR_materials_transmission`,
-    /// MTL glass). Lower to `dielectric` when it is most of it.
+    /// 0 opaque … 1 clear: share of the light entering the dielectric part that goes through
+    /// (`KHR_materials_transmission`, MTL glass).
     pub transmission: f64,
+    /// Red of this image is a factor on `transmission`.
+    pub transmission_map: Option<MapUse>,
+    /// The mesh encloses the material, which bends light (`KHR_materials_volume`, MTL glass); otherwise it is a
+    /// thin sheet.
+    pub solid: bool,
+    /// Factor on the reflectance of the dielectric part, 0 ..= 1.
+    pub specular: f64,
+    /// The fourth channel of this image is a factor on `specular`.
+    pub specular_map: Option<MapUse>,
+    /// Colour of that reflectance at normal incidence, linear Rec. 709, >= 0.
+    pub specular_color: Rgb,
+    /// Red, green and blue of this image are factors on `specular_color`.
+    pub specular_color_map: Option<MapUse>,
+    /// Share under a clear coat, 0 ..= 1.
+    pub coat: f64,
+    /// Red of this image is a factor on `coat`.
+    pub coat_map: Option<MapUse>,
+    /// Perceptual roughness of the coat, 0 ..= 1.
+    pub coat_roughness: f64,
+    /// Green of this image is a factor on `coat_roughness`.
+    pub coat_roughness_map: Option<MapUse>,
     /// Refractive index of the dielectric part, >= 1.
     pub ior: f64,
     /// Emitted radiance, linear Rec. 709, any strength already multiplied in; >= 0.
@@ -78,6 +100,16 @@ impl ImportedMaterial {
             roughness: 1.0,
             metallic_roughness_map: None,
             transmission: 0.0,
+            transmission_map: None,
+            solid: false,
+            specular: 1.0,
+            specular_map: None,
+            specular_color: [1.0; 3],
+            specular_color_map: None,
+            coat: 0.0,
+            coat_map: None,
+            coat_roughness: 0.0,
+            coat_roughness_map: None,
             ior: 1.5,
             emission: [0.0; 3],
             emission_map: None,
@@ -88,5 +120,22 @@ impl ImportedMaterial {
             alpha_clip: None,
             double_sided: false,
         }
+    }
+
+    /// Most of it is solid glass: lower to `dielectric`, which has neither colour nor metal in it.
+    #[must_use]
+    pub fn is_glass(&self) -> bool {
+        self.solid && self.transmission * (1.0 - self.metallic) > 0.5
+    }
+
+    /// Glass of which `is_glass` loses nothing: clear, smooth, uncoated.
+    #[must_use]
+    pub fn is_plain_glass(&self) -> bool {
+        self.is_glass()
+            && self.color_map.is_none()
+            && self.color.iter().all(|c| *c >= 1.0)
+            && self.roughness <= 0.0
+            && self.transmission * (1.0 - self.metallic) >= 1.0
+            && self.coat <= 0.0
     }
 }

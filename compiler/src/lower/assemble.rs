@@ -16,7 +16,9 @@ use super::geometry::{self, Placement};
 use super::inside::Solids;
 use super::material::{MaterialRef, MaterialTable};
 use super::order::{Declared, Ordered, order};
-use super::{Loaded, camera, closed, medium, sky};
+use super::sky::LoweredSky;
+use super::sky_table::SkyTable;
+use super::{Loaded, camera, closed, light_tree, medium, motion, power, sky};
 use crate::bvh::{self, BuildReport, BvhError, Joined, Primitives};
 use crate::cache::Cache;
 use crate::normalize::Normalization;
@@ -57,6 +59,8 @@ pub struct Lowered {
     pub camera: abi::Camera,
     /// Sky; `None` is black.
     pub sky: Option<abi::Sky>,
+    /// By which the sky is sampled; empty if it is no light.
+    pub sky_table: Vec<[f32; 4]>,
     /// Nodes of the joined tree.
     pub nodes: Vec<abi::Node>,
     /// Triangles in leaf order.
@@ -65,7 +69,7 @@ pub struct Lowered {
     pub shades: Vec<abi::TriShade>,
     /// Spheres in leaf order.
     pub spheres: Vec<abi::Sphere>,
-    /// Things in the world; empty when no material depends on them.
+    /// Things in the world; empty when no material depends on them and none moves.
     pub objects: Vec<abi::Object>,
     /// Materials in use.
     pub materials: Vec<abi::Material>,
@@ -75,6 +79,8 @@ pub struct Lowered {
     pub material_names: Vec<(String, Option<Span>)>,
     /// Light table.
     pub lights: Vec<abi::Light>,
+    /// Tree of lights; empty if the table is good enough.
+    pub light_nodes: Vec<abi::LightNode>,
     /// Textures in use.
     pub textures: Vec<abi::Texture>,
     /// Texels of all textures.
@@ -118,6 +124,10 @@ pub fn lower(
         return Err(LowerError::TooManyTriangles { count: placement.corners.len() });
     }
     let (inside, around) = media(scene, loaded, &materials, &placement, diagnostics);
+    let environment = loaded.environment.as_ref();
+    let sky = scene.sky.as_ref().and_then(|s| sky::sky(s, environment, &mut materials.textures));
+    let table = sky.as_ref().and_then(|sky| sky.table.as_ref());
+    power::weigh(&mut placement, table.map(|table| table.flux));
     let frame = normalization(&placement);
     let mut counters = Counters::default();
     let corners = normalised(&mut placement, &frame, &mut counters);
@@ -126,13 +136,9 @@ pub fn lower(
     let mut times = Times { geometry: start.elapsed(), ..Times::default() };
 
     let start = Instant::now();
-    let sphere = |(center, radius): &(DVec3, f64)| {
-        (frame.point(center.to_array()), frame.length(*radius).max(f32::MIN_POSITIVE))
-    };
-    let balls: Vec<([f32; 3], f32)> = placement.spheres.iter().map(sphere).collect();
-    let sizes = placement.mesh_sizes();
-    let primitives = Primitives { triangles: &corners, mesh_sizes: &sizes, spheres: &balls };
-    let (joined, trees) = bvh::build_scene(&primitives, cache)?;
+    let balls = normalised_spheres(&placement, &frame);
+    let motions = motion::displacements(&placement, &frame).unwrap_or_default();
+    let (joined, trees) = build_tree(&placement, &corners, &balls, &motions, cache)?;
     times.bvh = start.elapsed();
 
     let start = Instant::now();
@@ -144,27 +150,27 @@ pub fn lower(
     counters.lights = ordered.lights.len() as u64;
     times.order = start.elapsed();
 
-    let sky = scene.sky.as_ref().and_then(sky::sky);
+    let light_nodes = light_tree(&mut ordered, materials.records(), &motions);
+    let (sky, sky_table) = sky_records(sky, &ordered.lights);
     if ordered.lights.is_empty() && sky.is_none() {
         diagnostics.push(darkness(scene));
     }
     let material_names = names(scene, loaded, materials.refs());
-    let render = abi::RenderSettings {
-        air: around[0],
-        fog: around[1],
-        inside,
-        ..settings(scene, &frame, &joined, ordered.lights.len())
-    };
+    let [air, fog] = around;
+    let settings = settings(scene, &frame, &joined, ordered.lights.len());
+    let render = abi::RenderSettings { air, fog, inside, ..settings };
     let media = medium::records(scene, materials.waters(), &frame);
     let (mut materials, textures) = materials.into_records();
     medium::mark(scene, &mut materials);
     let objects = objects(&placement, &materials, &frame);
     forget_objects(&objects, &mut ordered);
+    motion::mark(&objects, &mut ordered);
     let (textures, texels) = textures.into_records();
     Ok(Lowered {
         render,
         camera: camera::camera(&scene.camera, &frame),
         sky,
+        sky_table,
         nodes: joined.nodes,
         triangles: ordered.triangles,
         shades: ordered.shades,
@@ -174,6 +180,7 @@ pub fn lower(
         media,
         material_names,
         lights: ordered.lights,
+        light_nodes,
         textures,
         texels,
         counters,
@@ -202,13 +209,52 @@ fn media(
     (solids.around_camera(scene, records, diagnostics), around)
 }
 
-/// The things of the scene, if any material asks about them.
+/// Centres and radii in the normalised frame; no radius is lost.
+fn normalised_spheres(placement: &Placement, frame: &Normalization) -> Vec<([f32; 3], f32)> {
+    let sphere = |(center, radius): &(DVec3, f64)| {
+        (frame.point(center.to_array()), frame.length(*radius).max(f32::MIN_POSITIVE))
+    };
+    placement.spheres.iter().map(sphere).collect()
+}
+
+/// The tree over triangles with these corners and over these spheres; `motions`: how far each thing comes.
+fn build_tree(
+    placement: &Placement,
+    corners: &[[[f32; 3]; 3]],
+    balls: &[([f32; 3], f32)],
+    motions: &[[f32; 3]],
+    cache: &Cache,
+) -> Result<(Joined, BuildReport), BvhError> {
+    let sizes = placement.mesh_sizes();
+    let (mesh_motions, sphere_motions) = motions_of(placement, motions);
+    let primitives = Primitives {
+        triangles: corners,
+        mesh_sizes: &sizes,
+        mesh_motions: &mesh_motions,
+        spheres: balls,
+        sphere_motions: &sphere_motions,
+    };
+    bvh::build_scene(&primitives, cache)
+}
+
+/// How far each mesh and each sphere comes, from the displacements of things; empty where those are.
+fn motions_of(placement: &Placement, of_thing: &[[f32; 3]]) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
+    if of_thing.is_empty() {
+        return (Vec::new(), Vec::new());
+    }
+    let sphere = |object: &u32| of_thing[*object as usize];
+    let spheres = placement.sphere_objects.iter().map(sphere).collect();
+    (placement.mesh_motions(of_thing), spheres)
+}
+
+/// The things of the scene, if one moves or any material asks about them.
 fn objects(
     placement: &Placement,
     materials: &[abi::Material],
     frame: &Normalization,
 ) -> Vec<abi::Object> {
-    if materials.iter().all(|material| material.flags & material_flag::OBJECT == 0) {
+    let asked = materials.iter().any(|material| material.flags & material_flag::OBJECT != 0);
+    if !asked && motion::displacements(placement, frame).is_none() {
         return Vec::new();
     }
     placement.things.iter().map(|thing| thing.record(frame)).collect()
@@ -220,6 +266,50 @@ fn forget_objects(objects: &[abi::Object], ordered: &mut Ordered) {
         ordered.shades.iter_mut().for_each(|shade| shade.object &= TRI_SMOOTH);
         ordered.spheres.iter_mut().for_each(|sphere| sphere.object = 0);
     }
+}
+
+/// The tree of lights where there are many; tells each light its trail. `motions`: how far each thing comes; empty
+/// where nothing moves.
+fn light_tree(
+    ordered: &mut Ordered,
+    materials: &[abi::Material],
+    motions: &[[f32; 3]],
+) -> Vec<abi::LightNode> {
+    let Ordered { lights, shades, spheres, .. } = ordered;
+    if !(light_tree::FROM..=light_tree::UP_TO).contains(&lights.len()) {
+        return Vec::new();
+    }
+    let flags = |material: u32| materials[material as usize].flags;
+    let both_sides = |material| flags(material) & material_flag::EMIT_BOTH_SIDES != 0;
+    let motion = |light: &abi::Light| {
+        let primitive = light.primitive as usize;
+        let object = if light.kind == abi::LightKind::Sphere as u32 {
+            spheres[primitive].object
+        } else {
+            shades[primitive].object & !TRI_SMOOTH
+        };
+        motions.get(object as usize).map_or(DVec3::ZERO, |motion| motion.map(f64::from).into())
+    };
+    let (nodes, trails) = light_tree::tree(lights, both_sides, motion);
+    for (light, trail) in lights.iter_mut().zip(trails) {
+        light.trail = trail;
+    }
+    nodes
+}
+
+/// The sky, told which light it is and how large its table; and the table, in words.
+fn sky_records(
+    sky: Option<LoweredSky>,
+    lights: &[abi::Light],
+) -> (Option<abi::Sky>, Vec<[f32; 4]>) {
+    let Some(LoweredSky { record, table }) = sky else { return (None, Vec::new()) };
+    let light = lights.iter().position(|light| light.kind == abi::LightKind::Sky as u32);
+    let (Some(SkyTable { columns, rows, mut values, .. }), Some(light)) = (table, light) else {
+        return (Some(record), Vec::new());
+    };
+    values.resize(values.len().next_multiple_of(4), 0.0);
+    let words = values.as_chunks::<4>().0.to_vec();
+    (Some(abi::Sky { light: light as u32, rows, columns, ..record }), words)
 }
 
 fn darkness(scene: &Scene) -> Diagnostic {
@@ -288,7 +378,7 @@ fn normalization(placement: &Placement) -> Normalization {
     let balls = placement.spheres.iter().flat_map(|(center, radius)| {
         [(*center - *radius).to_array(), (*center + *radius).to_array()]
     });
-    Normalization::of_points(corners.chain(balls))
+    Normalization::of_points(corners.chain(balls).chain(motion::ends(placement)))
 }
 
 /// Corners in the normalised frame; triangles that have no area there are taken out of `placement`.

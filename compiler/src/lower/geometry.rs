@@ -11,11 +11,12 @@ use pack::abi::{self, LightKind, NONE, TRI_SMOOTH, material_flag};
 use super::Loaded;
 use super::light::{Emitter, luminance};
 use super::material::{MaterialRef, MaterialTable};
+use super::motion::Shutter;
 use super::object::Thing;
 use super::sheet::{Sheets, pieces};
 use crate::import::{Attribute, MeshFile, Part};
 
-/// Geometry of the whole scene before normalisation, in order of declaration.
+/// Geometry of the whole scene when the shutter opens, before normalisation, in order of declaration.
 #[derive(Debug, Default)]
 pub struct Placement {
     /// Corners of every triangle, world frame, metres.
@@ -44,13 +45,14 @@ pub(super) fn place(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Placement {
     let mut placement = Placement::default();
+    let shutter = Shutter::of(&scene.camera);
     for instance in &scene.instances {
         let object = placement.things.len() as u32;
-        placement.things.push(Thing::of(instance));
+        placement.things.push(Thing::of(instance, shutter));
         let mut placer = Placer {
             object,
             sheets: Sheets::of(scene, instance),
-            transform: Transform::of(instance),
+            transform: Transform::of(instance, shutter),
             instance,
             materials: &mut *materials,
             placement: &mut placement,
@@ -76,9 +78,16 @@ pub(super) fn place(
     for (index, light) in scene.lights.iter().enumerate() {
         let material = materials.index(MaterialRef::Light(index));
         let object = placement.things.len() as u32;
-        placement.things.push(Thing::at(light.name.text.clone(), DVec3::from(light.center)));
-        let ball = Ball { center: light.center.into(), radius: light.radius, material, object };
+        let thing = Thing::lit(light, shutter);
+        let ball = Ball { center: thing.origin, radius: light.radius, material, object };
+        placement.things.push(thing);
+        let before = placement.emitters.len();
         placement.add_sphere(&ball, materials);
+        // A black light is no emitter.
+        if let (Some(tint), Some(emitter)) = (&light.tint, placement.emitters.get_mut(before)) {
+            let [x, y, z] = tint.direction.map(|c| c as f32);
+            emitter.tint = [x, y, z, libm::cos(tint.angle) as f32];
+        }
     }
     placement
 }
@@ -104,7 +113,7 @@ fn box_faces(size: [f64; 3]) -> Vec<Parallelogram> {
     faces
 }
 
-/// `world_from_object`, split.
+/// `world_from_object` at the moment when the shutter opens, split.
 struct Transform {
     linear: DMat3,
     translation: DVec3,
@@ -115,7 +124,7 @@ struct Transform {
 }
 
 impl Transform {
-    fn of(instance: &Instance) -> Self {
+    fn of(instance: &Instance, shutter: Shutter) -> Self {
         let m = instance.world_from_object;
         let column = |k: usize| DVec3::new(m[0][k], m[1][k], m[2][k]);
         let linear = DMat3::from_cols(column(0), column(1), column(2));
@@ -123,7 +132,8 @@ impl Transform {
         let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
         let mirrors = linear.determinant() < 0.0;
         let normal = if mirrors { cofactors * -1.0 } else { cofactors };
-        Self { linear, translation: column(3), normal, mirrors }
+        let translation = column(3) + shutter.lead(instance.velocity);
+        Self { linear, translation, normal, mirrors }
     }
 
     fn point(&self, p: DVec3) -> DVec3 {
@@ -222,6 +232,7 @@ impl Placer<'_, '_> {
                     count: 2,
                     material,
                     power: radiance * edge1.cross(edge2).length(),
+                    tint: [0.0; 4],
                 });
             }
         }
@@ -322,6 +333,7 @@ impl Placer<'_, '_> {
                     count: 1,
                     material,
                     power: radiance * 0.5 * (b - a).cross(c - a).length(),
+                    tint: [0.0; 4],
                 });
             }
             self.placement.corners.push(corners);
@@ -341,6 +353,7 @@ impl Placement {
                 count: 1,
                 material,
                 power: radiance * 4.0 * std::f64::consts::PI * radius * radius,
+                tint: [0.0; 4],
             });
         }
         self.spheres.push((center, radius));
@@ -381,6 +394,13 @@ impl Placement {
     pub(super) fn mesh_sizes(&self) -> Vec<usize> {
         let starts = std::iter::once(&0).chain(&self.groups);
         starts.zip(&self.groups).map(|(start, end)| (end - start) as usize).collect()
+    }
+
+    /// The entry of `of_thing` for each group.
+    pub(super) fn mesh_motions(&self, of_thing: &[[f32; 3]]) -> Vec<[f32; 3]> {
+        let starts = std::iter::once(&0).chain(&self.groups).take(self.groups.len());
+        let thing = |start: &u32| self.shades[*start as usize].object & !TRI_SMOOTH;
+        starts.map(|start| of_thing[thing(start) as usize]).collect()
     }
 
     /// Ends the triangles of one instance; instances without triangles make no group.

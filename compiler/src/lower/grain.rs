@@ -82,7 +82,12 @@ mod tests {
     #[test]
     fn a_turned_beam_is_measured_along_itself() {
         let rotation = glam::DMat3::from_rotation_y(0.7);
-        let thing = Thing { name: "beam".to_owned(), origin: DVec3::new(5.0, 0.0, 1.0), rotation };
+        let thing = Thing {
+            name: "beam".to_owned(),
+            origin: DVec3::new(5.0, 0.0, 1.0),
+            rotation,
+            motion: DVec3::ZERO,
+        };
         let at = |x, y, z| thing.origin + rotation * DVec3::new(x, y, z);
         let size = extent(&thing, &[[at(0.0, 0.0, 0.0), at(4.0, 0.2, 0.0), at(0.0, 0.0, 0.3)]]);
         assert!((size - DVec3::new(4.0, 0.2, 0.3)).abs().max_element() < 1e-12, "{size}");

@@ -12,15 +12,17 @@ pub(super) struct Emitter {
     pub(super) kind: LightKind,
     /// Index of its first primitive among all triangles, or among all spheres.
     pub(super) primitive: u32,
-    /// Triangles it consists of; 1 for spheres.
+    /// Triangles it consists of; 1 for spheres, 0 for the sky.
     pub(super) count: u32,
     pub(super) material: u32,
-    /// Luminance of the mean radiance, times sides, times area: proportional to power.
+    /// Luminance of the mean radiance, times sides, times area: proportional to power. See `power::weigh`.
     pub(super) power: f64,
+    /// Towards where it is tinted, unit, and the cosine of the angle; all 0 without a tint.
+    pub(super) tint: [f32; 4],
 }
 
 /// Steps of a 24-bit random number.
-const STEPS: u64 = 1 << 24;
+pub(super) const STEPS: u64 = 1 << 24;
 
 /// Luminance of a linear Rec. 709 colour (ITU-R BT.709).
 pub(super) fn luminance(color: [f64; 3]) -> f64 {
@@ -29,7 +31,7 @@ pub(super) fn luminance(color: [f64; 3]) -> f64 {
 
 /// Shares of `STEPS` by power: at least one step each, summing to `STEPS` exactly. `None` for
 /// emitters that are not selected: without power, or weakest of too many.
-fn shares(powers: &[f64]) -> Vec<Option<u64>> {
+pub(super) fn shares(powers: &[f64]) -> Vec<Option<u64>> {
     let mut order: Vec<usize> = (0..powers.len()).filter(|&i| powers[i] > 0.0).collect();
     // Strongest first, ties by index; past a quarter of the steps, one step each would distort.
     order.sort_by(|&a, &b| powers[b].total_cmp(&powers[a]).then(a.cmp(&b)));
@@ -94,11 +96,15 @@ impl Geometry<'_> {
             material: emitter.material,
             ..Default::default()
         };
+        if emitter.kind == LightKind::Sky {
+            return base;
+        }
         if emitter.kind == LightKind::Sphere {
             let primitive = self.sphere_at[emitter.primitive as usize];
             let sphere = &self.spheres[primitive as usize];
-            let (origin, edge1) = (sphere.center, [sphere.radius, 0.0, 0.0]);
-            return abi::Light { origin, edge1, primitive, ..base };
+            let [x, y, z, cosine] = emitter.tint;
+            let (origin, edge1) = (sphere.center, [sphere.radius, cosine, 0.0]);
+            return abi::Light { origin, edge1, edge2: [x, y, z], primitive, ..base };
         }
         let primitive = self.triangle_at[emitter.primitive as usize];
         let first = &self.triangles[primitive as usize];

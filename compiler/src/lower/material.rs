@@ -1,12 +1,12 @@
 //! Materials in use become `Material` records, numbered in the order in which geometry asks.
 
 use lang::scene::{
-    self, Color, ColorSpace, Inside, Leaf, MaterialModel, Pattern, Petal, Principled, Scalar,
-    Scene, Wrap,
+    self, Color, ColorSpace, Inside, Leaf, MaterialModel, Pattern, Petal, Rgb, Scalar, Scene,
 };
 use pack::abi::{self, MaterialKind, NONE, material_flag};
 
 use super::medium::Water;
+use super::principled::image_of;
 use super::texture::{ImageRef, TextureTable};
 use super::{Loaded, fresnel};
 use crate::import::{ImportedMaterial, MapUse};
@@ -46,7 +46,7 @@ fn late_wood([r, g, b]: [f64; 3]) -> [f64; 3] {
 
 /// Materials, and the textures they use.
 pub(super) struct MaterialTable<'a> {
-    scene: &'a Scene,
+    pub(super) scene: &'a Scene,
     loaded: &'a Loaded,
     pub(super) textures: TextureTable<'a>,
     refs: Vec<MaterialRef>,
@@ -69,8 +69,14 @@ impl<'a> MaterialTable<'a> {
             MaterialRef::Scene(index) => self.declared(&self.scene.materials[index]),
             MaterialRef::Asset { asset, material } => self.imported(asset, material),
             MaterialRef::Light(index) => {
-                let emission = self.scene.lights[index].radiance.map(|c| c as f32);
-                abi::Material { emission, ..blank(MaterialKind::Emissive) }
+                let light = &self.scene.lights[index];
+                let emission = light.radiance.map(|c| c as f32);
+                let plain = abi::Material { emission, ..blank(MaterialKind::Emissive) };
+                light.tint.map_or(plain, |tint| abi::Material {
+                    tint: tint.color.map(|c| c as f32),
+                    flags: plain.flags | material_flag::EMIT_TINT,
+                    ..plain
+                })
             }
             MaterialRef::Default => {
                 abi::Material { color: [DEFAULT_COLOR; 3], ..blank(MaterialKind::Diffuse) }
@@ -133,17 +139,7 @@ impl<'a> MaterialTable<'a> {
                 filled(self.dielectric(*ior, *roughness), *inside)
             }
             MaterialModel::Conductor { color, roughness, anisotropy, compensation } => {
-                let (color, color_texture) = self.color(*color);
-                abi::Material {
-                    color,
-                    color_texture,
-                    roughness: factor(*roughness),
-                    metallic_roughness_texture: self.roughness_texture(*roughness),
-                    anisotropy: *anisotropy as f32,
-                    weight: if *compensation { 1.0 } else { 0.0 },
-                    flags: if *anisotropy > 0.0 { material_flag::TANGENT } else { 0 },
-                    ..blank(MaterialKind::Conductor)
-                }
+                self.conductor(*color, *roughness, *anisotropy, *compensation)
             }
             MaterialModel::Clearcoat { color, fuzz, coat_ior, coat_tint } => {
                 let (color, color_texture) = self.color(*color);
@@ -156,7 +152,9 @@ impl<'a> MaterialTable<'a> {
                     ..with_ior(blank(MaterialKind::Clearcoat), *coat_ior)
                 }
             }
-            MaterialModel::Water { .. } => self.water(model),
+            MaterialModel::Water { ior, inside, sigma_a, depth_color, waves } => {
+                self.water(*ior, *inside, (*sigma_a, *depth_color), *waves)
+            }
             MaterialModel::Emissive { color, strength, both_sides } => {
                 let (emission, emission_texture) = self.color(*color);
                 let emission = emission.map(|c| (f64::from(c) * strength) as f32);
@@ -165,23 +163,9 @@ impl<'a> MaterialTable<'a> {
                 abi::Material { emission, emission_texture, flags, ..base }
             }
             MaterialModel::Principled(principled) => self.principled(principled),
-            MaterialModel::Stone { .. }
-            | MaterialModel::Wood { .. }
-            | MaterialModel::Fabric { .. } => self.patterned(model),
-            MaterialModel::Leaf(leaf) => self.leaf(leaf),
-            MaterialModel::Petal(petal) => self.petal(petal),
-        }
-    }
-
-    /// Stone, wood or fabric; others are black.
-    fn patterned(&mut self, model: &MaterialModel) -> abi::Material {
-        match model {
-            MaterialModel::Stone { color, vein, pattern, gloss } => abi::Material {
-                color: color.map(|c| c as f32),
-                tint: vein.unwrap_or(color.map(|c| c * VEIN)).map(|c| c as f32),
-                gloss: *gloss as f32,
-                ..with_pattern(blank(MaterialKind::Stone), pattern)
-            },
+            MaterialModel::Stone { color, vein, pattern, gloss } => {
+                stone(*color, *vein, pattern, *gloss)
+            }
             MaterialModel::Wood {
                 color,
                 late,
@@ -190,33 +174,62 @@ impl<'a> MaterialTable<'a> {
                 pattern,
                 gloss,
                 anisotropy,
-            } => abi::Material {
-                color: color.map(|c| c as f32),
-                tint: late.unwrap_or(late_wood(*color)).map(|c| c as f32),
-                fuzz: GRAIN_CODES[*grain],
-                gloss: *gloss as f32,
-                anisotropy: *anisotropy as f32,
-                ..with_pattern(blank(MaterialKind::Wood), pattern)
-            },
+            } => wood((*color, *late), *grain, pattern, *gloss, *anisotropy),
             MaterialModel::Fabric { color, pattern, roughness, gloss, translucency } => {
-                let (color, color_texture) = self.color(*color);
-                abi::Material {
-                    color,
-                    color_texture,
-                    roughness: *roughness as f32,
-                    gloss: *gloss as f32,
-                    weight: *translucency as f32,
-                    ..with_pattern(blank(MaterialKind::Fabric), pattern)
-                }
+                self.fabric(*color, pattern, *roughness, *gloss, *translucency)
             }
-            _ => blank(MaterialKind::Diffuse),
+            MaterialModel::Leaf(leaf) => self.leaf(leaf),
+            MaterialModel::Petal(petal) => self.petal(petal),
         }
     }
 
-    fn water(&mut self, model: &MaterialModel) -> abi::Material {
-        let &MaterialModel::Water { ior, mut inside, sigma_a, depth_color, waves } = model else {
-            return blank(MaterialKind::Water);
-        };
+    fn conductor(
+        &mut self,
+        color: Color,
+        roughness: Scalar,
+        anisotropy: f64,
+        compensation: bool,
+    ) -> abi::Material {
+        let (color, color_texture) = self.color(color);
+        abi::Material {
+            color,
+            color_texture,
+            roughness: factor(roughness),
+            metallic_roughness_texture: self.roughness_texture(roughness),
+            anisotropy: anisotropy as f32,
+            weight: if compensation { 1.0 } else { 0.0 },
+            flags: if anisotropy > 0.0 { material_flag::TANGENT } else { 0 },
+            ..blank(MaterialKind::Conductor)
+        }
+    }
+
+    fn fabric(
+        &mut self,
+        color: Color,
+        pattern: &Pattern,
+        roughness: f64,
+        gloss: f64,
+        translucency: f64,
+    ) -> abi::Material {
+        let (color, color_texture) = self.color(color);
+        abi::Material {
+            color,
+            color_texture,
+            roughness: roughness as f32,
+            gloss: gloss as f32,
+            weight: translucency as f32,
+            ..with_pattern(blank(MaterialKind::Fabric), pattern)
+        }
+    }
+
+    /// What it is filled with is said by a medium, or by `(sigma_a, depth_color)`.
+    fn water(
+        &mut self,
+        ior: f64,
+        mut inside: Inside,
+        (sigma_a, depth_color): (Rgb, Rgb),
+        waves: Option<[f64; 2]>,
+    ) -> abi::Material {
         if inside.medium.is_none() {
             // Radiance in water is the square of its index times that in air.
             let color = depth_color.map(|c| c * ior * ior);
@@ -232,30 +245,6 @@ impl<'a> MaterialTable<'a> {
         }
     }
 
-    fn principled(&mut self, principled: &Principled) -> abi::Material {
-        let (color, color_texture) = self.color(principled.color);
-        let (emission, emission_texture) = self.color(principled.emission);
-        let strength = principled.emission_strength;
-        let mut record = abi::Material {
-            color,
-            color_texture,
-            emission: emission.map(|c| (f64::from(c) * strength) as f32),
-            emission_texture,
-            roughness: factor(principled.roughness),
-            metallic: factor(principled.metallic),
-            flags: material_flag::EMIT_BOTH_SIDES,
-            ..with_ior(blank(MaterialKind::Principled), principled.ior)
-        };
-        let (roughness, metallic) = (channel(principled.roughness), channel(principled.metallic));
-        if roughness.is_some() || metallic.is_some() {
-            let wrap = self.wrap(principled.roughness, principled.metallic);
-            record.metallic_roughness_texture =
-                self.textures.gathered([None, roughness, metallic, None], wrap);
-        }
-        self.clip(&mut record, principled.alpha, principled.alpha_clip);
-        record
-    }
-
     /// Polished glass has its own kind, so that scenes without rough glass do not carry its code.
     fn dielectric(&mut self, ior: f64, roughness: Scalar) -> abi::Material {
         if roughness == Scalar::Constant(0.0) {
@@ -266,13 +255,6 @@ impl<'a> MaterialTable<'a> {
             metallic_roughness_texture: self.roughness_texture(roughness),
             ..with_ior(blank(MaterialKind::RoughDielectric), ior)
         }
-    }
-
-    /// The texture with this roughness in green, or `NONE`.
-    fn roughness_texture(&mut self, roughness: Scalar) -> u32 {
-        let Some(green) = channel(roughness) else { return NONE };
-        let wrap = self.wrap(roughness, roughness);
-        self.textures.gathered([None, Some(green), None, None], wrap)
     }
 
     /// Sheets have no unit of their own: thickness in millimetres, coefficients per millimetre.
@@ -308,21 +290,9 @@ impl<'a> MaterialTable<'a> {
             thickness_middle: middle,
             ..with_ior(blank(MaterialKind::Petal), petal.ior)
         };
-        record.flags |= material_flag::TANGENT;
+        record.flags |= material_flag::TANGENT | material_flag::THROUGH;
         self.clip(&mut record, petal.alpha, petal.alpha_clip);
         record
-    }
-
-    /// Cuts out where `alpha` is below `cutoff`, if there is one.
-    fn clip(&mut self, record: &mut abi::Material, alpha: Scalar, cutoff: Option<f64>) {
-        let Some(cutoff) = cutoff else { return };
-        record.flags |= material_flag::ALPHA_CLIP;
-        record.alpha_cutoff = cutoff as f32;
-        record.alpha = factor(alpha);
-        if let Some(channel) = channel(alpha) {
-            let wrap = self.wrap(alpha, alpha);
-            record.alpha_texture = self.textures.gathered([None, None, None, Some(channel)], wrap);
-        }
     }
 
     fn imported(&mut self, asset: usize, material: usize) -> abi::Material {
@@ -334,12 +304,7 @@ impl<'a> MaterialTable<'a> {
             let emission = from.color.map(|c| c as f32);
             abi::Material { emission, emission_texture: map, ..blank(MaterialKind::Emissive) }
         } else {
-            let kind = if from.diffuse_only && from.emission.iter().all(|&c| c <= 0.0) {
-                MaterialKind::Diffuse
-            } else {
-                MaterialKind::Principled
-            };
-            self.imported_surface(asset, from, kind)
+            self.imported_surface(asset, from)
         };
         record.flags |= material_flag::EMIT_BOTH_SIDES;
         if !from.unlit {
@@ -355,32 +320,22 @@ impl<'a> MaterialTable<'a> {
         record
     }
 
-    fn imported_surface(
-        &mut self,
-        asset: usize,
-        from: &ImportedMaterial,
-        kind: MaterialKind,
-    ) -> abi::Material {
-        let record = abi::Material {
-            color: from.color.map(|c| c as f32),
-            color_texture: self.map(asset, from.color_map),
-            ..blank(kind)
-        };
-        if kind == MaterialKind::Diffuse {
-            return record;
+    fn imported_surface(&mut self, asset: usize, from: &ImportedMaterial) -> abi::Material {
+        if from.is_glass() {
+            return with_ior(blank(MaterialKind::Dielectric), from.ior);
         }
-        abi::Material {
-            emission: from.emission.map(|c| c as f32),
-            emission_texture: self.map(asset, from.emission_map),
-            metallic: from.metallic as f32,
-            roughness: from.roughness as f32,
-            metallic_roughness_texture: self.map(asset, from.metallic_roughness_map),
-            ..with_ior(record, from.ior)
+        if from.diffuse_only && from.emission.iter().all(|&c| c <= 0.0) {
+            return abi::Material {
+                color: from.color.map(|c| c as f32),
+                color_texture: self.map(asset, from.color_map),
+                ..blank(MaterialKind::Diffuse)
+            };
         }
+        self.imported_principled(asset, from)
     }
 
     /// Factor and texture of a declared colour.
-    fn color(&mut self, color: Color) -> ([f32; 3], u32) {
+    pub(super) fn color(&mut self, color: Color) -> ([f32; 3], u32) {
         match color {
             Color::Constant(rgb) => (rgb.map(|c| c as f32), NONE),
             Color::Texture(texture) => {
@@ -391,9 +346,9 @@ impl<'a> MaterialTable<'a> {
         }
     }
 
-    fn map(&mut self, asset: usize, map: Option<MapUse>) -> u32 {
+    pub(super) fn map(&mut self, asset: usize, map: Option<MapUse>) -> u32 {
         map.map_or(NONE, |map| {
-            let image = ImageRef::Asset { asset, image: map.image as usize };
+            let image = image_of(asset, map);
             // Bytes that are not colours are the same numbers under either linear name.
             let space = match map.space {
                 ColorSpace::Data => ColorSpace::Linear,
@@ -402,21 +357,37 @@ impl<'a> MaterialTable<'a> {
             self.textures.whole(image, space, map.wrap)
         })
     }
+}
 
-    /// How the texture of the first textured scalar wraps.
-    fn wrap(&self, first: Scalar, second: Scalar) -> [Wrap; 2] {
-        [first, second]
-            .into_iter()
-            .find_map(|scalar| match scalar {
-                Scalar::Texture { texture, .. } => Some(self.scene.textures[texture].wrap),
-                Scalar::Constant(_) => None,
-            })
-            .unwrap_or([Wrap::Repeat; 2])
+fn stone(color: Rgb, vein: Option<Rgb>, pattern: &Pattern, gloss: f64) -> abi::Material {
+    abi::Material {
+        color: color.map(|c| c as f32),
+        tint: vein.unwrap_or(color.map(|c| c * VEIN)).map(|c| c as f32),
+        gloss: gloss as f32,
+        ..with_pattern(blank(MaterialKind::Stone), pattern)
     }
 }
 
-/// A material of this kind without textures, opaque, black, ior 1.5.
-fn blank(kind: MaterialKind) -> abi::Material {
+/// Early and late wood; `grain`: the axis along which it runs.
+fn wood(
+    (early, late): (Rgb, Option<Rgb>),
+    grain: usize,
+    pattern: &Pattern,
+    gloss: f64,
+    anisotropy: f64,
+) -> abi::Material {
+    abi::Material {
+        color: early.map(|c| c as f32),
+        tint: late.unwrap_or(late_wood(early)).map(|c| c as f32),
+        fuzz: GRAIN_CODES[grain],
+        gloss: gloss as f32,
+        anisotropy: anisotropy as f32,
+        ..with_pattern(blank(MaterialKind::Wood), pattern)
+    }
+}
+
+/// A material of this kind without textures and layers, opaque, black, ior 1.5.
+pub(super) fn blank(kind: MaterialKind) -> abi::Material {
     let base = abi::Material {
         kind: kind as u32,
         alpha: 1.0,
@@ -428,6 +399,7 @@ fn blank(kind: MaterialKind) -> abi::Material {
         normal_strength: 1.0,
         medium: NONE,
         specular: 1.0,
+        tint: if kind == MaterialKind::Principled { [1.0; 3] } else { [0.0; 3] },
         specular_texture: NONE,
         coat_texture: NONE,
         transmission_texture: NONE,
@@ -456,7 +428,7 @@ fn with_pattern(material: abi::Material, pattern: &Pattern) -> abi::Material {
     }
 }
 
-fn with_ior(material: abi::Material, ior: f64) -> abi::Material {
+pub(super) fn with_ior(material: abi::Material, ior: f64) -> abi::Material {
     abi::Material { ior: ior as f32, ior_minus_1: (ior - 1.0) as f32, ..material }
 }
 
@@ -466,14 +438,14 @@ fn filled(material: abi::Material, inside: Inside) -> abi::Material {
     abi::Material { medium, priority: inside.priority, ..material }
 }
 
-fn factor(scalar: Scalar) -> f32 {
+pub(super) fn factor(scalar: Scalar) -> f32 {
     match scalar {
         Scalar::Constant(value) => value as f32,
         Scalar::Texture { .. } => 1.0,
     }
 }
 
-fn channel(scalar: Scalar) -> Option<(ImageRef, u8)> {
+pub(super) fn channel(scalar: Scalar) -> Option<(ImageRef, u8)> {
     match scalar {
         Scalar::Constant(_) => None,
         Scalar::Texture { texture, channel } => Some((ImageRef::Scene(texture), channel)),

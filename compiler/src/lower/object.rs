@@ -1,9 +1,10 @@
 //! Things in the world become `Object` records: a frame for patterns, and a key.
 
 use glam::{DMat3, DVec3};
-use lang::scene::Instance;
+use lang::scene::{Instance, Light};
 use pack::abi;
 
+use super::motion::Shutter;
 use crate::normalize::Normalization;
 
 /// A thing in the world, metres.
@@ -15,24 +16,41 @@ pub struct Thing {
     pub origin: DVec3,
     /// World from object without scale: columns are unit and at right angles.
     pub rotation: DMat3,
+    /// How far it comes while the shutter is open.
+    pub motion: DVec3,
 }
 
 impl Thing {
-    /// A thing that is not turned.
-    pub(super) fn at(name: String, origin: DVec3) -> Self {
-        Self { name, origin, rotation: DMat3::IDENTITY }
+    /// A light.
+    pub(super) fn lit(light: &Light, shutter: Shutter) -> Self {
+        Self {
+            name: light.name.text.clone(),
+            origin: DVec3::from(light.center) + shutter.lead(light.velocity),
+            rotation: DMat3::IDENTITY,
+            motion: shutter.travel(light.velocity),
+        }
     }
 
     /// The frame of an instance. Scale, shear and mirroring are left out: y keeps its direction, x
     /// is turned to a right angle with it, z completes a right-handed frame.
-    pub(super) fn of(instance: &Instance) -> Self {
+    pub(super) fn of(instance: &Instance, shutter: Shutter) -> Self {
         let m = instance.world_from_object;
         let column = |k: usize| DVec3::new(m[0][k], m[1][k], m[2][k]);
         let y = column(1).normalize_or(DVec3::Y);
         let x = column(0);
         let x = (x - y * x.dot(y)).normalize_or(y.any_orthonormal_vector());
         let rotation = DMat3::from_cols(x, y, x.cross(y));
-        Self { name: instance.name.text.clone(), origin: column(3), rotation }
+        Self {
+            name: instance.name.text.clone(),
+            origin: column(3) + shutter.lead(instance.velocity),
+            rotation,
+            motion: shutter.travel(instance.velocity),
+        }
+    }
+
+    /// How far it comes while the shutter is open, normalised frame.
+    pub(super) fn displacement(&self, frame: &Normalization) -> [f32; 3] {
+        self.motion.to_array().map(|metres| frame.length(metres))
     }
 
     /// The record in the normalised frame.
@@ -48,7 +66,7 @@ impl Thing {
             offset_y: offset.y as f32,
             row_z: row(2),
             offset_z: offset.z as f32,
-            motion: [0.0; 3],
+            motion: self.displacement(frame),
             key: key(&self.name),
         }
     }
@@ -68,7 +86,8 @@ mod tests {
     #[test]
     fn a_point_of_the_world_is_found_in_the_object() {
         let rotation = DMat3::from_rotation_z(std::f64::consts::FRAC_PI_2);
-        let thing = Thing { name: "log".to_owned(), origin: DVec3::new(1.0, 2.0, 3.0), rotation };
+        let (name, origin) = ("log".to_owned(), DVec3::new(1.0, 2.0, 3.0));
+        let thing = Thing { name, origin, rotation, motion: DVec3::new(0.0, 2.0, 0.0) };
         let frame = Normalization::of_points([[-5.0; 3], [3.0, 7.0, 9.0]]);
         let object = thing.record(&frame);
         // 2 m along the object's x, which is the world's y.
@@ -77,6 +96,8 @@ mod tests {
         let x = dot(object.row_x) + f64::from(object.offset_x);
         let y = dot(object.row_y) + f64::from(object.offset_y);
         let z = dot(object.row_z) + f64::from(object.offset_z);
+        let expected = [0.0, frame.length(2.0), 0.0];
+        assert_eq!(object.motion.map(f32::to_bits), expected.map(f32::to_bits));
         assert!((x - 2.0).abs() < 1e-5 && y.abs() < 1e-5 && z.abs() < 1e-5, "{x} {y} {z}");
     }
 

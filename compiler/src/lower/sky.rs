@@ -1,21 +1,62 @@
-//! The sky declaration becomes the `Sky` record.
+//! The sky declaration becomes the `Sky` record and the table by which bright skies are sampled.
+//!
+//! Images are sampled always; gradients if they have a glow or a disc, whose light paths would find only by
+//! chance. A sky of bands alone, or of one colour, is found by every path that leaves the scene.
+
+use std::f64::consts::{PI, TAU};
 
 use lang::scene::{Rgb, Sky, SkyModel};
-use pack::abi::{self, SkyKind};
+use pack::abi::{self, NONE, SkyKind};
+use rayon::prelude::*;
+
+use super::light::luminance;
+use super::sky_table::{Cells, SkyTable, sky_table};
+use super::texture::{TextureTable, luminances};
+use crate::import::Environment;
+
+/// A sky that is not black.
+pub(super) struct LoweredSky {
+    pub(super) record: abi::Sky,
+    /// Present if directions towards it are to be sampled.
+    pub(super) table: Option<SkyTable>,
+}
 
 /// `None` for a sky that is black everywhere: it then leaves no section and no code.
-pub(super) fn sky(sky: &Sky) -> Option<abi::Sky> {
+pub(super) fn sky(
+    sky: &Sky,
+    environment: Option<&Environment>,
+    textures: &mut TextureTable<'_>,
+) -> Option<LoweredSky> {
+    let plain = |record| LoweredSky { record, table: None };
     match &sky.model {
-        SkyModel::Constant(radiance) => (!is_black(radiance)).then(|| constant(*radiance)),
+        SkyModel::Constant(radiance) => (!is_black(radiance)).then(|| plain(constant(*radiance))),
         SkyModel::Gradient { zenith, middle, horizon, ground, glow, disc, .. } => {
             let bands = [zenith, middle, horizon, ground, glow, disc];
             if bands.iter().all(|color| is_black(color)) {
                 return None;
             }
-            let plain = is_black(glow) && is_black(disc);
+            let dull = is_black(glow) && is_black(disc);
             let flat = bands[..4].iter().all(|color| same(color, zenith));
             // A gradient without a gradient needs no gradient code.
-            Some(if plain && flat { constant(*zenith) } else { gradient(&sky.model) })
+            if dull && flat {
+                return Some(plain(constant(*zenith)));
+            }
+            let record = gradient(&sky.model);
+            let table = if dull { None } else { sky_table(gradient_cells(&record)) };
+            Some(LoweredSky { record, table })
+        }
+        SkyModel::Image { rotate, strength, .. } => {
+            let environment = environment.expect("the image of a sky has been loaded");
+            let table = sky_table(image_cells(environment))?;
+            let flux = strength * environment.scale * table.flux;
+            let record = abi::Sky {
+                zenith: [(strength * environment.scale) as f32; 3],
+                kind: SkyKind::Image as u32,
+                texture: textures.environment(environment),
+                rotation: turns(*rotate),
+                ..blank()
+            };
+            Some(LoweredSky { record, table: Some(SkyTable { flux, ..table }) })
         }
     }
 }
@@ -32,8 +73,21 @@ fn rgb(color: Rgb) -> [f32; 3] {
     color.map(|c| c as f32)
 }
 
+/// All fields 0 but those that name nothing.
+fn blank() -> abi::Sky {
+    abi::Sky { texture: NONE, light: NONE, ..Default::default() }
+}
+
 fn constant(radiance: Rgb) -> abi::Sky {
-    abi::Sky { zenith: rgb(radiance), kind: SkyKind::Constant as u32, ..Default::default() }
+    abi::Sky { zenith: rgb(radiance), kind: SkyKind::Constant as u32, ..blank() }
+}
+
+/// `Sky::rotation` of a turn by `angle` radians: half a turn more, so that the middle of the image lies
+/// towards -z; in 0 .. 1.
+fn turns(angle: f64) -> f32 {
+    let turns = angle / TAU + 0.5;
+    let turns = (turns - libm::floor(turns)) as f32;
+    if turns < 1.0 { turns } else { 0.0 }
 }
 
 fn gradient(model: &SkyModel) -> abi::Sky {
@@ -44,6 +98,7 @@ fn gradient(model: &SkyModel) -> abi::Sky {
         ground,
         blend_high,
         blend_low,
+        blend_ground,
         sun_direction,
         glow,
         glow_power,
@@ -51,22 +106,133 @@ fn gradient(model: &SkyModel) -> abi::Sky {
         disc_power,
     } = *model
     else {
-        return abi::Sky::default();
+        return blank();
     };
     abi::Sky {
         zenith: rgb(zenith),
         kind: SkyKind::Gradient as u32,
         middle: rgb(middle),
-        blend_high: blend_high as f32,
+        blend_high: (blend_low + blend_high * (1.0 - blend_low)) as f32,
         horizon: rgb(horizon),
         blend_low: blend_low as f32,
         ground: rgb(ground),
-        glow_power: glow_power as f32,
+        blend_ground: (blend_low - blend_ground) as f32,
         sun_direction: rgb(sun_direction),
-        disc_power: disc_power as f32,
+        glow_power: glow_power as f32,
         glow: rgb(glow),
-        _pad0: 0,
+        disc_power: disc_power as f32,
         disc: rgb(disc),
-        _pad1: 0,
+        rotation: turns(0.0),
+        ..blank()
+    }
+}
+
+/// Mean luminance of what the kernel interpolates between the texels: a bilinear function's integral over a
+/// cell weighs the cell's own texel 6/8 along each axis and its neighbours 1/8.
+fn image_cells(environment: &Environment) -> Cells {
+    let image = &environment.image;
+    let (columns, rows) = (image.width as usize, image.height as usize);
+    let mix = |before: f64, own: f64, after: f64| (before + 6.0 * own + after) / 8.0;
+    let row_means = |row: usize| {
+        let above = luminances(image, row.saturating_sub(1));
+        let own = luminances(image, row);
+        let below = luminances(image, (row + 1).min(rows - 1));
+        let mixed: Vec<f64> = (0..columns).map(|i| mix(above[i], own[i], below[i])).collect();
+        let at = |i: usize| mixed[i % columns];
+        (0..columns).map(|i| mix(at(i + columns - 1), at(i), at(i + 1))).collect::<Vec<f64>>()
+    };
+    let means = (0..rows).into_par_iter().flat_map_iter(row_means).collect();
+    Cells { columns, rows, means }
+}
+
+/// Points along each side of a cell at which a gradient is averaged.
+const FINE: usize = 3;
+
+/// Columns of a gradient's table: half the radius at which its narrowest lobe has fallen to 1/sqrt(e) is
+/// one cell, within limits: 32 cells cost nothing, 2048 are 8 MiB.
+fn gradient_columns(sky: &abi::Sky) -> usize {
+    let lobes = [(sky.disc, sky.disc_power), (sky.glow, sky.glow_power)];
+    let powers = lobes.iter().filter(|(color, _)| color.iter().any(|c| *c > 0.0));
+    let narrowest = powers.map(|(_, power)| *power).fold(1.0, f32::max);
+    let wanted = 2.0 * TAU * f64::from(narrowest).sqrt();
+    (wanted as usize).next_power_of_two().clamp(32, 2048)
+}
+
+fn gradient_cells(sky: &abi::Sky) -> Cells {
+    let columns = gradient_columns(sky);
+    let rows = columns / 2;
+    let mean = |cell: usize| {
+        let at = |k: usize, sub: usize| k as f64 + (sub as f64 + 0.5) / FINE as f64;
+        let (mut sum, mut area) = (0.0, 0.0);
+        for i in 0..FINE {
+            let theta = PI * at(cell / columns, i) / rows as f64;
+            let (sin, cos) = (libm::sin(theta), libm::cos(theta));
+            for j in 0..FINE {
+                // Towards -z at the middle of the table, as in an image.
+                let phi = TAU * (at(cell % columns, j) / columns as f64 - 0.5);
+                let dir = [sin * libm::sin(phi), cos, -sin * libm::cos(phi)];
+                sum += sin * gradient_luminance(sky, dir);
+                area += sin;
+            }
+        }
+        sum / area
+    };
+    Cells { columns, rows, means: (0..rows * columns).into_par_iter().map(mean).collect() }
+}
+
+/// Luminance of `gradient_radiance` of the kernel along the unit vector `dir`.
+fn gradient_luminance(sky: &abi::Sky, dir: [f64; 3]) -> f64 {
+    let light = |color: [f32; 3]| luminance(color.map(f64::from));
+    let ramp = |a: [f32; 3], b: [f32; 3], y0: f32, y1: f32| {
+        let (y0, y1) = (f64::from(y0), f64::from(y1));
+        let t = ((dir[1] - y0) / (y1 - y0)).clamp(0.0, 1.0);
+        let k = t * t * (3.0 - 2.0 * t);
+        light(a) * (1.0 - k) + light(b) * k
+    };
+    let base = if dir[1] >= f64::from(sky.blend_high) {
+        ramp(sky.middle, sky.zenith, sky.blend_high, 1.0)
+    } else if dir[1] >= f64::from(sky.blend_low) {
+        ramp(sky.horizon, sky.middle, sky.blend_low, sky.blend_high)
+    } else {
+        ramp(sky.ground, sky.horizon, sky.blend_ground, sky.blend_low)
+    };
+    let sun = sky.sun_direction.map(f64::from);
+    let c = (dir[0] * sun[0] + dir[1] * sun[1] + dir[2] * sun[2]).clamp(0.0, 1.0);
+    let lobe = |color, power: f32| light(color) * libm::pow(c, f64::from(power));
+    base + lobe(sky.glow, sky.glow_power) + lobe(sky.disc, sky.disc_power)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn narrower_discs_have_finer_tables() {
+        let with = |disc: f32, power: f32| {
+            gradient_columns(&abi::Sky { disc: [disc; 3], disc_power: power, ..blank() })
+        };
+        assert_eq!(with(1.0, 400.0), 256);
+        assert_eq!(with(0.0, 400.0), 32);
+        assert_eq!(with(1.0, 1e6), 2048);
+    }
+
+    #[test]
+    fn a_lobe_has_the_flux_of_its_integral() {
+        // The integral of cos^n over a hemisphere is 2 pi / (n + 1).
+        let sky = abi::Sky {
+            disc: [15.0; 3],
+            disc_power: 400.0,
+            sun_direction: [0.6, 0.48, 0.64],
+            ..blank()
+        };
+        let table = sky_table(gradient_cells(&sky)).expect("it is bright");
+        let expected = 15.0 * TAU / 401.0;
+        assert!((table.flux / expected - 1.0).abs() < 2e-3, "{} {expected}", table.flux);
+    }
+
+    #[test]
+    fn quarter_turns_are_exact() {
+        let found = [0.0, PI / 2.0, PI, -PI / 2.0].map(turns);
+        assert_eq!(found.map(f32::to_bits), [0.5, 0.75, 0.0, 0.25_f32].map(f32::to_bits));
     }
 }

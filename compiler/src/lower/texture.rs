@@ -8,7 +8,7 @@ use lang::scene::{ColorSpace, Wrap};
 use pack::abi::{self, TextureFormat};
 
 use super::Loaded;
-use crate::import::{Image, Pixels};
+use crate::import::{Environment, Image, Pixels};
 
 /// Which file an image comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -31,7 +31,8 @@ pub(super) type Channel = (ImageRef, u8);
 #[derive(Clone, Debug, PartialEq)]
 enum Recipe {
     Whole { image: ImageRef, space: ColorSpace, wrap: [Wrap; 2] },
-    Gathered { channels: [Option<Channel>; 4], wrap: [Wrap; 2] },
+    Environment { wrap: [Wrap; 2] },
+    Gathered { channels: [Option<Channel>; 4], space: ColorSpace, wrap: [Wrap; 2] },
 }
 
 /// Textures in the order in which materials asked for them.
@@ -70,25 +71,27 @@ impl<'a> TextureTable<'a> {
         }
         let source = self.image(image);
         let size = [source.width, source.height];
-        let (format, words, mean) = match (&source.data, space) {
-            (Pixels::Rgba8(bytes), ColorSpace::Srgb) => {
-                (TextureFormat::Rgba8Srgb, byte_words(bytes), byte_mean(bytes, srgb_to_linear))
-            }
-            (Pixels::Rgba8(bytes), _) => {
-                (TextureFormat::Rgba8Linear, byte_words(bytes), byte_mean(bytes, |x| x))
-            }
-            (Pixels::Rgba16F(bits), space) => {
-                let decode = if space == ColorSpace::Srgb { srgb_to_linear } else { |x| x };
-                let (words, mean) = half_words(bits, decode);
-                (TextureFormat::Rgba16Float, words, mean)
-            }
-        };
+        let (format, words, mean) = stored(source, space);
         self.push(recipe, size, format, &words, mean)
     }
 
-    /// The id of a linear image whose channels come from single channels; absent ones are 1.
-    pub(super) fn gathered(&mut self, channels: [Option<Channel>; 4], wrap: [Wrap; 2]) -> u32 {
-        let recipe = Recipe::Gathered { channels, wrap };
+    /// The id of the image of the sky: it goes round along u, and ends at the poles along v.
+    pub(super) fn environment(&mut self, environment: &Environment) -> u32 {
+        let image = &environment.image;
+        let recipe = Recipe::Environment { wrap: [Wrap::Repeat, Wrap::Clamp] };
+        let (format, words, mean) = stored(image, space_of(image));
+        self.push(recipe, [image.width, image.height], format, &words, mean)
+    }
+
+    /// The id of an image whose channels come from single channels; absent ones are 1. `space` is that of red,
+    /// green and blue.
+    pub(super) fn gathered(
+        &mut self,
+        channels: [Option<Channel>; 4],
+        space: ColorSpace,
+        wrap: [Wrap; 2],
+    ) -> u32 {
+        let recipe = Recipe::Gathered { channels, space, wrap };
         if let Some(id) = self.recipes.iter().position(|known| *known == recipe) {
             return id as u32;
         }
@@ -104,8 +107,11 @@ impl<'a> TextureTable<'a> {
                 }));
             }
         }
-        let mean = byte_mean(&bytes, |x| x);
-        self.push(recipe, size, TextureFormat::Rgba8Linear, &byte_words(&bytes), mean)
+        let (format, mean) = match space {
+            ColorSpace::Srgb => (TextureFormat::Rgba8Srgb, byte_mean(&bytes, srgb_to_linear)),
+            _ => (TextureFormat::Rgba8Linear, byte_mean(&bytes, |x| x)),
+        };
+        self.push(recipe, size, format, &byte_words(&bytes), mean)
     }
 
     fn push(
@@ -122,7 +128,9 @@ impl<'a> TextureTable<'a> {
             Wrap::Clamp => abi::Wrap::Clamp as u32,
             Wrap::Mirror => abi::Wrap::Mirror as u32,
         };
-        let (Recipe::Whole { wrap: wraps, .. } | Recipe::Gathered { wrap: wraps, .. }) = &recipe;
+        let (Recipe::Whole { wrap: wraps, .. }
+        | Recipe::Gathered { wrap: wraps, .. }
+        | Recipe::Environment { wrap: wraps }) = &recipe;
         self.records.push(abi::Texture {
             width: size[0],
             height: size[1],
@@ -144,6 +152,11 @@ impl<'a> TextureTable<'a> {
         id
     }
 
+    /// Whether an image has an alpha channel of its own.
+    pub(super) fn has_alpha(&self, image: ImageRef) -> bool {
+        self.image(image).has_alpha
+    }
+
     fn image(&self, image: ImageRef) -> &'a Image {
         let found = match image {
             ImageRef::Scene(texture) => self.loaded.textures[texture].as_ref(),
@@ -152,6 +165,48 @@ impl<'a> TextureTable<'a> {
             }
         };
         found.expect("every image that a used material names has been loaded")
+    }
+}
+
+/// Format, words and mean of an image whose numbers are to be read as `space` says.
+fn stored(source: &Image, space: ColorSpace) -> (TextureFormat, Vec<u32>, [f64; 4]) {
+    match (&source.data, space) {
+        (Pixels::Rgba8(bytes), ColorSpace::Srgb) => {
+            (TextureFormat::Rgba8Srgb, byte_words(bytes), byte_mean(bytes, srgb_to_linear))
+        }
+        (Pixels::Rgba8(bytes), _) => {
+            (TextureFormat::Rgba8Linear, byte_words(bytes), byte_mean(bytes, |x| x))
+        }
+        (Pixels::Rgba16F(bits), space) => {
+            let decode = if space == ColorSpace::Srgb { srgb_to_linear } else { |x| x };
+            let (words, mean) = half_words(bits, decode);
+            (TextureFormat::Rgba16Float, words, mean)
+        }
+    }
+}
+
+/// Images of the sky are radiance, or pictures with the sRGB curve.
+fn space_of(image: &Image) -> ColorSpace {
+    if image.is_radiance { ColorSpace::Linear } else { ColorSpace::Srgb }
+}
+
+/// Luminance of each texel of a row of an image of the sky.
+pub(super) fn luminances(image: &Image, row: usize) -> Vec<f64> {
+    let width = image.width as usize;
+    let decode = if image.is_radiance { |x| x } else { srgb_to_linear };
+    let texels = 4 * row * width..4 * (row + 1) * width;
+    let light = |rgb: [f64; 3]| super::light::luminance(rgb.map(decode));
+    match &image.data {
+        Pixels::Rgba8(bytes) => {
+            let value = |byte: u8| f64::from(byte) / 255.0;
+            let texels = bytes[texels].as_chunks::<4>().0.iter();
+            texels.map(|[r, g, b, _]| light([*r, *g, *b].map(value))).collect()
+        }
+        Pixels::Rgba16F(bits) => {
+            let value = |bits: u16| f64::from(half::f16::from_bits(bits).to_f32());
+            let texels = bits[texels].as_chunks::<4>().0.iter();
+            texels.map(|[r, g, b, _]| light([*r, *g, *b].map(value))).collect()
+        }
     }
 }
 

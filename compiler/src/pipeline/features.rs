@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 
 use pack::abi::{
-    LightKind, MaterialKind, NONE, SamplerKind, SkyKind, TRI_SMOOTH, TextureFormat, material_flag,
+    LightKind, Material, MaterialKind, NONE, SamplerKind, SkyKind, TRI_SMOOTH, TextureFormat,
+    material_flag,
 };
 use shaders::{FeatureSet, WINDOW_WORDS, Windows};
 
@@ -24,11 +25,17 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
             .into_iter()
             .filter(|kind| materials.iter().any(|m| m.kind == *kind as u32))
             .collect(),
-        lights: [LightKind::Sphere, LightKind::Rectangle, LightKind::Triangle]
+        lights: LightKind::ALL
             .into_iter()
             .filter(|kind| lowered.lights.iter().any(|light| light.kind == *kind as u32))
             .collect(),
-        skies: lowered.sky.iter().map(sky_kind).collect::<BTreeSet<_>>(),
+        light_tree: !lowered.light_nodes.is_empty(),
+        tint: materials.iter().any(|m| m.flags & material_flag::EMIT_TINT != 0),
+        skies: lowered
+            .sky
+            .iter()
+            .filter_map(|sky| SkyKind::from_tag(sky.kind))
+            .collect::<BTreeSet<_>>(),
         lens: lowered.camera.lens_radius > 0.0,
         samplers: SamplerKind::from_tag(lowered.render.sampler).into_iter().collect(),
         textures: FORMATS
@@ -37,6 +44,9 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
             .collect(),
         alpha_clip: materials.iter().any(|m| m.flags & material_flag::ALPHA_CLIP != 0),
         tangents: materials.iter().any(|m| m.flags & material_flag::TANGENT != 0),
+        principled_specular: materials.iter().any(Material::has_specular),
+        principled_coat: materials.iter().any(Material::has_coat),
+        principled_transmission: materials.iter().any(Material::has_transmission),
         normal_maps: materials.iter().any(|m| m.normal_texture != NONE),
         objects: materials.iter().any(|m| m.flags & material_flag::OBJECT != 0),
         media: lowered.render.air != NONE
@@ -44,6 +54,8 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
         scattering: lowered.media.iter().any(|m| m.sigma_s.iter().any(|sigma| *sigma > 0.0)),
         fog: lowered.render.fog != NONE,
         through: materials.iter().any(|m| m.flags & material_flag::THROUGH != 0),
+        sheets: materials.iter().any(Material::is_sheet),
+        motion: lowered.objects.iter().any(pack::abi::Object::moves),
         stack_size: lowered.render.stack_need.max(1),
         windows: Windows {
             node: words(size_of_val(lowered.nodes.as_slice())),
@@ -58,10 +70,6 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
 const FORMATS: [TextureFormat; 3] =
     [TextureFormat::Rgba8Srgb, TextureFormat::Rgba8Linear, TextureFormat::Rgba16Float];
 
-fn sky_kind(sky: &pack::abi::Sky) -> SkyKind {
-    if sky.kind == SkyKind::Gradient as u32 { SkyKind::Gradient } else { SkyKind::Constant }
-}
-
 type Reasons = Vec<(String, String)>;
 
 /// Features that are in, and features that are not, each with its reason.
@@ -70,16 +78,28 @@ pub(super) fn explain(features: &FeatureSet, lowered: &Lowered) -> (Reasons, Rea
         row("triangles", features.triangles, format!("{} triangles", lowered.triangles.len())),
         row("spheres", features.spheres, format!("{} spheres", lowered.spheres.len())),
         row("smooth normals", features.smooth_normals, "a mesh has normals".to_owned()),
+        row("light tree", features.light_tree, format!("{} lights", lowered.lights.len())),
+        row("tint", features.tint, "a light is tinted".to_owned()),
         row("lens", features.lens, "the aperture is open".to_owned()),
         row("alpha clip", features.alpha_clip, "a material cuts out by alpha".to_owned()),
     ];
     rows.push(row("tangents", features.tangents, "a material has a direction".to_owned()));
     rows.push(row("objects", features.objects, "a material depends on the thing".to_owned()));
+    let of = |what: &str| format!("a principled material has {what}");
+    rows.push(row("specular factor", features.principled_specular, of("one")));
+    rows.push(row("coat", features.principled_coat, of("one")));
+    rows.push(row("transmission", features.principled_transmission, of("some")));
     rows.push(row("normal maps", features.normal_maps, "a material has one".to_owned()));
     rows.push(row("media", features.media, "light must know what it is inside of".to_owned()));
     rows.push(row("scattering media", features.scattering, "a medium scatters".to_owned()));
     rows.push(row("fog", features.fog, "the atmosphere is fog".to_owned()));
-    rows.push(row("shadow rays through", features.through, "things have an inside".to_owned()));
+    rows.push(row(
+        "shadow rays through",
+        features.through,
+        "things have an inside, or are thin".to_owned(),
+    ));
+    rows.push(row("sheets", features.sheets, "light goes straight through thin things".to_owned()));
+    rows.push(row("motion", features.motion, "things move while the shutter is open".to_owned()));
     for kind in MaterialKind::ALL {
         let users: Vec<&str> = (lowered.materials.iter().zip(&lowered.material_names))
             .filter(|(material, _)| material.kind == kind as u32)
@@ -93,12 +113,12 @@ pub(super) fn explain(features: &FeatureSet, lowered: &Lowered) -> (Reasons, Rea
         };
         rows.push((name, features.materials.contains(&kind), reason));
     }
-    for kind in [LightKind::Sphere, LightKind::Rectangle, LightKind::Triangle] {
+    for kind in LightKind::ALL {
         let count = lowered.lights.iter().filter(|light| light.kind == kind as u32).count();
         let name = format!("light {}", format!("{kind:?}").to_lowercase());
         rows.push((name, count > 0, format!("{count} in the light table")));
     }
-    for kind in [SkyKind::Constant, SkyKind::Gradient] {
+    for kind in SkyKind::ALL {
         let name = format!("sky {}", format!("{kind:?}").to_lowercase());
         rows.push((name, features.skies.contains(&kind), "declared".to_owned()));
     }

@@ -4,13 +4,14 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use lang::diagnostic::{Code, Diagnostic, Fix};
-use lang::scene::{Asset, AssetFormat, Scene, Shape};
+use lang::scene::{Asset, AssetFormat, Scene, Shape, SkyModel};
 use lang::source::{SourceSet, Span};
 use rayon::prelude::*;
 
 use super::Options;
 use crate::import::{
-    ErrorKind, Image, ImportError, ImportReport, MeshFile, Pixels, load_gltf, load_image, load_obj,
+    Environment, ErrorKind, Image, ImportError, ImportReport, MeshFile, Pixels, load_environment,
+    load_gltf, load_image, load_obj,
 };
 use crate::lower::Loaded;
 
@@ -66,10 +67,51 @@ pub(super) fn load(
             image
         }));
     }
+    loaded.environment = environment(scene, sources, options, &mut files, diagnostics);
     find_parts(scene, &loaded, diagnostics);
     files.sort_by(|a, b| a.name.cmp(&b.name));
     files.dedup();
     (loaded, files)
+}
+
+/// The image of the sky, with what is odd about it.
+fn environment(
+    scene: &Scene,
+    sources: &SourceSet,
+    options: &Options<'_>,
+    files: &mut Vec<FileRead>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<Environment> {
+    let SkyModel::Image { path: written, path_span, .. } = &scene.sky.as_ref()?.model else {
+        return None;
+    };
+    let path = beside(sources, *path_span, written);
+    let found = match load_environment(&path, &options.limits) {
+        Ok(found) => found,
+        Err(error) => {
+            diagnostics.push(failed(&error, *path_span, written));
+            return None;
+        }
+    };
+    let image = &found.image;
+    if image.width != 2 * image.height {
+        let (width, height) = (image.width, image.height);
+        let message = format!(
+            "`{written}` is {width} x {height} pixels; an image of all directions is twice as wide as high"
+        );
+        let warning = Diagnostic::warning(Code("W0528"), "sky_shape", message);
+        diagnostics.push(warning.at(*path_span, "it will look stretched"));
+    }
+    if !image.is_radiance {
+        let message =
+            format!("`{written}` is a picture, not radiance: its sun is no brighter than paper");
+        let warning = Diagnostic::warning(Code("W0529"), "sky_picture", message)
+            .at(*path_span, "read with the sRGB curve")
+            .with_help("use an HDR or EXR image");
+        diagnostics.push(warning);
+    }
+    files.push(FileRead { name: relative(&path, options.root), hash: content(image) });
+    Some(found)
 }
 
 fn read_asset(asset: &Asset, path: &Path, options: &Options<'_>) -> Result<MeshFile, ImportError> {

@@ -154,7 +154,13 @@ fn an_unwritable_cache_is_one_warning() {
     fs::write(&blocked, "not a directory").unwrap();
     let triangles = apart(3);
     let sizes = [N as usize; 3];
-    let primitives = Primitives { triangles: &triangles, mesh_sizes: &sizes, spheres: &[] };
+    let primitives = Primitives {
+        triangles: &triangles,
+        mesh_sizes: &sizes,
+        mesh_motions: &[],
+        spheres: &[],
+        sphere_motions: &[],
+    };
     let (tree, report) = build_scene(&primitives, &Cache::at(&blocked)).unwrap();
     assert_eq!(report.warnings.len(), 1, "{:?}", report.warnings);
     assert!(matches!(report.warnings[0], CacheWarning::Unwritable { .. }));
@@ -169,7 +175,13 @@ fn with_or_without_cache_the_scene_is_the_same() {
     let mut triangles = apart(2);
     triangles.splice(N as usize..N as usize, degenerate("soup", 30));
     let sizes = [N as usize, 30, N as usize];
-    let primitives = Primitives { triangles: &triangles, mesh_sizes: &sizes, spheres: &[] };
+    let primitives = Primitives {
+        triangles: &triangles,
+        mesh_sizes: &sizes,
+        mesh_motions: &[],
+        spheres: &[],
+        sphere_motions: &[],
+    };
     let run = |cache: &Cache| build_scene(&primitives, cache).unwrap();
     let (cold, first) = run(&cache);
     let (warm, second) = run(&cache);

@@ -16,7 +16,8 @@ fn spheres(n: usize) -> Vec<([f32; 3], f32)> {
 
 /// Builds, verifies and returns the tree of a scene.
 fn check(triangles: &[Tri], mesh_sizes: &[usize], spheres: &[([f32; 3], f32)]) -> Joined {
-    let primitives = Primitives { triangles, mesh_sizes, spheres };
+    let primitives =
+        Primitives { triangles, mesh_sizes, mesh_motions: &[], spheres, sphere_motions: &[] };
     let (tree, report) = build_scene(&primitives, &Cache::disabled()).unwrap();
     assert_eq!((report.stored, report.loaded, report.warnings.len()), (0, 0, 0));
     let balls: Vec<_> =
@@ -92,7 +93,13 @@ fn small_meshes_share_a_group() {
 fn sizes_that_do_not_add_up_are_an_error() {
     let triangles = degenerate("soup", 10);
     for sizes in [vec![], vec![9], vec![11], vec![usize::MAX, 11]] {
-        let primitives = Primitives { triangles: &triangles, mesh_sizes: &sizes, spheres: &[] };
+        let primitives = Primitives {
+            triangles: &triangles,
+            mesh_sizes: &sizes,
+            mesh_motions: &[],
+            spheres: &[],
+            sphere_motions: &[],
+        };
         let error = build_scene(&primitives, &Cache::disabled()).unwrap_err();
         assert_eq!(error, BvhError::Sizes { count: 10 });
     }
@@ -147,8 +154,13 @@ fn groups_that_cross_are_opened() {
 fn tangled_meshes_become_one_tree() {
     let soup = degenerate("soup", 2 * u32::try_from(SMALL_MESH).unwrap());
     let one = check(&soup, &[soup.len()], &[]);
-    let primitives =
-        Primitives { triangles: &soup, mesh_sizes: &[SMALL_MESH, SMALL_MESH], spheres: &[] };
+    let primitives = Primitives {
+        triangles: &soup,
+        mesh_sizes: &[SMALL_MESH, SMALL_MESH],
+        mesh_motions: &[],
+        spheres: &[],
+        sphere_motions: &[],
+    };
     let (two, report) = build_scene(&primitives, &Cache::disabled()).unwrap();
     assert!(report.merged);
     assert_eq!((report.groups, two.cost()), (3, one.cost()));
@@ -162,8 +174,13 @@ fn meshes_apart_keep_their_own_trees() {
     let mut both = degenerate("soup", u32::try_from(SMALL_MESH).unwrap());
     both.extend_from_within(..);
     both[SMALL_MESH..].iter_mut().flatten().for_each(|p| p[0] += 10.0);
-    let primitives =
-        Primitives { triangles: &both, mesh_sizes: &[SMALL_MESH, SMALL_MESH], spheres: &[] };
+    let primitives = Primitives {
+        triangles: &both,
+        mesh_sizes: &[SMALL_MESH, SMALL_MESH],
+        mesh_motions: &[],
+        spheres: &[],
+        sphere_motions: &[],
+    };
     let (_, report) = build_scene(&primitives, &Cache::disabled()).unwrap();
     assert_eq!((report.groups, report.merged), (2, false));
 }

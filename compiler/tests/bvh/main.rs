@@ -4,6 +4,7 @@
 
 mod cache;
 mod join;
+mod motion;
 mod rays;
 mod shapes;
 mod trees;

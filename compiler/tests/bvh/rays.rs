@@ -99,7 +99,13 @@ fn through_tree(ray: &Ray, tree: &Joined, triangles: &[Tri]) -> (Option<f64>, us
 
 /// Every ray must find through the tree exactly what it finds without; returns the hits.
 fn check(name: &str, triangles: &[Tri], sizes: &[usize], rays: &[Ray]) -> usize {
-    let primitives = Primitives { triangles, mesh_sizes: sizes, spheres: &[] };
+    let primitives = Primitives {
+        triangles,
+        mesh_sizes: sizes,
+        mesh_motions: &[],
+        spheres: &[],
+        sphere_motions: &[],
+    };
     let (tree, _) = bvh::build_scene(&primitives, &Cache::disabled()).unwrap();
     let (mut hits, mut tested) = (0, 0);
     for ray in rays {

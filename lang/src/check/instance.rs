@@ -1,11 +1,11 @@
-//! Instances become a flat list of shapes with a matrix and a material each.
+//! Instances become a flat list of shapes with a pose and a material each.
 
 use std::rc::Rc;
 
 use super::collect::Givens;
 use super::fields::Fields;
 use super::object::{self, Objects, Thing};
-use super::transform::{self, Matrix};
+use super::transform::{self, Pose};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::value::{ShapeValue, Value};
 use crate::eval::{Evaluator, Scope};
@@ -28,7 +28,7 @@ pub(super) struct Placed {
     pub(super) shape: Rc<ShapeValue>,
     pub(super) shape_span: Span,
     pub(super) material: Option<(ItemId, Span)>,
-    pub(super) matrix: Matrix,
+    pub(super) pose: Pose,
 }
 
 /// Collects what is in the world.
@@ -128,13 +128,13 @@ impl World {
                 return;
             }
         };
-        let Some(matrix) = transform::matrix(fields) else { return };
+        let Some(pose) = transform::pose(fields) else { return };
         let over = object::material(fields);
         let place = Place { key, name_span, over };
         let shape_span = fields.value_span("shape").or(base.map(|(_, at)| at)).unwrap_or(name_span);
-        let thing = Thing { shape, shape_span, material: over, matrix };
+        let thing = Thing { shape, shape_span, material: over, pose };
         if placed {
-            self.flatten(ev, &place, (&thing, &thing.matrix), &mut Vec::new(), None);
+            self.flatten(ev, &place, (&thing, &thing.pose), &mut Vec::new(), None);
         }
     }
 
@@ -144,7 +144,7 @@ impl World {
         &mut self,
         ev: &mut Evaluator<'_>,
         place: &Place<'_>,
-        (thing, world): (&Thing, &Matrix),
+        (thing, world): (&Thing, &Pose),
         path: &mut Vec<ItemId>,
         inherited: Option<(ItemId, Span)>,
     ) {
@@ -162,7 +162,7 @@ impl World {
                 return;
             }
             let Some(inner) = self.objects.get(child) else { continue };
-            let world = transform::product(world, &inner.matrix);
+            let world = transform::nested(world, &inner.pose);
             if named {
                 path.push(child);
             }
@@ -186,7 +186,7 @@ impl World {
         &mut self,
         ev: &mut Evaluator<'_>,
         place: &Place<'_>,
-        (thing, world): (&Thing, &Matrix),
+        (thing, world): (&Thing, &Pose),
         (path, material): (&[ItemId], Option<(ItemId, Span)>),
     ) {
         if self.placed.len() >= MAX_INSTANCES {
@@ -221,7 +221,7 @@ impl World {
             shape: Rc::clone(&thing.shape),
             shape_span: thing.shape_span,
             material,
-            matrix: *world,
+            pose: *world,
         });
     }
 }

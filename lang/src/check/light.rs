@@ -3,25 +3,96 @@
 use super::fields::Fields;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
-use crate::scene::{Light, Name, Rgb, Sky, SkyModel};
+use crate::resolve::ItemId;
+use crate::scene::{Light, Name, Rgb, Sky, SkyModel, Tint};
 
 /// Checks how the fields of a light go together.
-pub(super) fn check_light(ev: &mut Evaluator<'_>, fields: &Fields) {
-    if let (Some(strength), Some(power)) = (fields.span("strength"), fields.span("power"))
-        && fields.has("strength")
-        && fields.has("power")
-    {
-        let text = "`strength` and `power` both set how bright the light is";
-        let error = Diagnostic::error(Code("E0703"), text)
-            .at(power, "keep one of them")
-            .because(strength, "this is the radiance of its surface");
+pub(super) fn check_light(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
+    let both = |a: &str, b: &str| Some((fields.span(a)?, fields.span(b)?));
+    let both = |a, b| both(a, b).filter(|_| fields.has(a) && fields.has(b));
+    for (a, b, what) in [
+        ("strength", "power", "how bright the light is"),
+        ("center", "direction", "where the light is"),
+        ("center", "distance", "where the light is"),
+        ("radius", "angular_radius", "how large the light is"),
+    ] {
+        if let Some((first, second)) = both(a, b) {
+            let text = format!("`{a}` and `{b}` both set {what}");
+            let error = Diagnostic::error(Code("E0703"), text)
+                .at(second, "keep one of them")
+                .because(first, "this says it, too");
+            ev.fault(error);
+            return;
+        }
+    }
+    if let Some(lacks) = lacking(fields) {
+        let text = format!("`{}` lacks `{lacks}`", ev.program.name(id));
+        let error = Diagnostic::error(Code("E0207"), text)
+            .at(ev.program.name_span(id), "where is it, and how large?")
+            .with_note("a light has `center` and `radius`, or `direction`, `distance` and `angular_radius`")
+            .with_help(format!("for example: {}", fields.schema.example));
         ev.fault(error);
     }
+    for name in ["tint.angle", "tint.direction"] {
+        if let Some(span) = fields.span(name).filter(|_| !fields.has("tint.color")) {
+            let text = format!("`{name}` does nothing without `tint.color`");
+            let error = Diagnostic::error(Code("E0207"), text)
+                .at(span, "tinted with which colour?")
+                .with_help("write `tint.color = linear(1, 0.65, 0.22)`, or leave this out");
+            ev.fault(error);
+        }
+    }
+    for name in ["direction", "tint.direction"] {
+        check_direction(ev, fields, name);
+    }
+}
+
+/// The first field without which place or size of a light is not known.
+fn lacking(fields: &Fields) -> Option<&'static str> {
+    // Fields that are wrong have been reported, and are there.
+    let lacks = |name: &'static str| fields.span(name).is_none().then_some(name);
+    let place = if fields.span("direction").is_some() || fields.span("distance").is_some() {
+        lacks("direction").or(lacks("distance"))
+    } else {
+        lacks("center")
+    };
+    place.or_else(|| if fields.span("angular_radius").is_some() { None } else { lacks("radius") })
+}
+
+/// Reports a direction of length zero.
+fn check_direction(ev: &mut Evaluator<'_>, fields: &Fields, name: &str) {
+    if let (Some(direction), Some(span)) = (fields.vector::<3>(name), fields.value_span(name))
+        && direction.iter().all(|c| *c == 0.0)
+    {
+        let text = format!("`{name}` has length zero");
+        ev.fault(Diagnostic::error(Code("E0401"), text).at(span, "points nowhere"));
+    }
+}
+
+/// Centre and radius, metres, world frame.
+fn place(fields: &Fields) -> Option<([f64; 3], f64)> {
+    let center = match fields.vector::<3>("direction") {
+        Some(direction) => scaled(unit(direction)?, fields.number("distance")?),
+        None => fields.vector("center")?,
+    };
+    let radius = match fields.number("angular_radius") {
+        Some(angle) => libm::sin(angle) * length(center),
+        None => fields.number("radius")?,
+    };
+    Some((center, radius))
+}
+
+fn tint(fields: &Fields, center: [f64; 3]) -> Option<Tint> {
+    let color = fields.color("tint.color")?;
+    // A light at the origin has no direction; any will do, the user can say another.
+    let towards = fields.vector("tint.direction").unwrap_or(center);
+    let direction = unit(towards).unwrap_or([0.0, 1.0, 0.0]);
+    Some(Tint { color, angle: fields.number("tint.angle")?, direction })
 }
 
 /// Builds a light. `None` only for fields with faults.
 pub(super) fn light(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Option<Light> {
-    let radius = fields.number("radius")?;
+    let (center, radius) = place(fields)?;
     // A sphere of radiance L gives off L * pi * 4 pi r^2 watts.
     let strength = match fields.number("power") {
         Some(power) => {
@@ -36,7 +107,9 @@ pub(super) fn light(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Opti
         ev.fault(error.with_help("a larger `radius` spreads the same `power`"));
         return None;
     }
-    Some(Light { name, center: fields.vector("center")?, radius, radiance })
+    let tint = tint(fields, center);
+    let velocity = fields.vector("velocity")?;
+    Some(Light { name, center, velocity, radius, radiance, tint })
 }
 
 /// Checks how the fields of a sky go together.
@@ -56,41 +129,49 @@ pub(super) fn check_sky(ev: &mut Evaluator<'_>, fields: &Fields) {
             }
         }
     }
-    if let (Some(direction), Some(span)) =
-        (fields.vector::<3>("sun.direction"), fields.value_span("sun.direction"))
-        && direction.iter().all(|c| *c == 0.0)
-    {
-        let text = "`sun.direction` has length zero";
-        ev.fault(Diagnostic::error(Code("E0401"), text).at(span, "points nowhere"));
-    }
+    check_direction(ev, fields, "sun.direction");
 }
 
 /// Builds a sky. `None` only for fields with faults.
 pub(super) fn sky(name: Name, fields: &Fields) -> Option<Sky> {
     let strength = fields.number("strength")?;
     let color = |field: &str| Some(scaled(fields.color(field)?, strength));
-    if fields.schema.name == "constant" {
-        return Some(Sky { name, model: SkyModel::Constant(color("color")?) });
-    }
+    let model = match fields.schema.name {
+        "constant" => SkyModel::Constant(color("color")?),
+        "image" => SkyModel::Image {
+            path: fields.text("file")?,
+            path_span: fields.value_span("file")?,
+            rotate: fields.number("rotate")?,
+            strength,
+        },
+        _ => gradient(fields, strength)?,
+    };
+    Some(Sky { name, model })
+}
+
+fn gradient(fields: &Fields, strength: f64) -> Option<SkyModel> {
+    let base = fields.number("base")? * strength;
+    let color = |field: &str| Some(scaled(fields.color(field)?, strength));
+    let band = |field: &str| Some(scaled(fields.color(field)?, base));
     let direction = fields.vector::<3>("sun.direction");
     let around_sun = |field: &str| match direction {
         Some(_) => color(field),
         None => Some([0.0; 3]),
     };
-    let model = SkyModel::Gradient {
-        zenith: color("zenith")?,
-        middle: color("middle")?,
-        horizon: color("horizon")?,
-        ground: color("ground")?,
+    Some(SkyModel::Gradient {
+        zenith: band("zenith")?,
+        middle: band("middle")?,
+        horizon: band("horizon")?,
+        ground: band("ground")?,
         blend_high: fields.number("blend.high")?,
         blend_low: fields.number("blend.low")?,
+        blend_ground: fields.number("blend.ground")?,
         sun_direction: unit(direction.unwrap_or([0.0, 1.0, 0.0]))?,
         glow: around_sun("glow.color")?,
         glow_power: fields.number("glow.power")?,
         disc: around_sun("disc.color")?,
         disc_power: fields.number("disc.power")?,
-    };
-    Some(Sky { name, model })
+    })
 }
 
 /// Is it black everywhere?
@@ -101,11 +182,16 @@ pub(super) fn is_black(sky: &Sky) -> bool {
         SkyModel::Gradient { zenith, middle, horizon, ground, glow, disc, .. } => {
             [zenith, middle, horizon, ground, glow, disc].into_iter().all(black)
         }
+        SkyModel::Image { strength, .. } => *strength <= 0.0,
     }
 }
 
 fn scaled(rgb: Rgb, factor: f64) -> Rgb {
     rgb.map(|c| c * factor)
+}
+
+fn length(v: [f64; 3]) -> f64 {
+    libm::hypot(libm::hypot(v[0], v[1]), v[2])
 }
 
 /// The unit vector of this direction, also of very short and very long ones.

@@ -11,6 +11,7 @@ use crate::eval::Evaluator;
 use crate::eval::value::Value;
 use crate::resolve::ItemId;
 use crate::scene::{Color, Leaf, MaterialModel, NormalMap, Petal, Principled, Scalar};
+use crate::source::Span;
 use crate::units;
 
 /// Above this no real surface is white: fresh snow and barium sulphate stay below.
@@ -18,6 +19,7 @@ const WHITEST: f64 = 0.95;
 
 /// Warns of values that are allowed and hardly meant.
 pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
+    no_effect(ev, fields);
     pattern::check(ev, fields);
     whiteness(ev, fields);
     invisible_coat(ev, fields);
@@ -26,6 +28,37 @@ pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
     }
     for own in ["sigma_a", "depth.color"] {
         one_of(ev, fields, &["interior", own], "what this water is inside");
+    }
+}
+
+/// Fields that do nothing because of what another field says, and why.
+const NO_EFFECT: &[(&str, &str, f64, &str)] = &[
+    ("coat.roughness", "coat.weight", 0.0, "there is no coat"),
+    ("transmission", "metallic", 1.0, "metal lets nothing through"),
+    ("specular", "metallic", 1.0, "what a metal reflects is its `color`"),
+    ("specular.color", "metallic", 1.0, "what a metal reflects is its `color`"),
+];
+
+/// Warns of fields that are written and do nothing.
+fn no_effect(ev: &mut Evaluator<'_>, fields: &Fields) {
+    let mut warn = |name: &str, label: &str, because: Option<Span>| {
+        let Some(span) = fields.span(name).filter(|_| fields.has(name)) else { return };
+        let text = format!("`{name}` has no effect: {label}");
+        let warning =
+            Diagnostic::warning(Code("W0404"), "no_effect", text).at(span, "changes nothing");
+        ev.diagnostics.push(match because {
+            Some(because) => warning.because(because, "because of this"),
+            None => warning,
+        });
+    };
+    for (name, other, value, label) in NO_EFFECT {
+        let zero = fields.number(name) == Some(0.0);
+        if !zero && fields.number(other) == Some(*value) {
+            warn(name, label, fields.span(other));
+        }
+    }
+    if !fields.has("normal") {
+        warn("normal.strength", "there is no normal map", None);
     }
 }
 
@@ -169,6 +202,11 @@ fn principled(
         metallic: scalar("metallic")?,
         roughness: scalar("roughness")?,
         ior: fields.number("ior")?,
+        specular: scalar("specular")?,
+        specular_color: color("specular.color")?,
+        coat: scalar("coat.weight")?,
+        coat_roughness: scalar("coat.roughness")?,
+        transmission: scalar("transmission")?,
         emission: color("emission.color")?,
         emission_strength: fields.number("emission.strength")?,
         alpha: scalar("alpha")?,

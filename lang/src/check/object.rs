@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::fields::Fields;
-use super::transform::{self, Matrix};
+use super::transform::{self, Pose};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::eval::value::{ShapeValue, Value};
@@ -21,7 +21,7 @@ pub(super) struct Thing {
     pub(super) shape: Rc<ShapeValue>,
     pub(super) shape_span: Span,
     pub(super) material: Option<(ItemId, Span)>,
-    pub(super) matrix: Matrix,
+    pub(super) pose: Pose,
 }
 
 /// Every object; those with faults are known to be there, and hold nothing. No object holds itself.
@@ -113,6 +113,6 @@ fn thing(fields: &Fields) -> Option<Thing> {
         shape,
         shape_span: fields.value_span("shape")?,
         material: material(fields),
-        matrix: transform::matrix(fields)?,
+        pose: transform::pose(fields)?,
     })
 }

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::instance::Placed;
 use super::render::name;
-use super::{Checker, ids_of, is_in_world, light, material, medium};
+use super::{Checker, ids_of, is_in_world, light, material, medium, motion};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::eval::value::ShapeValue;
@@ -66,6 +66,7 @@ impl Checker {
         };
         no_light(ev, &scene);
         nothing_in_the_air(ev, &scene);
+        motion::check(ev, &scene);
         Some(scene)
     }
 
@@ -143,7 +144,8 @@ fn instances(
                 shape_span: placed.shape_span,
                 material,
                 material_span: placed.material.map(|(_, span)| span),
-                world_from_object: placed.matrix,
+                world_from_object: placed.pose.matrix,
+                velocity: placed.pose.velocity,
             })
         })
         .collect()

@@ -1,12 +1,25 @@
-//! `at`, `rotate` and `scale` become one 3x4 matrix.
+//! `at`, `rotate` and `scale` become one 3x4 matrix, `velocity` goes along with it.
 
 use super::fields::Fields;
 
 /// Rows of a 3x4 matrix, target from source.
 pub(super) type Matrix = [[f64; 4]; 3];
 
-/// The matrix of an object or an instance: scale, then rotate about x, y and z, then translate.
-pub(super) fn matrix(fields: &Fields) -> Option<Matrix> {
+/// Where something is, and how it moves, in the frame of what holds it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Pose {
+    pub(super) matrix: Matrix,
+    /// Metres per second.
+    pub(super) velocity: [f64; 3],
+}
+
+/// The pose of an object or an instance.
+pub(super) fn pose(fields: &Fields) -> Option<Pose> {
+    Some(Pose { matrix: matrix(fields)?, velocity: fields.vector("velocity")? })
+}
+
+/// Scale, then rotate about x, y and z, then translate.
+fn matrix(fields: &Fields) -> Option<Matrix> {
     let at = fields.vector::<3>("at")?;
     let [x, y, z] = fields.vector::<3>("rotate")?;
     let scale = fields.vector::<3>("scale")?;
@@ -42,8 +55,18 @@ fn sin_cos(angle: f64) -> (f64, f64) {
     }
 }
 
+/// Of something in `inner`, which is in `outer`: the inner velocity is turned and scaled by the outer
+/// matrix, and the outer one added.
+pub(super) fn nested(outer: &Pose, inner: &Pose) -> Pose {
+    let (mut velocity, v) = (outer.velocity, inner.velocity);
+    for (component, row) in velocity.iter_mut().zip(&outer.matrix) {
+        *component += row[0] * v[0] + row[1] * v[1] + row[2] * v[2];
+    }
+    Pose { matrix: product(&outer.matrix, &inner.matrix), velocity }
+}
+
 /// `outer` after `inner`.
-pub(super) fn product(outer: &Matrix, inner: &Matrix) -> Matrix {
+fn product(outer: &Matrix, inner: &Matrix) -> Matrix {
     let mut rows = [[0.0; 4]; 3];
     for (row, o) in rows.iter_mut().zip(outer) {
         for (i, cell) in row.iter_mut().enumerate() {
@@ -55,8 +78,10 @@ pub(super) fn product(outer: &Matrix, inner: &Matrix) -> Matrix {
 }
 
 /// No entry is too large, and no axis is flattened to nothing.
-pub(super) fn is_sound(m: &Matrix) -> bool {
-    let finite = m.iter().flatten().all(|v| v.abs() <= crate::schema::MAX_MAGNITUDE);
+pub(super) fn is_sound(pose: &Pose) -> bool {
+    let m = &pose.matrix;
+    let finite =
+        m.iter().flatten().chain(&pose.velocity).all(|v| v.abs() <= crate::schema::MAX_MAGNITUDE);
     let determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
         - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
         + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);

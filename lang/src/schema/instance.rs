@@ -36,6 +36,17 @@ const SCALE: Field = Field::new(
 )
 .foreign(&[("size", "common use")]);
 
+/// Of instances and lights.
+pub(super) const VELOCITY: Field = Field::new(
+    "velocity",
+    FieldType::Vector(Dim::VELOCITY, "m/s"),
+    Default::Vector([0.0; 3]),
+    "How fast it moves, straight on; its place is that of the moment 0 of the camera's `shutter`. In a \
+     group it is turned and scaled with the group, and the group's own is added.",
+)
+.typical("a walker 1.5m/s, a thrown ball 20m/s, a shutter 0ms..20ms")
+.foreign(&[("speed", "common use"), ("vel", "common use"), ("motion", "common use")]);
+
 const fn material(doc: &'static str) -> Field {
     Field::new(
         "material",
@@ -69,6 +80,7 @@ const OBJECT: TypeSchema = TypeSchema {
         AT,
         ROTATE,
         SCALE,
+        VELOCITY,
     ],
     foreign: &[],
 };
@@ -96,6 +108,7 @@ const INSTANCE: TypeSchema = TypeSchema {
         AT,
         ROTATE,
         SCALE,
+        VELOCITY,
     ],
     foreign: &[],
 };

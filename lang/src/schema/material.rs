@@ -333,6 +333,70 @@ const PRINCIPLED: TypeSchema = TypeSchema {
         .foreign(ROUGHNESS_NAMES),
         IOR,
         Field::new(
+            "specular",
+            FieldType::ScalarSlot(UNIT),
+            Default::Number(1.0),
+            "Factor on what the dielectric part reflects; 0 is a surface without highlights.",
+        )
+        .typical("1; less where a hollow hides the sky")
+        .foreign(&[
+            ("specularFactor", "glTF"),
+            ("specularTexture", "glTF"),
+            ("Specular", "Blender"),
+        ]),
+        Field::new(
+            "specular.color",
+            FieldType::ColorSlot(ANY),
+            Default::Color(WHITE),
+            "Colour of what the dielectric part reflects at normal incidence.",
+        )
+        .typical("white; coloured for silk and feathers")
+        .foreign(&[
+            ("specularColorFactor", "glTF"),
+            ("specularColorTexture", "glTF"),
+            ("spec_tint", "Mitsuba"),
+        ]),
+        Field::new(
+            "coat.weight",
+            FieldType::ScalarSlot(UNIT),
+            Default::Number(0.0),
+            "Share of the surface under a clear coat of index 1.5.",
+        )
+        .typical("1 for lacquer and car paint")
+        .foreign(&[
+            ("clearcoatFactor", "glTF"),
+            ("clearcoatTexture", "glTF"),
+            ("clearcoat", "Mitsuba and Blender"),
+            ("Pc", "OBJ/MTL"),
+        ]),
+        Field::new(
+            "coat.roughness",
+            FieldType::ScalarSlot(UNIT),
+            Default::Number(0.0),
+            "Perceptual roughness of the coat.",
+        )
+        .typical("fresh lacquer 0.03, worn 0.3")
+        .foreign(&[
+            ("clearcoatRoughnessFactor", "glTF"),
+            ("clearcoatRoughnessTexture", "glTF"),
+            ("clearcoat_gloss", "Mitsuba"),
+            ("Pcr", "OBJ/MTL"),
+        ]),
+        Field::new(
+            "transmission",
+            FieldType::ScalarSlot(UNIT),
+            Default::Number(0.0),
+            "Share of the light entering that goes on through the surface, a thin sheet that bends nothing; `color` \
+             tints it. Solid glass is `dielectric`.",
+        )
+        .typical("1 for a window pane, 0.3 for paper")
+        .foreign(&[
+            ("transmissionFactor", "glTF"),
+            ("transmissionTexture", "glTF"),
+            ("spec_trans", "Mitsuba"),
+            ("Transmission", "Blender"),
+        ]),
+        Field::new(
             "emission.color",
             FieldType::ColorSlot(ANY),
             Default::Color(WHITE),

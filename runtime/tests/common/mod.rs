@@ -145,6 +145,8 @@ fn sky() -> Sky {
         glow_power: 8.0,
         sun_direction: [0.0, 1.0, 0.0],
         disc_power: 256.0,
+        texture: NONE,
+        light: NONE,
         ..Sky::default()
     }
 }

@@ -13,6 +13,7 @@ mod film;
 mod frame;
 mod geometry;
 mod light;
+mod light_node;
 mod material;
 mod medium;
 mod object;
@@ -25,15 +26,16 @@ pub use field::{AbiRecord, Field, FieldType};
 pub use film::FilmPixel;
 pub use frame::Frame;
 pub use geometry::{
-    CHILD_INNER, CHILD_SPHERES, ChildRef, MAX_DEPTH, MAX_LEAF, Node, Sphere, TRI_SMOOTH, TriShade,
-    Triangle,
+    CHILD_INNER, CHILD_SPHERES, ChildRef, MAX_DEPTH, MAX_LEAF, MOVES, Node, Sphere, TRI_SMOOTH,
+    TriShade, Triangle,
 };
 pub use light::{Light, LightKind};
+pub use light_node::{LIGHT_LEAF, LightNode, MAX_LIGHT_DEPTH};
 pub use material::{Material, MaterialKind, material_flag};
 pub use medium::Medium;
 pub use object::Object;
 pub use render::{RenderSettings, SamplerKind, ToneMap, f64_bits, f64_from_bits};
-pub use sky::{Sky, SkyKind};
+pub use sky::{Sky, SkyKind, sky_table_values};
 pub use texture::{Texture, TextureFormat, Wrap};
 
 /// "No such element" wherever an index is optional: texture ids, light ids.
@@ -66,6 +68,7 @@ pub fn records() -> Vec<(&'static str, &'static [Field], usize)> {
         row::<Material>(),
         row::<Medium>(),
         row::<Light>(),
+        row::<LightNode>(),
         row::<Texture>(),
         row::<FilmPixel>(),
     ]

@@ -5,8 +5,11 @@
 //! light table, then the tree (`tree`), then the feature bits. Linear time, no allocation beyond a
 //! bit a primitive and a word a node.
 
+mod light_tree;
+mod motion;
 mod rule;
 mod rules;
+mod sky;
 mod texture;
 mod tree;
 
@@ -93,8 +96,12 @@ fn records(contents: &Contents<'_>) -> Result<(), PackError> {
     each(contents.media, contents)?;
     each(contents.lights, contents)?;
     light_table(contents)?;
+    each(contents.light_nodes, contents)?;
+    light_tree::check(contents)?;
+    sky::check(contents)?;
     each(contents.textures, contents)?;
-    texture::check(contents)
+    texture::check(contents)?;
+    motion::check(contents)
 }
 
 /// Applies the rules of a record type to all its records; reports the first that breaks one.
@@ -108,7 +115,7 @@ fn each<R: Ruled>(records: &[R], contents: &Contents<'_>) -> Result<(), PackErro
 }
 
 /// The error for a broken rule of record `index`.
-fn element<R: PackRecord>(index: usize, (field, fault): Broken) -> PackError {
+pub(in crate::check) fn element<R: PackRecord>(index: usize, (field, fault): Broken) -> PackError {
     let in_record = R::FIELDS.iter().find(|known| known.name == field).map_or(0, |f| f.offset);
     let offset = index * size_of::<R>() + in_record;
     PackError::Element { at: Place { kind: R::KIND, index, offset }, field, fault }

@@ -4,8 +4,8 @@
 //! through this view, so both check and derive the same things. It judges nothing.
 
 use crate::abi::{
-    Camera, Light, Material, Medium, Node, Object, RenderSettings, Sky, Sphere, Texture, TriShade,
-    Triangle,
+    Camera, Light, LightNode, Material, Medium, Node, Object, RenderSettings, Sky, Sphere, Texture,
+    TriShade, Triangle,
 };
 use crate::error::PackError;
 use crate::kind::{Kind, PackRecord};
@@ -24,9 +24,11 @@ pub(crate) struct Contents<'a> {
     pub(crate) objects: &'a [Object],
     pub(crate) media: &'a [Medium],
     pub(crate) lights: &'a [Light],
+    pub(crate) light_nodes: &'a [LightNode],
     pub(crate) textures: &'a [Texture],
     pub(crate) texels: &'a [[u32; 4]],
     pub(crate) srgb: &'a [f32],
+    pub(crate) sky_table: &'a [f32],
     pub(crate) kernel: &'a [u8],
 }
 
@@ -49,9 +51,11 @@ impl<'a> Contents<'a> {
             objects: records(&find),
             media: records(&find),
             lights: records(&find),
+            light_nodes: records(&find),
             textures: records(&find),
             texels: find(Kind::TEXEL).map_or(&[], bytemuck::cast_slice),
             srgb: find(Kind::SRGBLUT).map_or(&[], bytemuck::cast_slice),
+            sky_table: find(Kind::SKYTABLE).map_or(&[], bytemuck::cast_slice),
             kernel: find(Kind::KERNEL).ok_or_else(|| first(Kind::KERNEL))?,
         })
     }

@@ -290,14 +290,68 @@ pub enum ElementFault {
         /// Of the section.
         count: usize,
     },
+    /// Bit 31 of a primitive whose object stands still.
+    #[error("says that it moves, but object {object} does not")]
+    Marked {
+        /// The object.
+        object: u32,
+    },
+    /// No bit 31 of a primitive whose object moves.
+    #[error("says that it does not move, but object {object} does")]
+    NotMarked {
+        /// The object.
+        object: u32,
+    },
     /// Cumulative probabilities fall.
-    #[error("is {found}, less than {before} of the light before")]
+    #[error("is {found}, less than the {before} before it")]
     Falling {
         /// In the file.
         found: f32,
         /// Of the element before.
         before: f32,
     },
+    /// An edge between rows of the sky's table is not below the one before.
+    #[error("is {found}, not less than the {before} before it")]
+    Rising {
+        /// In the file.
+        found: f32,
+        /// Of the element before.
+        before: f32,
+    },
+    /// The first or last edge of the sky's rows.
+    #[error("is {found}, expected exactly {expected}")]
+    Edge {
+        /// In the file.
+        found: f32,
+        /// 1 or -1.
+        expected: f32,
+    },
+    /// A node of the tree of lights is not where a walk expects it.
+    #[error("leads to nodes in another order than first child, second child")]
+    LightOrder,
+    /// The tree of lights is deeper than a trail is long.
+    #[error("leads deeper than {} turns", abi::MAX_LIGHT_DEPTH)]
+    LightDepth,
+    /// A leaf names no light of a surface, or one that another leaf has.
+    #[error("is a leaf with light {0}, which is no surface or has a leaf already")]
+    LightLeaf(u32),
+    /// A light does not know its way.
+    #[error("is {found:#x}, but the way to its leaf is {expected:#x}")]
+    Trail {
+        /// In the file.
+        found: u32,
+        /// The turns.
+        expected: u32,
+    },
+    /// No leaf holds a light.
+    #[error("leads nowhere: no leaf of the tree of lights holds this light")]
+    LightLost,
+    /// A light of kind sky that is not the sky's own.
+    #[error("is sky, but the light of SKY is {}", index_or_none(*.0))]
+    NotOfSky(u32),
+    /// The sky names a light of another kind.
+    #[error("is {0}, which is not a light of kind sky")]
+    NotASky(u32),
     /// Cumulative probabilities do not end at 1.
     #[error("is {0}, the last must be exactly 1")]
     LastCdf(f32),
@@ -405,6 +459,11 @@ pub enum BvhFault {
         /// Recomputed.
         need: u32,
     },
+}
+
+/// An optional index in words.
+fn index_or_none(index: u32) -> String {
+    if index == abi::NONE { "none".to_owned() } else { index.to_string() }
 }
 
 fn axis(index: usize) -> &'static str {

@@ -5,7 +5,7 @@
 //! bits that it does not know.
 
 use crate::abi::{
-    LightKind, MaterialKind, NONE, SamplerKind, SkyKind, TextureFormat, material_flag,
+    LightKind, MaterialKind, NONE, Object, SamplerKind, SkyKind, TextureFormat, material_flag,
 };
 use crate::contents::Contents;
 
@@ -53,8 +53,25 @@ pub const TANGENTS: u64 = 1 << 17;
 pub const OBJECTS: u64 = 1 << 18;
 /// Has a material with a normal map.
 pub const NORMAL_MAPS: u64 = 1 << 21;
+/// Something moves while the shutter is open.
+pub const MOTION: u64 = 1 << 31;
+/// Has a principled material with a specular factor or colour.
+pub const PRINCIPLED_SPECULAR: u64 = 1 << 28;
+/// Has a principled material with a coat.
+pub const PRINCIPLED_COAT: u64 = 1 << 29;
+/// Has a principled material that lets light through.
+pub const PRINCIPLED_TRANSMISSION: u64 = 1 << 30;
+
 /// Independent random numbers, instead of Sobol's.
 pub const SAMPLER_PCG: u64 = 1 << 48;
+/// Has an image sky.
+pub const SKY_IMAGE: u64 = 1 << 52;
+/// Has the sky among its lights.
+pub const LIGHT_SKY: u64 = 1 << 53;
+/// Has a tree of lights.
+pub const LIGHT_TREE: u64 = 1 << 54;
+/// Has a tinted light.
+pub const TINT: u64 = 1 << 55;
 
 /// Has a stone material.
 pub const MATERIAL_STONE: u64 = material(MaterialKind::Stone);
@@ -85,12 +102,14 @@ pub const SCATTERING: u64 = 1 << 25;
 pub const FOG: u64 = 1 << 26;
 /// Has a material behind which shadow rays go on.
 pub const THROUGH: u64 = 1 << 27;
+/// And it has no inside: a thin sheet.
+pub const SHEETS: u64 = 1 << 19;
 
 /// Has a water material.
 pub const MATERIAL_WATER: u64 = 1 << 45;
 
 /// Every bit with its name, in bit order.
-pub const NAMES: [(u64, &str); 34] = [
+pub const NAMES: [(u64, &str); 43] = [
     (TRIANGLES, "triangles"),
     (SPHERES, "spheres"),
     (LIGHT_SPHERE, "sphere lights"),
@@ -111,6 +130,7 @@ pub const NAMES: [(u64, &str); 34] = [
     (TANGENTS, "tangents"),
     (OBJECTS, "objects"),
     (NORMAL_MAPS, "normal maps"),
+    (MOTION, "motion"),
     (MATERIAL_STONE, "stone"),
     (MATERIAL_WOOD, "wood"),
     (MATERIAL_FABRIC, "fabric"),
@@ -124,7 +144,15 @@ pub const NAMES: [(u64, &str); 34] = [
     (SCATTERING, "scattering media"),
     (FOG, "fog"),
     (THROUGH, "see-through materials"),
+    (SHEETS, "see-through sheets"),
     (MATERIAL_WATER, "water"),
+    (SKY_IMAGE, "image sky"),
+    (LIGHT_SKY, "sky light"),
+    (LIGHT_TREE, "light tree"),
+    (TINT, "tinted lights"),
+    (PRINCIPLED_SPECULAR, "principled specular"),
+    (PRINCIPLED_COAT, "principled coat"),
+    (PRINCIPLED_TRANSMISSION, "principled transmission"),
 ];
 
 /// All bits that this reader knows.
@@ -151,14 +179,18 @@ pub(crate) fn of(contents: &Contents<'_>) -> u64 {
     set(SPHERES, !contents.spheres.is_empty());
     set(LENS, contents.camera.lens_radius > 0.0);
     set(SAMPLER_PCG, contents.render.sampler == SamplerKind::Pcg as u32);
+    set(LIGHT_TREE, !contents.light_nodes.is_empty());
+    set(MOTION, contents.objects.iter().any(Object::moves));
     for light in contents.lights {
         set(LIGHT_SPHERE, light.kind == LightKind::Sphere as u32);
         set(LIGHT_RECTANGLE, light.kind == LightKind::Rectangle as u32);
         set(LIGHT_TRIANGLE, light.kind == LightKind::Triangle as u32);
+        set(LIGHT_SKY, light.kind == LightKind::Sky as u32);
     }
     if let Some(sky) = contents.sky {
         set(SKY_CONSTANT, sky.kind == SkyKind::Constant as u32);
         set(SKY_GRADIENT, sky.kind == SkyKind::Gradient as u32);
+        set(SKY_IMAGE, sky.kind == SkyKind::Image as u32);
     }
     for texture in contents.textures {
         set(TEXTURE_RGBA8_SRGB, texture.format == TextureFormat::Rgba8Srgb as u32);
@@ -169,12 +201,17 @@ pub(crate) fn of(contents: &Contents<'_>) -> u64 {
         for kind in MaterialKind::ALL {
             set(self::material(kind), material.kind == kind as u32);
         }
+        set(TINT, material.flags & material_flag::EMIT_TINT != 0);
         set(ALPHA_CLIP, material.flags & material_flag::ALPHA_CLIP != 0);
         set(TANGENTS, material.flags & material_flag::TANGENT != 0);
         set(OBJECTS, material.flags & material_flag::OBJECT != 0);
         set(NORMAL_MAPS, material.normal_texture != NONE);
         set(MEDIA, material.flags & material_flag::INTERIOR != 0);
         set(THROUGH, material.flags & material_flag::THROUGH != 0);
+        set(SHEETS, material.is_sheet());
+        set(PRINCIPLED_SPECULAR, material.has_specular());
+        set(PRINCIPLED_COAT, material.has_coat());
+        set(PRINCIPLED_TRANSMISSION, material.has_transmission());
     }
     set(MEDIA, contents.render.air != NONE);
     set(FOG, contents.render.fog != NONE);

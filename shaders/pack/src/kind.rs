@@ -34,12 +34,17 @@ impl Kind {
     pub const MEDIUM: Self = Self(*b"MEDIUM  ");
     /// [`abi::Light`]s: the selection table.
     pub const LIGHT: Self = Self(*b"LIGHT   ");
+    /// [`abi::LightNode`]s: the tree by which one of many lights is chosen; absent when the table does.
+    pub const LIGHTNODE: Self = Self(*b"LIGHTNOD");
     /// [`abi::Texture`]s.
     pub const TEXTURE: Self = Self(*b"TEXTURE ");
     /// Texels of all textures, 16-byte words.
     pub const TEXEL: Self = Self(*b"TEXEL   ");
     /// 256 `f32`: linear value of each sRGB byte. Present exactly when a texture is `Rgba8Srgb`.
     pub const SRGBLUT: Self = Self(*b"SRGBLUT ");
+    /// `f32` values by which the sky is sampled, four a word: [`abi::sky_table_values`]. Present exactly when
+    /// the sky is a light.
+    pub const SKYTABLE: Self = Self(*b"SKYTABLE");
     /// The linked WGSL text.
     pub const KERNEL: Self = Self(*b"KERNEL  ");
     /// The [`crate::Manifest`]; never needed to render.
@@ -118,11 +123,13 @@ const MAX_PRIMITIVES: u64 = 1 << 27;
 pub(crate) const MAX_KERNEL: u64 = 4 << 20;
 /// Most bytes of a manifest.
 pub(crate) const MAX_META: usize = 16 << 20;
+/// 16-byte words of the table of the sky: 32 MiB of cells and some rows; it shares a binding with small tables.
+const MAX_SKY_WORDS: u64 = (32 << 20) / 16 + (1 << 16);
 /// 16-byte words of the sRGB table: 256 values of 4 bytes.
 pub(crate) const SRGB_WORDS: u64 = 64;
 
 /// Every section of this format, in file order.
-pub const SECTIONS: [SectionSpec; 16] = [
+pub const SECTIONS: [SectionSpec; 18] = [
     one(Kind::RENDER, size_of::<abi::RenderSettings>(), true),
     one(Kind::CAMERA, size_of::<abi::Camera>(), true),
     one(Kind::SKY, size_of::<abi::Sky>(), false),
@@ -135,10 +142,12 @@ pub const SECTIONS: [SectionSpec; 16] = [
     table(Kind::OBJECT, size_of::<abi::Object>(), 1 << 24),
     table(Kind::MEDIUM, size_of::<abi::Medium>(), 1 << 16),
     table(Kind::LIGHT, size_of::<abi::Light>(), 1 << 24),
+    table(Kind::LIGHTNODE, size_of::<abi::LightNode>(), 1 << 20),
     table(Kind::TEXTURE, size_of::<abi::Texture>(), 1 << 20),
     // `Texture::offset` is a `u32` that counts words.
     table(Kind::TEXEL, 16, 1 << 32),
     SectionSpec { min_count: SRGB_WORDS, ..table(Kind::SRGBLUT, 16, SRGB_WORDS) },
+    table(Kind::SKYTABLE, 16, MAX_SKY_WORDS),
     SectionSpec { required: true, ..table(Kind::KERNEL, 1, MAX_KERNEL) },
     SectionSpec { must_understand: false, ..table(Kind::META, 1, MAX_META as u64) },
 ];
@@ -157,5 +166,5 @@ macro_rules! pack_records {
 pack_records! {
     RenderSettings => RENDER, Camera => CAMERA, Sky => SKY, Node => NODE, Triangle => TRIANGLE,
     TriShade => TRISHADE, Sphere => SPHERE, Material => MATERIAL, Object => OBJECT,
-    Medium => MEDIUM, Light => LIGHT, Texture => TEXTURE,
+    Medium => MEDIUM, Light => LIGHT, LightNode => LIGHTNODE, Texture => TEXTURE,
 }

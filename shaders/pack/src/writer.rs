@@ -73,6 +73,11 @@ impl<'a> PackWriter<'a> {
         self.push(Kind::SRGBLUT, Payload::Bytes(Cow::Borrowed(bytemuck::cast_slice(values))))
     }
 
+    /// Adds the table by which the sky is sampled; none, no section.
+    pub fn sky_table(&mut self, words: &'a [[f32; 4]]) -> &mut Self {
+        self.push(Kind::SKYTABLE, Payload::Bytes(Cow::Borrowed(bytemuck::cast_slice(words))))
+    }
+
     /// Adds the linked WGSL text.
     pub fn kernel(&mut self, wgsl: &'a str) -> &mut Self {
         self.bytes(Kind::KERNEL, wgsl.as_bytes())

@@ -112,7 +112,13 @@ fn the_render_id_names_the_picture_and_not_its_history() {
 #[test]
 fn features_are_those_of_the_contents() {
     let pack = Pack::from_bytes(Scene::full().bytes()).unwrap();
-    let absent = features::SKY_CONSTANT | features::SAMPLER_PCG;
+    // A pack has one sky, and this one is no light; few lights need no tree; none is tinted.
+    let absent = features::SKY_CONSTANT
+        | features::SKY_IMAGE
+        | features::LIGHT_SKY
+        | features::LIGHT_TREE
+        | features::TINT
+        | features::SAMPLER_PCG;
     assert_eq!(pack.features(), features::KNOWN & !absent);
     let mut scene = Scene::empty();
     assert_eq!(Pack::from_bytes(scene.bytes()).unwrap().features(), features::LENS);
@@ -132,7 +138,7 @@ fn absent_kinds_bring_no_section() {
     };
     assert_eq!(kinds(&Scene::empty()), ["RENDER", "CAMERA", "KERNEL"]);
     let all: Vec<String> = pack::SECTIONS.iter().map(|spec| spec.kind.to_string()).collect();
-    assert_eq!(kinds(&Scene::full()), all);
+    assert_eq!(kinds(&Scene::with_light_tree()), all);
 }
 
 #[test]

@@ -5,7 +5,7 @@ mod common;
 use common::sound::assert_sound;
 use common::{Scene, inner, node, spheres, triangles};
 use pack::Pack;
-use pack::abi::{ChildRef, NONE, Node};
+use pack::abi::{ChildRef, MOVES, NONE, Node};
 use pack::bvh::stack_need;
 use proptest::prelude::*;
 
@@ -69,7 +69,7 @@ proptest! {
         scene.render.stack_need = need;
         let (mut triangle, mut shade, mut sphere) =
             (scene.triangles[0], scene.shades[0], scene.spheres[0]);
-        (triangle.id0, triangle.id1, triangle.id2) = (0, 1, 2);
+        (triangle.id0, triangle.id1, triangle.id2) = (MOVES, MOVES | 1, MOVES | 2);
         (shade.light, sphere.light) = (NONE, NONE);
         scene.triangles = vec![triangle; build.n_triangles as usize];
         scene.shades = vec![shade; build.n_triangles as usize];

@@ -2,8 +2,8 @@
 
 use crate::FeatureSet;
 use pack::abi::{
-    CHILD_INNER, CHILD_SPHERES, ChildRef, LightKind, MaterialKind, NONE, SamplerKind, SkyKind,
-    TRI_SMOOTH, TextureFormat, Wrap, material_flag,
+    CHILD_INNER, CHILD_SPHERES, ChildRef, LIGHT_LEAF, LightKind, MOVES, MaterialKind, NONE,
+    SamplerKind, SkyKind, TRI_SMOOTH, TextureFormat, Wrap, material_flag,
 };
 use std::fmt::Write as _;
 
@@ -41,13 +41,19 @@ pub(crate) fn text(features: &FeatureSet) -> String {
         ("FLAG_INTERIOR", material_flag::INTERIOR),
         ("FLAG_THROUGH", material_flag::THROUGH),
         ("TRI_SMOOTH", TRI_SMOOTH),
+        ("FLAG_EMIT_TINT", material_flag::EMIT_TINT),
+        ("LIGHT_LEAF", LIGHT_LEAF),
+        ("LIGHT_LEAF_INDEX", LIGHT_LEAF - 1),
+        ("MOVES", MOVES),
         ("LIGHT_SPHERE", LightKind::Sphere as u32),
         ("LIGHT_RECTANGLE", LightKind::Rectangle as u32),
         ("LIGHT_TRIANGLE", LightKind::Triangle as u32),
+        ("LIGHT_SKY", LightKind::Sky as u32),
         ("SKY_CONSTANT", SkyKind::Constant as u32),
         ("SKY_GRADIENT", SkyKind::Gradient as u32),
         ("SAMPLER_SOBOL", SamplerKind::Sobol as u32),
         ("SAMPLER_PCG", SamplerKind::Pcg as u32),
+        ("SKY_IMAGE", SkyKind::Image as u32),
         ("TEXTURE_RGBA8_SRGB", TextureFormat::Rgba8Srgb as u32),
         ("TEXTURE_RGBA8_LINEAR", TextureFormat::Rgba8Linear as u32),
         ("TEXTURE_RGBA16_FLOAT", TextureFormat::Rgba16Float as u32),

@@ -4,7 +4,7 @@
 
 use super::{imports, switch};
 use crate::FeatureSet;
-use pack::abi::{LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat};
+use pack::abi::{LightKind, MaterialKind, SamplerKind, TextureFormat};
 use std::fmt::Write as _;
 
 /// Camera, sky, surfaces and direct light.
@@ -17,8 +17,11 @@ pub(crate) fn path(features: &FeatureSet) -> String {
         "camera/film_plane.wgsl",
         "camera/pinhole.wgsl",
         "kernel/state.wgsl",
+        "math/vector.wgsl",
         "sampler/key.wgsl",
         "scene/constants.wgsl",
+        "scene/dispatch_sky.wgsl",
+        "scene/motion.wgsl",
         "scene/records.wgsl",
         "scene/sampler.wgsl",
         "shape/sphere.wgsl",
@@ -35,13 +38,9 @@ pub(crate) fn path(features: &FeatureSet) -> String {
     if !features.lights.is_empty() {
         modules.push("kernel/direct.wgsl");
     }
-    modules.extend(features.skies.iter().map(|sky| match sky {
-        SkyKind::Constant => "sky/constant.wgsl",
-        SkyKind::Gradient => "sky/gradient.wgsl",
-    }));
     text += &imports(modules);
     text += &camera(features);
-    text += &sky(features);
+    text += &miss(features);
     if features.geometry() {
         text += &surface(features);
         text += &tangent(features);
@@ -65,31 +64,13 @@ fn camera(features: &FeatureSet) -> String {
     )
 }
 
-fn sky(features: &FeatureSet) -> String {
-    let cases: Vec<(&str, String)> = features
-        .skies
-        .iter()
-        .map(|sky| match sky {
-            SkyKind::Constant => ("SKY_CONSTANT", "constant_radiance()".to_owned()),
-            SkyKind::Gradient => ("SKY_GRADIENT", "gradient_radiance(dir)".to_owned()),
-        })
-        .collect();
-    let none = if cases.is_empty() {
-        ""
-    } else {
-        "    if (load_frame_sky_at() == NONE) {\n        return vec3f(0.0);\n    }\n"
-    };
-    format!(
-        "\n// Radiance of the sky along `dir`.\nfn dispatch_sky(dir: vec3f) -> vec3f {{\n{none}{}}}\n",
-        switch("load_sky_kind()", &cases, "vec3f(0.0)")
-    )
-}
-
 fn surface(features: &FeatureSet) -> String {
     let mut body = String::new();
     if features.spheres {
         let mut sphere = String::from(
-            "    var s = sphere_surface(hit.prim & ~PRIM_SPHERE, origin, dir, hit.t);\n",
+            "    let i = hit.prim & ~PRIM_SPHERE;\n    \
+             let start = dispatch_sphere_origin(load_sphere_object(i), origin, time);\n    \
+             var s = sphere_surface(i, start, dir, hit.t);\n    dispatch_sphere_carry(&s, i, time);\n",
         );
         if !features.textures.is_empty() || features.tangents {
             sphere += "    s.uv = sphere_uv(select(-s.ng, s.ng, s.front));\n";
@@ -105,11 +86,15 @@ fn surface(features: &FeatureSet) -> String {
     if features.triangles {
         let function =
             if features.smooth_normals { "triangle_surface" } else { "triangle_flat_surface" };
-        let _ = writeln!(body, "    return {function}(hit.prim, hit.b, dir);");
+        let _ = write!(
+            body,
+            "    var s = {function}(hit.prim, hit.b, dir);\n    \
+             dispatch_triangle_carry(&s, hit.prim, time);\n    return s;\n"
+        );
     }
     format!(
-        "\n// The surface that the ray from `origin` along `dir` has hit.\n\
-         fn dispatch_surface(hit: Hit, origin: vec3f, dir: vec3f) -> Surface {{\n{body}}}\n"
+        "\n// The surface that the ray from `origin` along `dir` has hit at `time`.\n\
+         fn dispatch_surface(hit: Hit, origin: vec3f, dir: vec3f, time: f32) -> Surface {{\n{body}}}\n"
     )
 }
 
@@ -169,22 +154,40 @@ pub(crate) fn place(features: &FeatureSet) -> String {
     text
 }
 
-fn direct(features: &FeatureSet) -> String {
-    let (sample, weight) = if features.lights.is_empty() {
-        ("", "1.0")
+/// What a ray sees that hits nothing; weighted where the sky is sampled, too.
+fn miss(features: &FeatureSet) -> String {
+    let body = if features.lights.contains(&LightKind::Sky) {
+        "    let radiance = dispatch_sky(dir);\n    \
+         if (vector_max(radiance) <= 0.0) {\n        return radiance;\n    }\n    \
+         return radiance * direct_sky_weight(dir, pdf);\n"
     } else {
-        ("    direct_sample(path, p, scatter, wo);\n", "direct_weight(origin, dir, pdf, s)")
+        "    return dispatch_sky(dir);\n"
     };
     format!(
-        "\n// Leaves a shadow ray in `path` if light may reach the vertex at `p` directly.\n\
-         fn dispatch_direct(path: ptr<function, Path>, p: vec3f, scatter: Scatter, wo: vec3f) {{\n{sample}}}\n\
-         \n// Weight of emission that a direction sampled with density `pdf` has found.\n\
-         fn dispatch_emission_weight(origin: vec3f, dir: vec3f, pdf: f32, s: Surface) -> f32 {{\n    \
+        "\n// Radiance found by a direction that was sampled with density `pdf` and hits nothing.\n\
+         fn dispatch_miss(dir: vec3f, pdf: f32) -> vec3f {{\n{body}}}\n"
+    )
+}
+
+fn direct(features: &FeatureSet) -> String {
+    let sample = if features.lights.is_empty() {
+        ""
+    } else {
+        "    direct_sample(path, p, gap, scatter, wo);\n"
+    };
+    let weight =
+        if features.surface_lights() { "direct_weight(origin, dir, pdf, s, time)" } else { "1.0" };
+    format!(
+        "\n// Leaves a shadow ray in `path` if light may reach the vertex at `p` directly; rays start off it\n\
+         // by `gap` on either side.\n\
+         fn dispatch_direct(path: ptr<function, Path>, p: vec3f, gap: vec3f, scatter: Scatter, wo: vec3f) {{\n{sample}}}\n\
+         \n// Weight of emission that a direction sampled with density `pdf` has found at `time`.\n\
+         fn dispatch_emission_weight(origin: vec3f, dir: vec3f, pdf: f32, s: Surface, time: f32) -> f32 {{\n    \
          return {weight};\n}}\n"
     )
 }
 
-/// Tag, module stem, and the arguments of its sample, eval and pdf.
+/// Tag, beginning of the functions' names, and the arguments of its sample, eval and pdf.
 fn bsdf_row(kind: MaterialKind) -> (&'static str, &'static str, [&'static str; 3]) {
     match kind {
         MaterialKind::Diffuse => (
@@ -208,7 +211,9 @@ fn bsdf_row(kind: MaterialKind) -> (&'static str, &'static str, [&'static str; 3
             ("MATERIAL_WATER", "water", ["s, wo, sample_1d(key, PURPOSE_LOBE)", "", ""])
         }
         MaterialKind::Emissive => ("MATERIAL_EMISSIVE", "emissive", ["", "", ""]),
-        MaterialKind::Principled => ("MATERIAL_PRINCIPLED", "principled", DIRECTION_AND_LOBE),
+        MaterialKind::Principled => {
+            ("MATERIAL_PRINCIPLED", "dispatch_principled", DIRECTION_AND_LOBE)
+        }
         MaterialKind::Conductor => ("MATERIAL_CONDUCTOR", "conductor", DIRECTION_AND_LOBE),
         MaterialKind::RoughDielectric => {
             ("MATERIAL_ROUGH_DIELECTRIC", "rough_dielectric", DIRECTION_AND_LOBE)
@@ -277,9 +282,42 @@ pub(crate) fn pattern(features: &FeatureSet) -> String {
     }
     text + "        default: {}\n    }\n}\n"
 }
+
+/// What goes straight through a sheet. The function has the same head and foot in every kernel, and a line for
+/// each kind of sheet.
+pub(crate) fn straight(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: the thin sheets of this scene.\n\n");
+    text += &imports(["bsdf/scatter.wgsl", "scene/constants.wgsl"]);
+    let mut cases = String::new();
+    if features.materials.contains(&MaterialKind::Petal) {
+        text += &imports(["bsdf/petal.wgsl"]);
+        cases += "        case MATERIAL_PETAL: { return petal_through(s, wo); }\n";
+    }
+    if features.materials.contains(&MaterialKind::Principled) {
+        text += &imports(["scene/principled.wgsl"]);
+        cases +=
+            "        case MATERIAL_PRINCIPLED: { return dispatch_principled_straight(s, wo); }\n";
+    }
+    let _ = write!(
+        text,
+        "\n// Share of light that goes straight through the sheet at `s`.\n\
+         fn dispatch_straight(s: Scatter, wo: vec3f) -> vec3f {{\n    switch (s.kind) {{\n{cases}        \
+         default: {{ return vec3f(0.0); }}\n    }}\n}}\n"
+    );
+    text
+}
+
 /// A point in a medium scatters like a surface, but is of no material.
 const PHASE_ROW: (&str, &str, [&str; 3]) =
     ("PHASE_KIND", "phase", ["s, wo, sample_2d(key, PURPOSE_DIRECTION)", "s, wo, wi", "s, wo, wi"]);
+
+/// The module of a model's functions: written by hand, or generated where it depends on more than its kind.
+fn module_of(stem: &str) -> String {
+    match stem.strip_prefix("dispatch_") {
+        Some(generated) => format!("scene/{generated}.wgsl"),
+        None => format!("bsdf/{stem}.wgsl"),
+    }
+}
 
 /// The three functions of a scattering model.
 pub(crate) fn bsdf(features: &FeatureSet) -> String {
@@ -287,7 +325,7 @@ pub(crate) fn bsdf(features: &FeatureSet) -> String {
     if features.scattering {
         rows.push(PHASE_ROW);
     }
-    let files: Vec<String> = rows.iter().map(|row| format!("bsdf/{}.wgsl", row.1)).collect();
+    let files: Vec<String> = rows.iter().map(|row| module_of(row.1)).collect();
     let mut text = String::from("// Generated: the scattering models of this scene.\n\n");
     text += &imports([
         "bsdf/scatter.wgsl",
@@ -330,6 +368,7 @@ pub(crate) fn light(features: &FeatureSet) -> String {
             LightKind::Sphere => ("LIGHT_SPHERE", "sphere"),
             LightKind::Rectangle => ("LIGHT_RECTANGLE", "rectangle"),
             LightKind::Triangle => ("LIGHT_TRIANGLE", "triangle"),
+            LightKind::Sky => ("LIGHT_SKY", "sky"),
         })
         .collect();
     let files: Vec<String> = rows.iter().map(|row| format!("light/{}.wgsl", row.1)).collect();
@@ -339,6 +378,7 @@ pub(crate) fn light(features: &FeatureSet) -> String {
         "light/light_sample.wgsl",
         "math/vector.wgsl",
         "scene/constants.wgsl",
+        "scene/motion.wgsl",
         "scene/records.wgsl",
         "shape/sphere.wgsl",
         "shape/triangle.wgsl",
@@ -348,7 +388,14 @@ pub(crate) fn light(features: &FeatureSet) -> String {
     let cases = |call: &dyn Fn(&str) -> String| -> Vec<(&str, String)> {
         rows.iter().map(|(tag, stem)| (*tag, call(stem))).collect()
     };
-    let sample = cases(&|stem| format!("{stem}_light_sample(light, p, u)"));
+    let sample = cases(&|stem| match stem {
+        "sky" => "sky_light_sample(u)".to_owned(),
+        _ => format!("{stem}_light_sample(light, p, u)"),
+    });
+    let rows: Vec<_> = rows.iter().copied().filter(|row| row.1 != "sky").collect();
+    let cases = |call: &dyn Fn(&str) -> String| -> Vec<(&str, String)> {
+        rows.iter().map(|(tag, stem)| (*tag, call(stem))).collect()
+    };
     let pdf = cases(&|stem| match stem {
         "sphere" => "sphere_light_pdf(light, p)".to_owned(),
         _ => format!("{stem}_light_pdf(light, p, x, cos_l)"),
@@ -357,14 +404,41 @@ pub(crate) fn light(features: &FeatureSet) -> String {
         text,
         "\n// A direction from `p` to the light.\n\
          fn dispatch_light_sample(light: Light, p: vec3f, u: vec2f) -> LightSample {{\n{}}}\n\
-         \n// Density of `dispatch_light_sample` towards the light's point `x`, where the cosine to the\n\
-         // geometric normal is `cos_l`, of either sign.\n\
+         \n// Density of `dispatch_light_sample` towards the point `x` of a light that is a surface,\n\
+         // where the cosine to the geometric normal is `cos_l`, of either sign.\n\
          fn dispatch_light_pdf(light: Light, p: vec3f, x: vec3f, cos_l: f32) -> f32 {{\n{}}}\n",
         switch("light.kind", &sample, "light_sample_none()"),
         switch("light.kind", &pdf, "0.0"),
     );
+    text += &light_shift(features);
     text += &light_surface(features);
     text
+}
+
+/// Where a light is.
+fn light_shift(features: &FeatureSet) -> String {
+    let triangle = "dispatch_triangle_shift(light.primitive, time)";
+    let cases: Vec<(&str, String)> = features
+        .lights
+        .iter()
+        .filter_map(|kind| match kind {
+            LightKind::Sphere if features.spheres => {
+                Some(("LIGHT_SPHERE", "dispatch_sphere_shift(light.primitive, time)".to_owned()))
+            }
+            LightKind::Rectangle if features.triangles => {
+                Some(("LIGHT_RECTANGLE", triangle.to_owned()))
+            }
+            LightKind::Triangle if features.triangles => {
+                Some(("LIGHT_TRIANGLE", triangle.to_owned()))
+            }
+            _ => None,
+        })
+        .collect();
+    format!(
+        "\n// How far the light has come at `time`.\n\
+         fn dispatch_light_shift(light: Light, time: f32) -> vec3f {{\n{}}}\n",
+        switch("light.kind", &cases, "vec3f(0.0)"),
+    )
 }
 
 /// Texture coordinates and cut-outs of a light.
@@ -374,10 +448,11 @@ fn light_surface(features: &FeatureSet) -> String {
     let cases: Vec<(&str, String)> = features
         .lights
         .iter()
-        .map(|kind| match kind {
-            LightKind::Sphere => ("LIGHT_SPHERE", sphere.to_owned()),
-            LightKind::Rectangle => ("LIGHT_RECTANGLE", flat.to_owned()),
-            LightKind::Triangle => ("LIGHT_TRIANGLE", flat.to_owned()),
+        .filter_map(|kind| match kind {
+            LightKind::Sphere => Some(("LIGHT_SPHERE", sphere.to_owned())),
+            LightKind::Rectangle => Some(("LIGHT_RECTANGLE", flat.to_owned())),
+            LightKind::Triangle => Some(("LIGHT_TRIANGLE", flat.to_owned())),
+            LightKind::Sky => None,
         })
         .filter(|(tag, _)| features.triangles || *tag == "LIGHT_SPHERE")
         .collect();
@@ -429,16 +504,21 @@ pub(crate) fn sampler(features: &FeatureSet) -> String {
 /// A texture, or white where there is none.
 pub(crate) fn texture(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: whether this scene has textures.\n\n");
-    let body = if features.textures.is_empty() {
-        "    return vec4f(1.0);\n"
+    let (body, at) = if features.textures.is_empty() {
+        ("    return vec4f(1.0);\n", "    return vec4f(1.0);\n")
     } else {
-        text += &imports(["scene/constants.wgsl", "texture/bilinear.wgsl"]);
-        "    if (i == NONE) {\n        return vec4f(1.0);\n    }\n    return bilinear_fetch(i, uv);\n"
+        text += &imports(["scene/constants.wgsl", "scene/records.wgsl", "texture/bilinear.wgsl"]);
+        (
+            "    if (i == NONE) {\n        return vec4f(1.0);\n    }\n    return bilinear_fetch(i, uv);\n",
+            "    return bilinear_at(load_texture(i), place);\n",
+        )
     };
     let _ = write!(
         text,
         "\n// Texture `i` at `uv`, linear; 1 in every channel where `i` is `NONE`.\n\
-         fn texture_fetch(i: u32, uv: vec2f) -> vec4f {{\n{body}}}\n"
+         fn texture_fetch(i: u32, uv: vec2f) -> vec4f {{\n{body}}}\n\
+         \n// Texture `i` at `place`, 0 ..= 1 from its top left corner, linear.\n\
+         fn texture_fetch_at(i: u32, place: vec2f) -> vec4f {{\n{at}}}\n"
     );
     text
 }

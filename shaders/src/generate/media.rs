@@ -16,22 +16,23 @@ pub(crate) fn inside(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: what a path remembers of media.\n\n");
     let (volume, begin) = if features.media {
         text += &imports(["media/volume.wgsl"]);
-        ("Volume", "volume_begin(origin)")
+        ("Volume", "volume_begin()")
     } else {
         ("u32", "0u")
     };
     let (aside, empty) = if features.through {
         text += &imports(["kernel/aside.wgsl"]);
-        ("Aside", "aside_empty()")
+        ("Aside", "aside_begin(origin)")
     } else {
         ("u32", "0u")
     };
     let _ = write!(text, "\nalias Inside = {volume};\n\nalias Beam = {aside};\n");
-    let comment = "What a path that leaves the camera at `origin` is in.";
-    let head = "inside_begin(origin: vec3f) -> Inside";
-    function(&mut text, comment, head, &format!("    return {begin};\n"));
-    let comment = "No shadow ray has been moved yet.";
-    function(&mut text, comment, "beam_begin() -> Beam", &format!("    return {empty};\n"));
+    let comment = "What a path that leaves the camera is in.";
+    let body = format!("    return {begin};\n");
+    function(&mut text, comment, "inside_begin() -> Inside", &body);
+    let comment = "No shadow ray has been moved yet; the path leaves the camera at `origin`.";
+    let body = format!("    return {empty};\n");
+    function(&mut text, comment, "beam_begin(origin: vec3f) -> Beam", &body);
     text
 }
 
@@ -60,15 +61,20 @@ pub(crate) fn fog(features: &FeatureSet) -> String {
 /// The medium along a segment.
 pub(crate) fn segment(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: what lies along a segment.\n\n");
-    text += &imports(["kernel/segment.wgsl", "kernel/state.wgsl", "scene/fog.wgsl"]);
+    text += &imports([
+        "kernel/segment.wgsl",
+        "kernel/state.wgsl",
+        "kernel/vertex.wgsl",
+        "scene/fog.wgsl",
+    ]);
     let medium = match (features.media, features.scattering) {
-        (true, true) => "    if (segment_scatter(path, t)) {\n        return true;\n    }\n",
+        (true, true) => "    if (segment_scatter(path, t, v)) {\n        return true;\n    }\n",
         (true, false) => "    segment_absorb(path, t);\n",
         (false, _) => "",
     };
-    let comment =
-        "The path's segment up to its hit at `t`: true if the path was scattered on the way.";
-    let head = "dispatch_segment(path: ptr<function, Path>, t: f32) -> bool";
+    let comment = "The path's segment up to its hit at `t`: true if the path is scattered on the way, in `v`.";
+    let head =
+        "dispatch_segment(path: ptr<function, Path>, t: f32, v: ptr<function, Vertex>) -> bool";
     function(
         &mut text,
         comment,
@@ -84,6 +90,9 @@ pub(crate) fn crossing(features: &FeatureSet) -> String {
     text += &imports(["bsdf/scatter.wgsl", "kernel/state.wgsl", "surface/surface.wgsl"]);
     if features.media {
         text += &imports(["kernel/crossing.wgsl"]);
+    }
+    if features.sheets {
+        text += &imports(["kernel/sheet.wgsl"]);
     }
     let with =
         |there: &'static str, absent: &'static str| if features.media { there } else { absent };
@@ -110,7 +119,11 @@ pub(crate) fn crossing(features: &FeatureSet) -> String {
         &mut text,
         "The last vertex at which the path was scattered, or the camera.",
         &format!("dispatch_vertex({path}) -> vec3f"),
-        with("    return (*path).inside.vertex;\n", "    return (*path).point;\n"),
+        if features.through {
+            "    return (*path).beam.vertex;\n"
+        } else {
+            "    return (*path).point;\n"
+        },
     );
     function(
         &mut text,
@@ -118,6 +131,7 @@ pub(crate) fn crossing(features: &FeatureSet) -> String {
         &format!("dispatch_strays({path}) -> u32"),
         with("    return (*path).inside.strays;\n", "    return 0u;\n"),
     );
+    depart(&mut text, features);
     text
 }
 
@@ -158,20 +172,50 @@ pub(crate) fn shadow(features: &FeatureSet) -> String {
 pub(crate) fn through(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: the see-through surfaces of this scene.\n\n");
     text += &imports(["kernel/state.wgsl", "scene/constants.wgsl", "surface/surface.wgsl"]);
+    text += &imports(["bsdf/scatter.wgsl", "trace/ray.wgsl"]);
     let mut body = String::new();
     if features.media {
         text += &imports(["kernel/crossing.wgsl"]);
         body += "    if ((flags & FLAG_INTERIOR) != 0u) {\n        \
                  return crossing_through(path, s);\n    }\n";
     }
-    body += "    return vec3f(0.0);\n";
+    if features.sheets {
+        text += &imports(["kernel/sheet.wgsl"]);
+        body += "    return sheet_through(path, s, hit);\n";
+    } else {
+        body += "    return vec3f(0.0);\n";
+    }
     function(
         &mut text,
         "What a shadow ray keeps that goes on behind a surface of a material with these flags; 0: nothing.",
-        "dispatch_through(path: ptr<function, Path>, s: Surface, flags: u32) -> vec3f",
+        "dispatch_through(path: ptr<function, Path>, s: Surface, flags: u32, hit: Hit) -> vec3f",
         &body,
     );
     text
+}
+
+/// What a path remembers of a vertex that it leaves.
+fn depart(text: &mut String, features: &FeatureSet) {
+    let mark = if features.through { "    (*path).beam.vertex = p;\n" } else { "" };
+    let sheet = if features.sheets {
+        "    if (sheet_passes(path, flags, next)) {\n        // Like a shadow ray, which counts as one segment.\n        \
+         (*path).segments -= 1u;\n        return (*path).pdf;\n    }\n"
+    } else {
+        ""
+    };
+    function(
+        text,
+        "Density against which lights are weighted that the path finds beyond `p`, which it leaves as `next` says.",
+        "dispatch_depart(path: ptr<function, Path>, p: vec3f, flags: u32, next: Scattered) -> f32",
+        &format!("{sheet}{mark}    return next.pdf;\n"),
+    );
+    let is_sheet = if features.sheets { "sheet_is(flags)" } else { "false" };
+    function(
+        text,
+        "Whether some light goes straight through a surface with these flags.",
+        "dispatch_sheet(flags: u32) -> bool",
+        &format!("    return {is_sheet};\n"),
+    );
 }
 
 /// Which hits end the search of a shadow ray.

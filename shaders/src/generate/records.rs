@@ -46,6 +46,7 @@ const TABLES: &[Table] = &[
     heap("Medium", "medium", "abi/medium.wgsl", "medium_at"),
     heap("Material", "material", "abi/material.wgsl", "material_at"),
     heap("Light", "light", "abi/light.wgsl", "light_at"),
+    heap("LightNode", "light_node", "abi/light_node.wgsl", "light_tree_at"),
     heap("Texture", "texture", "abi/texture.wgsl", "texture_at"),
 ];
 

@@ -19,7 +19,7 @@ pub(crate) fn candidate(features: &FeatureSet) -> String {
     ]);
     text += "\n// Triangle `i` at barycentric weights `b`; `light`: as in `Ray`.\n\
              fn candidate_triangle(i: u32, b: vec2f, light: u32) -> bool {\n";
-    if !features.lights.is_empty() {
+    if features.surface_lights() {
         text += "    if (light != NONE && load_tri_shade_light(i) == light) {\n        return false;\n    }\n";
     }
     if features.alpha_clip {
@@ -28,14 +28,14 @@ pub(crate) fn candidate(features: &FeatureSet) -> String {
     } else {
         text += "    return true;\n}\n";
     }
-    text += "\n// A sphere at distance `t` of the ray.\n\
-             fn candidate_sphere(sphere: Sphere, ray: Ray, t: f32) -> bool {\n";
-    if !features.lights.is_empty() {
+    text += "\n// A sphere at distance `t` of the ray, which starts at `origin` for a sphere that stands still.\n\
+             fn candidate_sphere(sphere: Sphere, ray: Ray, origin: vec3f, t: f32) -> bool {\n";
+    if features.surface_lights() {
         text += "    if (ray.light != NONE && sphere.light == ray.light) {\n        return false;\n    }\n";
     }
     if features.alpha_clip {
         text += "    if (alpha_is_plain(sphere.material)) {\n        return true;\n    }\n    \
-                 let uv = sphere_uv(sphere_normal(sphere, ray.origin, ray.dir, t));\n    \
+                 let uv = sphere_uv(sphere_normal(sphere, origin, ray.dir, t));\n    \
                  return alpha_exists(sphere.material, uv);\n}\n";
     } else {
         text += "    return true;\n}\n";

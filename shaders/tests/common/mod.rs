@@ -30,6 +30,14 @@ const FEATURES: &[(&str, Switch)] = &[
     ("triangle light", |f| _ = f.lights.insert(LightKind::Triangle)),
     ("constant sky", |f| _ = f.skies.insert(SkyKind::Constant)),
     ("gradient sky", |f| _ = f.skies.insert(SkyKind::Gradient)),
+    ("image sky", |f| _ = f.skies.insert(SkyKind::Image)),
+    ("light tree", |f| f.light_tree = true),
+    ("tint", |f| f.tint = true),
+    // Only a sky can be a light of kind sky.
+    ("sky light", |f| {
+        f.lights.insert(LightKind::Sky);
+        f.skies.insert(SkyKind::Gradient);
+    }),
     ("lens", |f| f.lens = true),
     ("srgb textures", |f| _ = f.textures.insert(TextureFormat::Rgba8Srgb)),
     ("linear textures", |f| _ = f.textures.insert(TextureFormat::Rgba8Linear)),
@@ -46,7 +54,20 @@ const FEATURES: &[(&str, Switch)] = &[
     }),
     ("fog", |f| f.fog = true),
     ("see-through", |f| f.through = true),
+    ("sheets", |f| {
+        f.through = true;
+        f.sheets = true;
+    }),
+    ("specular", |f| principled(f).principled_specular = true),
+    ("coat", |f| principled(f).principled_coat = true),
+    ("transmission", |f| principled(f).principled_transmission = true),
+    ("motion", |f| f.motion = true),
 ];
+
+fn principled(features: &mut FeatureSet) -> &mut FeatureSet {
+    features.materials.insert(MaterialKind::Principled);
+    features
+}
 
 /// Nothing, everything, every single feature and every pair, each alone and on top of each way to have
 /// geometry. Sets whose kernels are the same text are there once.

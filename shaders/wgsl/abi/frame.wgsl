@@ -24,7 +24,7 @@ struct Frame {
     sky_at: u32,
     // First heap word of the `Material` table.
     material_at: u32,
-    // First heap word of the `Object` table.
+    // First heap word of the `Object` table; `NONE` without objects.
     object_at: u32,
     // First heap word of the `Medium` table.
     medium_at: u32,
@@ -46,7 +46,11 @@ struct Frame {
     // Indices of the `Material`s inside of which the camera is, the one that counts first, then
     // `NONE`.
     inside: vec4<u32>,
-    _pad0: vec3<u32>,
+    _pad0: u32,
+    // First heap word of the table by which the sky is sampled.
+    sky_table_at: u32,
+    // First heap word of the tree of lights; `NONE`: lights are chosen by their table.
+    light_tree_at: u32,
     // Index of the `Medium` that is fog, or `NONE`.
     fog: u32,
 }

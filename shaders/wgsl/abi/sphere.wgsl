@@ -1,4 +1,4 @@
-// A sphere, 32 bytes, in leaf order. Normalised world frame.
+// A sphere, 32 bytes, in leaf order. Normalised world frame, as when the shutter opens.
 struct Sphere {
     // Centre.
     center: vec3<f32>,
@@ -8,7 +8,7 @@ struct Sphere {
     material: u32,
     // Index of the `Light`, or `NONE`.
     light: u32,
-    // Index of the `Object`.
+    // Bits 0-30: index of the `Object`. Bit 31: `MOVES`.
     object: u32,
     _pad0: u32,
 }

@@ -47,7 +47,7 @@ fn conductor_lobe(s: Scatter, wo: vec3f) -> ConductorLobe {
     let mean = s.color + (vec3f(1.0) - s.color) * 0.047619048;
     let missing = weight * ggx_albedo_missing(fit, vec3f(o.xy * alpha, o.z));
     let tint = mean * mean * (1.0 - fit.mean) / (vec3f(1.0) - mean * fit.mean);
-    let once = vector_max(max(fresnel_schlick(s.color, o.z), mean)) * (1.0 - missing);
+    let once = vector_max(max(fresnel_schlick_to(s.color, 1.0, o.z), mean)) * (1.0 - missing);
     let more = vector_max(tint) * missing;
     return ConductorLobe(basis, o, alpha, a2, tint * (missing / fit.mean), fit, more / (once + more));
 }
@@ -59,7 +59,7 @@ fn conductor_sample(s: Scatter, wo: vec3f, u: vec2f, v: f32) -> Scattered {
         return scatter_absorb();
     }
     if (conductor_is_smooth(s)) {
-        return Scattered(scatter_mirror(s, wo), 0.0, fresnel_schlick(s.color, cos_o), 1.0);
+        return Scattered(scatter_mirror(s, wo), 0.0, fresnel_schlick_to(s.color, 1.0, cos_o), 1.0);
     }
     let lobe = conductor_lobe(s, wo);
     var i: vec3f;
@@ -105,7 +105,7 @@ fn conductor_value(s: Scatter, lobe: ConductorLobe, wi: vec3f) -> vec3f {
     let i = basis_local_from_world(lobe.basis, wi);
     // cos(wo, h) = |wo + wi| / 2.
     let h = lobe.o + i;
-    let once = fresnel_schlick(s.color, 0.5 * sqrt(dot(h, h))) * ggx_anisotropic_eval(lobe.o, i, lobe.alpha);
+    let once = fresnel_schlick_to(s.color, 1.0, 0.5 * sqrt(dot(h, h))) * ggx_anisotropic_eval(lobe.o, i, lobe.alpha);
     if (lobe.share <= 0.0) {
         return once;
     }

@@ -21,9 +21,9 @@ fn fresnel_dielectric(c: f32, eta: f32, eta_minus_1: f32) -> f32 {
     return 0.5 * rs * rs * (1.0 + k * k);
 }
 
-// Schlick 1994: from `f0` at normal incidence to 1 at grazing. `c`: cosine, 0 ..= 1.
-fn fresnel_schlick(f0: vec3f, c: f32) -> vec3f {
+// Schlick 1994: from `f0` at normal incidence to `f90` at grazing. `c`: cosine, 0 ..= 1.
+fn fresnel_schlick_to(f0: vec3f, f90: f32, c: f32) -> vec3f {
     let m = clamp(1.0 - c, 0.0, 1.0);
     let m2 = m * m;
-    return f0 + (vec3f(1.0) - f0) * (m2 * m2 * m);
+    return f0 + (vec3f(f90) - f0) * (m2 * m2 * m);
 }

@@ -1,14 +1,15 @@
 // The phase function of Henyey & Greenstein 1941: how a small particle scatters, by one number, the mean
-// cosine g. Cosines are measured from the direction in which the light goes on.
+// cosine g. Cosines are measured from the direction in which the light goes on:
+//   p = (1 - g^2) / (4 pi (1 + g^2 - 2 g cos)^1.5).
 // The usual inverse, (1 + g^2 - ((1 - g^2) / (1 - g + 2 g u))^2) / 2g, loses everything near g = 0 and half of its
 // digits near 1. With D = 1 - a + 2 a u, a = |g|, both 1 - cos and 1 + cos are products of positive
-// factors: 3e-7 absolute for every a in 0 ..= 0.99999.
+// factors: 3e-7 absolute for every a in 0 ..= 0.999999.
 
 #import "math/basis.wgsl"
 #import "math/sincos.wgsl"
 #import "math/vector.wgsl"
 
-// A direction with density `hg_pdf` around the unit vector `forward`. `g` in -0.99999 ..= 0.99999, `u` in
+// A direction with density `hg_pdf` around the unit vector `forward`. `g` in -0.999999 ..= 0.999999, `u` in
 // [0, 1 - 2^-24]^2.
 fn hg_sample(forward: vec3f, g: f32, u: vec2f) -> vec3f {
     let a = abs(g);

@@ -12,11 +12,6 @@
 #import "math/vector.wgsl"
 #import "scene/records.wgsl"
 
-// Whether transmission into `wi` is possible: below both the shading and the geometric surface.
-fn leaf_below(s: Scatter, wi: vec3f) -> bool {
-    return dot(wi, s.ns) < 0.0 && dot(wi, s.ng) < 0.0;
-}
-
 // Colour of light that has crossed the sheet, Lambert & Beer.
 fn leaf_tint(s: Scatter) -> vec3f {
     let depth = load_material_sigma_a(s.material) * load_material_thickness_middle(s.material);
@@ -53,7 +48,7 @@ fn leaf_eval(s: Scatter, wo: vec3f, wi: vec3f) -> vec3f {
     if (scatter_above(s, wi)) {
         return s.color * ((1.0 - t) * (dot(s.ns, wi) * INV_PI));
     }
-    if (!leaf_below(s, wi)) {
+    if (!scatter_below(s, wi)) {
         return vec3f(0.0);
     }
     let forward = load_material_forward(s.material);

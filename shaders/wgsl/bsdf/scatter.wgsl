@@ -56,7 +56,7 @@ fn scatter_at(m: Material, s: Surface, key: SampleKey) -> Scatter {
     let mr = texture_fetch(m.metallic_roughness_texture, s.uv);
     return Scatter(
         s.ng, s.ns, color, m.kind, s.material,
-        s.tangent, s.handed, s.uv, dispatch_place(s.object, m.flags, s.p), m.fuzz,
+        s.tangent, s.handed, s.uv, dispatch_place(s.object, m.flags, s.rest), m.fuzz,
         m.roughness * mr.y, m.metallic * mr.z,
         m.ior, m.ior_minus_1, s.front, key,
     );
@@ -71,6 +71,11 @@ fn scatter_absorb() -> Scattered {
 // the second test smooth normals would let light through closed meshes.
 fn scatter_above(s: Scatter, wi: vec3f) -> bool {
     return dot(wi, s.ns) > 0.0 && dot(wi, s.ng) > 0.0;
+}
+
+// A direction whose value and density are still to be worked out: `pdf` is 1, and `weight` 0.
+fn scatter_toward(wi: vec3f) -> Scattered {
+    return Scattered(wi, 1.0, vec3f(0.0), 1.0);
 }
 
 // Whether transmission into `wi` is possible: below both the shading and the geometric surface.

@@ -1,4 +1,5 @@
-// The start of a path's next ray, put aside while its shadow ray is traced from somewhere else.
+// What a path must know where shadow rays go on behind what they hit: the start of its next ray, put aside while
+// its shadow ray is traced from somewhere else, and the vertex that lights are weighted against.
 
 #import "scene/constants.wgsl"
 
@@ -8,9 +9,11 @@ struct Aside {
     point: vec3f,
     gap: vec3f,
     skip: u32,
+    // The last vertex at which the path was scattered, or the camera: where a light would have been sampled.
+    vertex: vec3f,
 }
 
-// Nothing yet.
-fn aside_empty() -> Aside {
-    return Aside(false, vec3f(0.0), vec3f(0.0), NONE);
+// Nothing yet; the path leaves the camera at `origin`.
+fn aside_begin(origin: vec3f) -> Aside {
+    return Aside(false, vec3f(0.0), vec3f(0.0), NONE, origin);
 }

@@ -3,6 +3,7 @@
 #import "kernel/film.wgsl"
 #import "sampler/key.wgsl"
 #import "scene/dispatch.wgsl"
+#import "scene/dispatch_sky.wgsl"
 #import "scene/records.wgsl"
 #import "scene/sampler.wgsl"
 

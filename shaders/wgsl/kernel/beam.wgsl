@@ -14,17 +14,17 @@
 // surface of an opaque material was on the way.
 fn beam_advance(path: ptr<function, Path>, hit: Hit) -> bool {
     let origin = state_origin((*path).point, (*path).gap, (*path).shadow_dir);
-    let s = dispatch_surface(hit, origin, (*path).shadow_dir);
+    let s = dispatch_surface(hit, origin, (*path).shadow_dir, (*path).time);
     let flags = load_material_flags(s.material);
     if ((flags & FLAG_THROUGH) == 0u) {
         return false;
     }
-    (*path).shadow_radiance *= dispatch_through(path, s, flags);
+    (*path).shadow_radiance *= dispatch_through(path, s, flags, hit);
     if (vector_max((*path).shadow_radiance) <= 0.0) {
         return false;
     }
     if (!(*path).beam.used) {
-        (*path).beam = Aside(true, (*path).point, (*path).gap, (*path).skip);
+        (*path).beam = Aside(true, (*path).point, (*path).gap, (*path).skip, (*path).beam.vertex);
     }
     (*path).point = s.p;
     (*path).gap = s.ng * s.gap;

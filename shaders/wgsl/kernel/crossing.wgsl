@@ -39,7 +39,6 @@ fn crossing_bend(path: ptr<function, Path>, scatter: ptr<function, Scatter>, fla
 
 // The path leaves the surface `s` along `wi`, and its shadow ray, if it has one, on its own side.
 fn crossing_cross(path: ptr<function, Path>, s: Surface, flags: u32, wi: vec3f) {
-    (*path).inside.vertex = s.p;
     (*path).inside.shadow_nest = (*path).inside.nest;
     (*path).inside.shadow_medium = (*path).inside.medium;
     if ((flags & FLAG_INTERIOR) == 0u) {

@@ -4,17 +4,17 @@
 // where P is the probability of the light, pl its density and pb that of the BSDF, per steradian.
 // Tests may ask for one way alone, or for the power heuristic instead.
 
-#import "abi/light.wgsl"
 #import "bsdf/scatter.wgsl"
 #import "kernel/state.wgsl"
-#import "light/choose.wgsl"
-#import "light/emission.wgsl"
 #import "light/light_sample.wgsl"
+#import "light/sky.wgsl"
 #import "math/vector.wgsl"
 #import "sampler/key.wgsl"
 #import "scene/constants.wgsl"
 #import "scene/dispatch_light.wgsl"
 #import "scene/dispatch_bsdf.wgsl"
+#import "scene/dispatch_choice.wgsl"
+#import "scene/dispatch_radiance.wgsl"
 #import "scene/records.wgsl"
 #import "scene/sampler.wgsl"
 #import "surface/surface.wgsl"
@@ -24,16 +24,22 @@ const DIRECT_LIGHT_ONLY: u32 = 1u;
 const DIRECT_BSDF_ONLY: u32 = 2u;
 const DIRECT_POWER: u32 = 3u;
 
-// Leaves a shadow ray in `path` if a light was sampled that may light the vertex at `p`.
-fn direct_sample(path: ptr<function, Path>, p: vec3f, scatter: Scatter, wo: vec3f) {
+// Leaves a shadow ray in `path` if a light was sampled that may light the vertex at `p`, off which rays start
+// by `gap` on either side.
+fn direct_sample(path: ptr<function, Path>, p: vec3f, gap: vec3f, scatter: Scatter, wo: vec3f) {
     let n_lights = load_frame_n_lights();
     if (n_lights == 0u || load_frame_estimator() == DIRECT_BSDF_ONLY) {
         return;
     }
     let key = (*path).key;
-    let index = choose_light(n_lights, sample_1d(key, PURPOSE_LIGHT_CHOICE));
-    let light = load_light(index);
-    let to = dispatch_light_sample(light, p, sample_2d(key, PURPOSE_LIGHT_POINT));
+    let choice = dispatch_choose(n_lights, p, sample_1d(key, PURPOSE_LIGHT_CHOICE));
+    if (choice.pmf <= 0.0) {
+        return;
+    }
+    let light = load_light(choice.index);
+    // The light stands still, and the vertex is moved back instead.
+    let rest = p - dispatch_light_shift(light, (*path).time);
+    let to = dispatch_light_sample(light, rest, sample_2d(key, PURPOSE_LIGHT_POINT));
     if (to.pdf <= 0.0) {
         return;
     }
@@ -41,37 +47,58 @@ fn direct_sample(path: ptr<function, Path>, p: vec3f, scatter: Scatter, wo: vec3
     if (vector_max(f) <= 0.0) {
         return;
     }
-    let radiance = direct_radiance(light, p, to);
+    let radiance = dispatch_light_radiance(light, rest, to);
     if (vector_max(radiance) <= 0.0) {
         return;
     }
     let pb = select(dispatch_pdf(scatter, wo, to.wi), 0.0, load_frame_estimator() == DIRECT_LIGHT_ONLY);
-    (*path).shadow_dir = to.wi;
+    let aim = direct_aim(gap, to);
+    (*path).shadow_dir = aim.xyz;
     // The light itself is skipped by its index; 2^-18 keeps off what lies in its plane.
-    (*path).shadow_t = to.t * 0.9999962;
-    (*path).shadow_radiance = (*path).throughput * f * radiance / direct_divisor(light.pmf * to.pdf, pb);
-    (*path).shadow_light = index;
+    (*path).shadow_t = aim.w * 0.9999962;
+    (*path).shadow_radiance = (*path).throughput * f * radiance / direct_divisor(choice.pmf * to.pdf, pb);
+    (*path).shadow_light = choice.index;
 }
 
-// Radiance of `light` at its sample `to` from `p`.
-fn direct_radiance(light: Light, p: vec3f, to: LightSample) -> vec3f {
-    let i = light.material;
-    let uv = dispatch_light_uv(light, p + to.wi * to.t);
-    if (!dispatch_light_exists(i, uv)) {
-        return vec3f(0.0);
+// Direction and length of the ray that starts off the surface, by `gap` on its side, and ends at the sample.
+// A ray along `to.wi` would pass the sample at the distance of that start, and meet the neighbours of a small
+// triangle instead of it.
+fn direct_aim(gap: vec3f, to: LightSample) -> vec4f {
+    let v = to.wi * to.t - select(gap, -gap, dot(gap, to.wi) < 0.0);
+    let d2 = dot(v, v);
+    // Too far to be missed, as the sky is; or no distance at all.
+    if (to.t >= 1e6 || d2 < 1.1754944e-38) {
+        return vec4f(to.wi, to.t);
     }
-    let image = load_material_emission_texture(i);
-    return emission_radiance(load_material_emission(i), load_material_flags(i), image, uv, to.front);
+    let t = sqrt(d2);
+    return vec4f(v / t, t);
 }
 
-// Weight of emission found by a direction that a BSDF sampled with density `pb` at `from`: 1 if the light
-// could not have been sampled from there.
-fn direct_weight(from_point: vec3f, dir: vec3f, pb: f32, s: Surface) -> f32 {
+// Weight of emission found at `time` by a direction that a BSDF sampled with density `pb` at `from`: 1 if
+// the light could not have been sampled from there.
+fn direct_weight(from_point: vec3f, dir: vec3f, pb: f32, s: Surface, time: f32) -> f32 {
     if (pb <= 0.0 || s.light == NONE || load_frame_n_lights() == 0u || load_frame_estimator() == DIRECT_BSDF_ONLY) {
         return 1.0;
     }
     let light = load_light(s.light);
-    let pl = light.pmf * dispatch_light_pdf(light, from_point, s.p, dot(s.ng, dir));
+    let rest = from_point - dispatch_light_shift(light, time);
+    let pl = dispatch_choose_pmf(s.light, from_point) * dispatch_light_pdf(light, rest, s.rest, dot(s.ng, dir));
+    if (pl <= 0.0) {
+        return 1.0;
+    }
+    if (load_frame_estimator() == DIRECT_LIGHT_ONLY) {
+        return 0.0;
+    }
+    return pb / direct_divisor(pb, pl);
+}
+
+// As `direct_weight`, for the sky seen along `dir`.
+fn direct_sky_weight(dir: vec3f, pb: f32) -> f32 {
+    let index = load_sky_light();
+    if (pb <= 0.0 || index == NONE || load_frame_n_lights() == 0u || load_frame_estimator() == DIRECT_BSDF_ONLY) {
+        return 1.0;
+    }
+    let pl = load_light_pmf(index) * sky_light_pdf(dir);
     if (pl <= 0.0) {
         return 1.0;
     }

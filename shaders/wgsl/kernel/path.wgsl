@@ -23,7 +23,7 @@ fn path_ray(path: Path) -> Ray {
     let shadow = path.shadow_light != NONE;
     let dir = select(path.dir, path.shadow_dir, shadow);
     let t_max = select(RAY_FAR, path.shadow_t, shadow);
-    return Ray(state_origin(path.point, path.gap, dir), t_max, dir, path.skip, path.shadow_light);
+    return Ray(state_origin(path.point, path.gap, dir), t_max, dir, path.skip, path.shadow_light, path.time);
 }
 
 // Whether there is no ray left.
@@ -45,13 +45,17 @@ fn path_advance(path: ptr<function, Path>, hit: Hit) {
         return;
     }
     (*path).segments += 1u;
-    if (dispatch_segment(path, hit.t)) {
-        return;
-    }
-    if (hit.prim == NONE) {
-        (*path).radiance += (*path).throughput * dispatch_sky((*path).dir);
+    var v: Vertex;
+    if (dispatch_segment(path, hit.t, &v)) {
+        if (!(*path).open) {
+            return;
+        }
+    } else if (hit.prim == NONE) {
+        (*path).radiance += (*path).throughput * dispatch_miss((*path).dir, (*path).pdf);
         (*path).open = false;
         return;
+    } else if (!vertex_surface(path, hit, &v)) {
+        return;
     }
-    vertex_scatter(path, hit);
+    vertex_scatter(path, v);
 }

@@ -3,6 +3,7 @@
 #import "kernel/state.wgsl"
 #import "kernel/veil.wgsl"
 #import "kernel/vertex.wgsl"
+#import "math/beer.wgsl"
 #import "math/vector.wgsl"
 #import "media/homogeneous.wgsl"
 #import "sampler/key.wgsl"
@@ -27,11 +28,11 @@ fn segment_absorb(path: ptr<function, Path>, t: f32) {
         veil_add(path, m, m.reach);
         return;
     }
-    (*path).throughput *= homogeneous_fade(m.sigma_a, t + veil_start(path, (*path).dir));
+    (*path).throughput *= beer_left(m.sigma_a * (t + veil_start(path, (*path).dir)));
 }
 
-// The same for media that may scatter: true if the path was scattered on its way, and has left its segment.
-fn segment_scatter(path: ptr<function, Path>, t: f32) -> bool {
+// The same for media that may scatter: true if the path is scattered on its way, in `v` unless it has ended.
+fn segment_scatter(path: ptr<function, Path>, t: f32, v: ptr<function, Vertex>) -> bool {
     let i = (*path).inside.medium;
     if (i == NONE) {
         return false;
@@ -52,7 +53,7 @@ fn segment_scatter(path: ptr<function, Path>, t: f32) -> bool {
     let at = min(from_start, max(0.5 * t, t - SEGMENT_MARGIN));
     dispatch_fog(path, at);
     let origin = state_origin((*path).point, (*path).gap, (*path).dir);
-    vertex_medium(path, origin + (*path).dir * at, i);
+    vertex_medium(path, origin + (*path).dir * at, i, v);
     return true;
 }
 
@@ -63,5 +64,5 @@ fn segment_shadow_fade(path: ptr<function, Path>, t: f32) -> vec3f {
         return vec3f(1.0);
     }
     let m = load_medium(i);
-    return homogeneous_fade(m.sigma_a + m.sigma_s, veil_length(path, (*path).shadow_dir, t, m.reach));
+    return beer_left((m.sigma_a + m.sigma_s) * veil_length(path, (*path).shadow_dir, t, m.reach));
 }

@@ -4,6 +4,7 @@
 #import "sampler/key.wgsl"
 #import "scene/constants.wgsl"
 #import "scene/inside.wgsl"
+#import "scene/motion.wgsl"
 
 struct Path {
     // Which random numbers; `bounce` counts the vertices so far.
@@ -39,6 +40,8 @@ struct Path {
     inside: Inside,
     // Where the path goes on after its shadow ray, if shadow rays go on behind what they hit.
     beam: Beam,
+    // When all of it sees the scene: 0 where the shutter opens, 1 where it closes.
+    time: f32,
 }
 
 // A path that is about to leave the camera along `ray`.
@@ -47,7 +50,7 @@ fn state_at_camera(key: SampleKey, ray: CameraRay) -> Path {
         key, vec3f(0.0), 0u, vec3f(1.0), 1.0,
         ray.origin, 0.0, ray.dir, NONE, vec3f(0.0), true,
         ray.dir, 0.0, vec3f(0.0), NONE,
-        inside_begin(ray.origin), beam_begin(),
+        inside_begin(), beam_begin(ray.origin), dispatch_time(key),
     );
 }
 

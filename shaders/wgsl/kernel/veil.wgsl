@@ -3,7 +3,7 @@
 
 #import "abi/medium.wgsl"
 #import "kernel/state.wgsl"
-#import "media/homogeneous.wgsl"
+#import "math/beer.wgsl"
 #import "scene/constants.wgsl"
 #import "scene/records.wgsl"
 
@@ -22,10 +22,10 @@ fn veil_length(path: ptr<function, Path>, dir: vec3f, t: f32, reach: f32) -> f32
 
 // A segment of length `length` of the path in `m`, which scatters no light of the path.
 fn veil_add(path: ptr<function, Path>, m: Medium, length: f32) {
-    let fade = homogeneous_fade(m.sigma_a, length);
-    let loss = homogeneous_loss(m.sigma_a, length, fade);
-    (*path).radiance += (*path).throughput * m.color * loss;
-    (*path).throughput *= fade;
+    let tau = m.sigma_a * length;
+    let left = beer_left(tau);
+    (*path).radiance += (*path).throughput * m.color * beer_lost(tau, left);
+    (*path).throughput *= left;
 }
 
 // The fog along the path's segment up to its hit at `t`.
@@ -45,5 +45,5 @@ fn veil_fog_fade(path: ptr<function, Path>, t: f32) -> vec3f {
         return vec3f(1.0);
     }
     let length = veil_length(path, (*path).shadow_dir, t, load_medium_reach(i));
-    return homogeneous_fade(load_medium_sigma_a(i), length);
+    return beer_left(load_medium_sigma_a(i) * length);
 }

@@ -12,67 +12,88 @@
 #import "scene/dispatch.wgsl"
 #import "scene/dispatch_bsdf.wgsl"
 #import "scene/dispatch_pattern.wgsl"
+#import "scene/dispatch_tint.wgsl"
 #import "scene/records.wgsl"
 #import "scene/sampler.wgsl"
 #import "surface/surface.wgsl"
 #import "trace/ray.wgsl"
 
-// Moves the path on at `hit`.
-fn vertex_scatter(path: ptr<function, Path>, hit: Hit) {
+// Where light is scattered: a surface, or a point in a medium.
+struct Vertex {
+    scatter: Scatter,
+    // In a medium it has the point and no extent.
+    s: Surface,
+    // Flags of its `Material`; 0 in a medium.
+    flags: u32,
+    // As `Path::skip`.
+    skip: u32,
+}
+
+// The vertex at `hit`: false if the path goes straight on there, or ends.
+fn vertex_surface(path: ptr<function, Path>, hit: Hit, v: ptr<function, Vertex>) -> bool {
     let origin = state_origin((*path).point, (*path).gap, (*path).dir);
-    var s = dispatch_surface(hit, origin, (*path).dir);
+    var s = dispatch_surface(hit, origin, (*path).dir, (*path).time);
     let m = load_material(s.material);
     if (dispatch_pass(path, s, m.flags, hit.prim)) {
-        return;
+        return false;
     }
     dispatch_tangent(&s, hit, m.flags);
     dispatch_shading_normal(&s, m, (*path).dir);
     vertex_emit(path, s, m);
-    if ((*path).segments >= load_frame_max_depth()) {
+    // The longest path has come to its end, unless it goes straight through.
+    if (vertex_is_last(path) && !dispatch_sheet(m.flags)) {
+        (*path).open = false;
+        return false;
+    }
+    var scatter = scatter_at(m, s, (*path).key);
+    dispatch_pattern(&scatter, s, -(*path).dir);
+    dispatch_bend(path, &scatter, m.flags);
+    *v = Vertex(scatter, s, m.flags, hit.prim);
+    return true;
+}
+
+// The vertex at point `p` of the medium with index `i`, unless the path ends there.
+fn vertex_medium(path: ptr<function, Path>, p: vec3f, i: u32, v: ptr<function, Vertex>) {
+    if (vertex_is_last(path)) {
         (*path).open = false;
         return;
     }
+    let s = surface_new(p, -(*path).dir, (*path).dir, 0.0);
+    *v = Vertex(phase_scatter(i, (*path).key), s, 0u, NONE);
+}
+
+// Whether no segment may follow.
+fn vertex_is_last(path: ptr<function, Path>) -> bool {
+    return (*path).segments >= load_frame_max_depth();
+}
+
+// Moves the path on at `v`. The only place where light is scattered: compilers for GPUs copy what is called into
+// each place that calls it.
+fn vertex_scatter(path: ptr<function, Path>, v: Vertex) {
     let wo = -(*path).dir;
     let key = (*path).key;
-    var scatter = scatter_at(m, s, key);
-    dispatch_pattern(&scatter, s, wo);
-    dispatch_bend(path, &scatter, m.flags);
-    dispatch_direct(path, s.p, scatter, wo);
-    let next = dispatch_sample(scatter, wo, key);
-    dispatch_cross(path, s, m.flags, next.wi);
-    (*path).point = s.p;
-    (*path).gap = s.ng * s.gap;
-    (*path).skip = hit.prim;
-    vertex_leave(path, next);
-}
-
-// Moves the path on at point `p` of the medium with index `i`, which scatters it.
-fn vertex_medium(path: ptr<function, Path>, p: vec3f, i: u32) {
-    if ((*path).segments >= load_frame_max_depth()) {
-        (*path).open = false;
-        return;
+    let gap = v.s.ng * v.s.gap;
+    if (!vertex_is_last(path)) {
+        dispatch_direct(path, v.s.p, gap, v.scatter, wo);
     }
-    let wo = -(*path).dir;
-    let scatter = phase_scatter(i, (*path).key);
-    dispatch_direct(path, p, scatter, wo);
-    let next = dispatch_sample(scatter, wo, (*path).key);
-    (*path).inside.vertex = p;
-    (*path).inside.shadow_nest = (*path).inside.nest;
-    (*path).inside.shadow_medium = i;
-    (*path).point = p;
-    (*path).gap = vec3f(0.0);
-    (*path).skip = NONE;
-    vertex_leave(path, next);
+    let next = dispatch_sample(v.scatter, wo, key);
+    dispatch_cross(path, v.s, v.flags, next.wi);
+    let pdf = dispatch_depart(path, v.s.p, v.flags, next);
+    (*path).point = v.s.p;
+    (*path).gap = gap;
+    (*path).skip = v.skip;
+    vertex_leave(path, next, pdf);
+    (*path).open = (*path).open && !vertex_is_last(path);
 }
 
-// The path goes on as `next` says.
-fn vertex_leave(path: ptr<function, Path>, next: Scattered) {
+// The path goes on as `next` says; lights that it finds are weighted with the density `pdf`.
+fn vertex_leave(path: ptr<function, Path>, next: Scattered, pdf: f32) {
     let key = (*path).key;
     (*path).key.bounce = key.bounce + 1u;
     (*path).throughput *= next.weight;
     (*path).eta_scale *= next.eta2;
     (*path).dir = next.wi;
-    (*path).pdf = next.pdf;
+    (*path).pdf = pdf;
     (*path).open = vertex_survives(path, key);
 }
 
@@ -81,8 +102,9 @@ fn vertex_leave(path: ptr<function, Path>, next: Scattered) {
 fn vertex_emit(path: ptr<function, Path>, s: Surface, m: Material) {
     let radiance = emission_radiance(m.emission, m.flags, m.emission_texture, s.uv, s.front);
     if (vector_max(radiance) > 0.0) {
-        let weight = dispatch_emission_weight(dispatch_vertex(path), (*path).dir, (*path).pdf, s);
-        (*path).radiance += (*path).throughput * radiance * weight;
+        let seen = dispatch_tint(radiance, s.material, m.flags, s.light, (*path).dir);
+        let weight = dispatch_emission_weight(dispatch_vertex(path), (*path).dir, (*path).pdf, s, (*path).time);
+        (*path).radiance += (*path).throughput * seen * weight;
     }
 }
 

@@ -9,6 +9,13 @@ fn beer_left(tau: vec3f) -> vec3f {
     return vec3f(exp_log_exp2(t.x), exp_log_exp2(t.y), exp_log_exp2(t.z));
 }
 
+// 1 - e^-tau for each channel, what is lost; `tau` >= 0, `left`: e^-tau. Largest relative error 6e-6, where
+// 1 - e^-tau alone has 5 % at 1e-6.
+fn beer_lost(tau: vec3f, left: vec3f) -> vec3f {
+    let series = tau * (vec3f(1.0) - tau * (vec3f(3.0) - tau) / 6.0);
+    return select(vec3f(1.0) - left, series, tau < vec3f(0.01));
+}
+
 // -ln(1 - u) for u in [0, 1 - 2^-24]: an optical depth with density e^-tau. Never negative; largest relative
 // error 4e-7. Below 1/2 by 2 artanh(u / (2 - u)), where the logarithm of 1 - u has lost the digits of u.
 fn beer_depth(u: f32) -> f32 {

@@ -38,27 +38,6 @@ fn exp_log_pow(x: f32, y: f32) -> f32 {
     return exp_log_exp2(y * exp_log_log2(x));
 }
 
-// 1 - e^-x for x >= 0, and 1 - `fade` where that is known better. `fade`: e^-x. Largest relative error 6e-6,
-// where 1 - e^-x alone has 5 % at 1e-6.
-fn exp_log_loss(x: f32, fade: f32) -> f32 {
-    if (x < 0.01) {
-        return x * (1.0 - x * (3.0 - x) / 6.0);
-    }
-    return 1.0 - fade;
-}
-
-// -ln(1 - u) for u in [0, 1 - 2^-24]: 0 ..= 16.64, never negative. Largest relative error 3e-7.
-// Below 1/2 it is 2 artanh(u / (2 - u)), its series to the 13th power.
-fn exp_log_neg_log1m(u: f32) -> f32 {
-    if (u < 0.5) {
-        let s = u / (2.0 - u);
-        let z = s * s;
-        let high = 0.11111111 + z * (0.09090909 + z * 0.07692308);
-        return 2.0 * s * (1.0 + z * (0.33333334 + z * (0.2 + z * (0.14285715 + z * high))));
-    }
-    return -0.6931472 * exp_log_log2(max(1.0 - u, 5.9604645e-8));
-}
-
 // The cube root of x in 0 ..= 1, of 2^-24 where x is less. Largest relative error 4.8e-7.
 fn exp_log_cbrt(x: f32) -> f32 {
     return exp_log_exp2(0.33333334 * exp_log_log2(max(x, 5.9604645e-8)));

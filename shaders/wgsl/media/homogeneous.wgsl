@@ -1,11 +1,8 @@
-// A medium that is the same everywhere: what it leaves of light, and where it scatters.
+// A medium that is the same everywhere: where it scatters.
 
 #import "abi/medium.wgsl"
-#import "math/exp_log.wgsl"
+#import "math/beer.wgsl"
 #import "math/vector.wgsl"
-
-// -log2(e): e^-x is 2^(x times this).
-const HOMOGENEOUS_EXPONENT: f32 = -1.4426950;
 
 // The end of a segment. `weight`: what the throughput is multiplied with.
 struct HomogeneousStep {
@@ -14,18 +11,6 @@ struct HomogeneousStep {
     t: f32,
     // The medium scatters before the segment ends.
     scatters: bool,
-}
-
-// Share of light that passes length `t` of extinction `sigma` (Beer-Lambert).
-fn homogeneous_fade(sigma: vec3f, t: f32) -> vec3f {
-    let k = sigma * HOMOGENEOUS_EXPONENT;
-    return vec3f(exp_log_exp2(k.x * t), exp_log_exp2(k.y * t), exp_log_exp2(k.z * t));
-}
-
-// Share of light that is lost there; `fade`: the share that passes.
-fn homogeneous_loss(sigma: vec3f, t: f32, fade: vec3f) -> vec3f {
-    let x = sigma * t;
-    return vec3f(exp_log_loss(x.x, fade.x), exp_log_loss(x.y, fade.y), exp_log_loss(x.z, fade.z));
 }
 
 // Samples where a path of weight `throughput` is scattered within `t_max`, if it is. `u` in
@@ -38,16 +23,16 @@ fn homogeneous_sample(m: Medium, throughput: vec3f, t_max: f32, u: vec2f) -> Hom
     let least = min(min(sigma_t.x, sigma_t.y), sigma_t.z);
     let most = vector_max(sigma_t);
     if (least == most) {
-        let t = exp_log_neg_log1m(u.y) / most;
+        let t = beer_depth(u.y) / most;
         let scatters = t < t_max;
         return HomogeneousStep(select(vec3f(1.0), m.sigma_s / most, scatters), t, scatters);
     }
     let p = homogeneous_shares(m, sigma_t, throughput);
     let chosen = select(select(sigma_t.z, sigma_t.y, u.x < p.x + p.y), sigma_t.x, u.x < p.x);
     // At least 1e-30: the channel is clear, and its free path longer than any segment.
-    let t = exp_log_neg_log1m(u.y) / max(chosen, 1e-30);
+    let t = beer_depth(u.y) / max(chosen, 1e-30);
     let scatters = t < t_max;
-    let fade = homogeneous_fade(sigma_t - least, min(t, t_max));
+    let fade = beer_left((sigma_t - least) * min(t, t_max));
     let density = select(fade, sigma_t * fade, scatters);
     let all = dot(p, density);
     if (all <= 0.0) {

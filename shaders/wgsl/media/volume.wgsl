@@ -12,8 +12,6 @@ struct Volume {
     // The same for the shadow ray.
     shadow_nest: vec4u,
     shadow_medium: u32,
-    // The last vertex at which the path was scattered, or the camera: where a light would have been sampled.
-    vertex: vec3f,
     // As `FilmPixel::strays`.
     strays: u32,
 }
@@ -27,11 +25,11 @@ struct Interface {
     ior_minus_1: f32,
 }
 
-// What a path that leaves the camera at `origin` is in.
-fn volume_begin(origin: vec3f) -> Volume {
+// What a path that leaves the camera is in.
+fn volume_begin() -> Volume {
     let nest = load_frame_inside();
     let medium = volume_medium(nest);
-    return Volume(nest, medium, nest, medium, origin, 0u);
+    return Volume(nest, medium, nest, medium, 0u);
 }
 
 // The medium inside of `nest`: that of its first entry, or the atmosphere.

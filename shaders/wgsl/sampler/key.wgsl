@@ -24,6 +24,7 @@ const PURPOSE_DIRECTION: u32 = 5u;
 const PURPOSE_RADIUS: u32 = 6u;
 const PURPOSE_ROULETTE: u32 = 7u;
 const PURPOSE_DISTANCE: u32 = 8u;
+const PURPOSE_TIME: u32 = 9u;
 const PURPOSE_SLAB: u32 = 16u;
 const PURPOSE_SLAB_TURN: u32 = 17u;
 const PURPOSE_SLAB_END: u32 = 18u;

@@ -5,6 +5,7 @@
 #import "abi/sphere.wgsl"
 #import "math/vector.wgsl"
 #import "math/atan.wgsl"
+#import "scene/constants.wgsl"
 #import "scene/records.wgsl"
 #import "surface/surface.wgsl"
 
@@ -46,7 +47,7 @@ fn sphere_surface(i: u32, origin: vec3f, dir: vec3f, t: f32) -> Surface {
     var s = surface_new(p, out, dir, reach);
     s.material = sphere.material;
     s.light = sphere.light;
-    s.object = sphere.object;
+    s.object = sphere.object & ~MOVES;
     return s;
 }
 

@@ -4,8 +4,8 @@
 #import "scene/records.wgsl"
 
 // Radiance seen along `dir`, unit, world frame; y is up.
-// The bands are cubic ramps in the sine of the elevation: ground to horizon over -1 ..= blend_low,
-// horizon to middle over blend_low ..= blend_high, middle to zenith over blend_high ..= 1. Each ramp is
+// The bands are cubic ramps in the sine of the elevation: ground to horizon over blend_ground ..=
+// blend_low, horizon to middle over blend_low ..= blend_high, middle to zenith over blend_high ..= 1. Each is
 // 3t^2 - 2t^3, so colours join without a kink.
 fn gradient_radiance(dir: vec3f) -> vec3f {
     let sky = load_sky();
@@ -16,7 +16,7 @@ fn gradient_radiance(dir: vec3f) -> vec3f {
     } else if (y >= sky.blend_low) {
         base = gradient_ramp(sky.horizon, sky.middle, sky.blend_low, sky.blend_high, y);
     } else {
-        base = gradient_ramp(sky.ground, sky.horizon, -1.0, sky.blend_low, y);
+        base = gradient_ramp(sky.ground, sky.horizon, sky.blend_ground, sky.blend_low, y);
     }
     let c = clamp(dot(dir, sky.sun_direction), 0.0, 1.0);
     return base + sky.glow * exp_log_pow(c, sky.glow_power) + sky.disc * exp_log_pow(c, sky.disc_power);

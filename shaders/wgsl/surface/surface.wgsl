@@ -6,6 +6,8 @@
 struct Surface {
     // On the surface, from its own parametrisation and not from `origin + t dir`.
     p: vec3f,
+    // Where `p` was when the shutter opened, carried along by the surface.
+    rest: vec3f,
     // Geometric normal, unit, on the side that the ray came from.
     ng: vec3f,
     // Shading normal, unit; dot(ns, ng) > 0 and dot(ns, wo) >= 0.
@@ -37,7 +39,15 @@ fn surface_new(p: vec3f, out: vec3f, dir: vec3f, reach: f32) -> Surface {
     // 16 ulp of the largest coordinate: measured to lose no neighbour and to hit no own primitive for
     // triangles of any size and distance, down to grazing cosines of 1e-4, where the source is skipped.
     let gap = 9.5367432e-7 * reach; // 16 * 2^-24
-    return Surface(p, ng, ng, vec2f(0.0), gap, 0u, NONE, 0u, vec3f(0.0), 1.0, front);
+    return Surface(p, p, ng, ng, vec2f(0.0), gap, 0u, NONE, 0u, vec3f(0.0), 1.0, front);
+}
+
+// Moves the surface by `shift`, which it has come since the shutter opened.
+fn surface_carry(s: ptr<function, Surface>, shift: vec3f) {
+    (*s).p += shift;
+    // As in `surface_new`, with 2 ulp more: the sum above rounds, and so does the way back of the next ray.
+    let gap = 9.5367432e-7 * vector_max(abs((*s).p));
+    (*s).gap = max((*s).gap, gap) * 1.125;
 }
 
 // A shading normal that can be used with `ng` (faces the ray) for a ray along `dir`, from an

@@ -1,6 +1,7 @@
 // Bilinear lookup of an image. Row 0 of the texels is the top of the image, v = 1; texel centres are at
 // half integers.
 
+#import "abi/texture.wgsl"
 #import "scene/constants.wgsl"
 #import "scene/records.wgsl"
 #import "scene/texel.wgsl"
@@ -8,8 +9,13 @@
 // Linear red, green, blue and alpha of texture `i` at `uv`.
 fn bilinear_fetch(i: u32, uv: vec2f) -> vec4f {
     let image = load_texture(i);
-    let x = bilinear_unit(uv.x, image.wrap_u) * f32(image.width) - 0.5;
-    let y = bilinear_unit(1.0 - uv.y, image.wrap_v) * f32(image.height) - 0.5;
+    return bilinear_at(image, vec2f(bilinear_unit(uv.x, image.wrap_u), bilinear_unit(1.0 - uv.y, image.wrap_v)));
+}
+
+// Linear red, green, blue and alpha of `image` at `place`, 0 ..= 1 from its top left corner.
+fn bilinear_at(image: Texture, place: vec2f) -> vec4f {
+    let x = place.x * f32(image.width) - 0.5;
+    let y = place.y * f32(image.height) - 0.5;
     let x0 = floor(x);
     let y0 = floor(y);
     let fx = x - x0;

@@ -20,6 +20,8 @@ struct Ray {
     // `NONE`: find the nearest hit. Otherwise a shadow ray towards this light: any hit ends the search,
     // and primitives of this light are not there.
     light: u32,
+    // When it sees the scene: 0 where the shutter opens, 1 where it closes.
+    time: f32,
 }
 
 struct Hit {

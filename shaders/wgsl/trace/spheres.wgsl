@@ -1,6 +1,7 @@
 // A leaf of spheres.
 
 #import "scene/candidate.wgsl"
+#import "scene/motion.wgsl"
 #import "scene/records.wgsl"
 #import "shape/sphere.wgsl"
 #import "trace/ray.wgsl"
@@ -14,11 +15,12 @@ fn spheres_trace(first: u32, count: u32, ray: Ray, best: Hit) -> Hit {
         if (i == end) { break; }
         let prim = i | PRIM_SPHERE;
         let sphere = load_sphere(i);
-        let t = sphere_intersect(sphere, ray.origin, ray.dir, prim == ray.skip);
+        let origin = dispatch_sphere_origin(sphere.object, ray.origin, ray.time);
+        let t = sphere_intersect(sphere, origin, ray.dir, prim == ray.skip);
         // The far end counts where the near end is behind the ray, or not there.
-        if (ray_accepts(hit, t.x, prim) && candidate_sphere(sphere, ray, t.x)) {
+        if (ray_accepts(hit, t.x, prim) && candidate_sphere(sphere, ray, origin, t.x)) {
             hit = Hit(t.x, prim, vec2f(0.0));
-        } else if (ray_accepts(hit, t.y, prim) && candidate_sphere(sphere, ray, t.y)) {
+        } else if (ray_accepts(hit, t.y, prim) && candidate_sphere(sphere, ray, origin, t.y)) {
             hit = Hit(t.y, prim, vec2f(0.0));
         }
         i += 1u;

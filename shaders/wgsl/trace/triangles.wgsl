@@ -1,6 +1,7 @@
 // A leaf of triangles.
 
 #import "scene/candidate.wgsl"
+#import "scene/motion.wgsl"
 #import "scene/records.wgsl"
 #import "shape/triangle.wgsl"
 #import "trace/ray.wgsl"
@@ -12,7 +13,8 @@ fn triangles_trace(first: u32, count: u32, ray: Ray, shear: TriangleShear, best:
     let end = first + count;
     loop {
         if (i == end) { break; }
-        let h = triangle_intersect(load_triangle(i), ray.origin, shear);
+        let tri = load_triangle(i);
+        let h = triangle_intersect(tri, dispatch_triangle_origin(i, tri.id0, ray.origin, ray.time), shear);
         if (ray_accepts(hit, h.x, i) && i != ray.skip && candidate_triangle(i, h.yz, ray.light)) {
             hit = Hit(h.x, i, h.yz);
         }

@@ -48,14 +48,14 @@ pub fn ours(c: f64, base: f64) -> [f64; 2] {
     let mut kernel = bench.single();
     let lobe = Lobe { normal: DVec3::Z, color: base as f32, ..Lobe::principled(0.0, 0.0) };
     let (scatter, wo) = (lobe.single(), lobe.at_cosine(c).as_vec3());
-    let f0 = kernel.principled_f0(scatter);
-    let highlight = f64::from(kernel.fresnel_schlick(f0, c as f32).x);
+    let surface = kernel.principled_at(scatter);
+    let highlight = f64::from(kernel.principled_fresnel(surface, c as f32).x);
     let n = 4000;
     let at = |i: i32| (f64::from(i) + 0.5) / f64::from(n);
     // The base depends on the cosine alone.
     let mut eval = |mu: f64| {
         let wi = Vec3::new((1.0 - mu * mu).sqrt() as f32, 0.0, mu as f32);
-        f64::from(kernel.principled_eval(scatter, wo, wi).x)
+        f64::from(kernel.dispatch_principled_eval(scatter, wo, wi).x)
     };
     let diffuse = (0..n).map(|i| eval(at(i))).sum::<f64>() * std::f64::consts::TAU / f64::from(n);
     [highlight + diffuse, highlight]

@@ -110,7 +110,8 @@ fn kernel_hits(place: &Place3, lid: [DVec3; 3], b: Vec2, dir: Vec3, scale: f64) 
     let mut kernel = bench.single();
     let s = kernel.triangle_flat_surface(0, b, -place.normal.as_vec3());
     let origin = kernel.state_origin(s.p, s.ng * s.gap, dir);
-    let ray = |skip| single::Ray { origin, t_max: single::RAY_FAR, dir, skip, light: NONE };
+    let ray =
+        |skip| single::Ray { origin, t_max: single::RAY_FAR, dir, skip, light: NONE, time: 0.0 };
     let hit = kernel.trace(ray(0)).prim;
     [hit == 0, hit == 1]
 }

@@ -154,7 +154,9 @@ fn schlick_has_its_ends() {
     let bench = Bench::new();
     let mut kernel = bench.single();
     for f0 in [0.0, 0.04, 0.5, 1.0] {
-        let at = |kernel: &mut single::Kernel<'_>, c| kernel.fresnel_schlick(Vec3::splat(f0), c).x;
+        let at = |kernel: &mut single::Kernel<'_>, c| {
+            kernel.fresnel_schlick_to(Vec3::splat(f0), 1.0, c).x
+        };
         assert_eq!(at(&mut kernel, 1.0), f0);
         assert_eq!(at(&mut kernel, 0.0), 1.0);
         // A cosine that rounding made larger than 1.

@@ -339,6 +339,7 @@ fn records_reach_the_kernel_as_written() {
         dir: Vec3::NEG_Z,
         skip: single::NONE,
         light: single::NONE,
+        time: 0.0,
     };
     let hit = single.trace(ray);
     assert_eq!((hit.prim, hit.t, hit.b), (0, 1.5, glam::Vec2::splat(0.25)));
@@ -350,6 +351,7 @@ fn records_reach_the_kernel_as_written() {
         dir: DVec3::NEG_Z,
         skip: double::NONE,
         light: double::NONE,
+        time: 0.0,
     });
     assert_eq!((hit.prim, hit.t), (0, 1.5));
 }

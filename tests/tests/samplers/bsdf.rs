@@ -4,6 +4,7 @@ use glam::{DVec3, Vec3};
 use pack::abi::MaterialKind;
 use runtime::kernel::{f32 as single, f64 as double};
 use tests::kernel::{Bench, Lobe};
+use tests::layers::Layers;
 use tests::statistics::grid::{Grid, Shape};
 use tests::statistics::{Counts, binomial_z};
 
@@ -28,12 +29,26 @@ const PRINCIPLED: [(f32, f32, f64); 8] = [
     (1.0, 0.0, 1.0),
     (1.0, 0.3, 0.1),
 ];
+/// Roughness, metallic, layers, cosine.
+const LAYERED: [(f32, f32, Layers, f64); 8] = [
+    (0.3, 0.0, Layers { transmission: 1.0, ..Layers::PLAIN }, 0.6),
+    (0.6, 0.3, Layers { transmission: 0.5, ..Layers::PLAIN }, 0.2),
+    (1.0, 0.0, Layers { transmission: 1.0, ..Layers::PLAIN }, 0.9),
+    (0.0, 0.0, Layers { coat: 1.0, coat_roughness: 0.3, transmission: 0.5, ..Layers::PLAIN }, 0.5),
+    (0.5, 0.0, Layers { coat: 1.0, coat_roughness: 0.15, ..Layers::PLAIN }, 0.4),
+    (0.2, 1.0, Layers { coat: 0.5, coat_roughness: 0.7, ..Layers::PLAIN }, 0.8),
+    (0.4, 0.0, Layers { coat: 0.8, coat_roughness: 1.0, transmission: 0.7, ..Layers::PLAIN }, 0.1),
+    (0.4, 0.2, Layers { specular: 0.3, tint: 20.0, ..Layers::PLAIN }, 0.5),
+];
 /// Cosines of the incident direction for Lambert's model.
 const DIFFUSE_MU: [f64; 2] = [1.0, 0.05];
 
 /// Chi-square tests here.
-pub(crate) const CHECKS: usize =
-    FUZZ.len() * METAL_MU.len() + ALPHA.len() * GGX_MU.len() + PRINCIPLED.len() + DIFFUSE_MU.len();
+pub(crate) const CHECKS: usize = FUZZ.len() * METAL_MU.len()
+    + ALPHA.len() * GGX_MU.len()
+    + PRINCIPLED.len()
+    + LAYERED.len()
+    + DIFFUSE_MU.len();
 
 /// Midpoints along each side of a cell.
 const FINE: usize = 16;
@@ -202,6 +217,48 @@ fn principled_directions_have_their_density() {
     }
 }
 
+/// Both sides of the surface have their cells, those of the far side mirrored.
+#[test]
+fn layered_directions_have_their_density() {
+    for (i, (roughness, metallic, layers, mu)) in LAYERED.into_iter().enumerate() {
+        let lobe = Lobe::principled(roughness, metallic);
+        let bench = Bench::new().materials(&[layers.into()]);
+        let (mut single, mut double) = (bench.single(), bench.double());
+        let wo = lobe.at_cosine(mu);
+        let (scatter, truth) = (lobe.single(), lobe.double());
+        let widths = [roughness, if layers.coat > 0.0 { layers.coat_roughness } else { 1.0 }];
+        let narrow = widths.map(|r| f64::from(r * r)).into_iter().filter(|a| *a >= 1e-3);
+        let alpha = narrow.fold(1.0, f64::min);
+        let grid = lobe_grid(lobe.mirror(wo), lobe.normal, alpha, mu);
+        let across = |d: DVec3| (d - lobe.normal * (2.0 * d.dot(lobe.normal))).normalize();
+        let mut shares =
+            grid.integrate_above(FINE, lobe.normal, |d| double.dispatch_pdf(truth, wo, d));
+        let far = |d| double.dispatch_pdf(truth, wo, across(d));
+        shares.extend(grid.integrate_above(FINE, lobe.normal, far));
+        let sum: f64 = shares.iter().sum();
+        assert!(sum < 1.001, "{layers:?}: the density integrates to {sum}");
+        let mut counts = Counts::new(shares.iter().map(|share| share * N as f64).collect());
+        let mut none = 0;
+        for k in 0..N {
+            let out = single.dispatch_sample(scatter, wo.as_vec3(), key(800 + i, k));
+            let d = out.wi.as_dvec3().normalize();
+            let (d, first) =
+                if d.dot(lobe.normal) < 0.0 { (across(d), grid.cells()) } else { (d, 0) };
+            if out.pdf > 0.0 && out.weight.x > 0.0 {
+                counts.add(first + grid.cell(d).expect("the cells reach everywhere"));
+            } else {
+                none += 1;
+            }
+        }
+        if 1.0 - sum > 3e-4 {
+            counts.push(f64::from(none), (1.0 - sum) * N as f64);
+        } else {
+            assert!(none < 500, "{layers:?}: {none} samples without direction");
+        }
+        check(&format!("{lobe:?} {layers:?} at cosine {mu}"), &counts);
+    }
+}
+
 /// Reflection is chosen with Fresnel's probability, and both lobes are deltas.
 #[test]
 fn dielectric_chooses_by_fresnel() {
@@ -257,7 +314,7 @@ pub(crate) fn sample_at(
         MaterialKind::Metal => kernel.metal_sample(s, wo, u, v),
         MaterialKind::Dielectric => kernel.dielectric_sample(s, wo, v),
         MaterialKind::Emissive => kernel.emissive_sample(),
-        MaterialKind::Principled => kernel.principled_sample(s, wo, u, v),
+        MaterialKind::Principled => kernel.dispatch_principled_sample(s, wo, u, v),
         MaterialKind::Stone => kernel.stone_sample(s, wo, u, v),
         MaterialKind::Wood => kernel.wood_sample(s, wo, u, v),
         MaterialKind::Fabric => kernel.fabric_sample(s, wo, u, v),

@@ -46,7 +46,7 @@ fn single_light(light: &Light) -> single::Light {
         pmf: light.pmf,
         cdf: light.cdf,
         material: light.material,
-        _pad0: 0,
+        trail: light.trail,
     }
 }
 
@@ -62,7 +62,7 @@ fn double_light(light: &Light) -> double::Light {
         pmf: f64::from(light.pmf),
         cdf: f64::from(light.cdf),
         material: light.material,
-        _pad0: 0,
+        trail: light.trail,
     }
 }
 

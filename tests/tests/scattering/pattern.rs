@@ -157,6 +157,7 @@ fn the_steepest_bumps_make_no_light() {
 fn single_surface(s: &double::Surface) -> single::Surface {
     single::Surface {
         p: s.p.as_vec3(),
+        rest: s.rest.as_vec3(),
         ng: s.ng.as_vec3(),
         ns: s.ns.as_vec3(),
         uv: s.uv.as_vec2(),

@@ -5,6 +5,7 @@ use super::super::image_set::{Alpha, ImageSet};
 use super::super::material::{ImportedMaterial, MapUse};
 use super::super::report::ImportReport;
 use super::container::Images;
+use super::layers::{self, unit};
 use ::gltf::json::material::{AlphaMode, Material, NormalTexture};
 use ::gltf::json::texture::{Info, WrappingMode};
 use ::gltf::json::validation::Checked;
@@ -73,9 +74,12 @@ pub(super) fn convert<'a>(
 
 /// What is counted over all materials.
 #[derive(Default)]
-struct Notes {
+pub(super) struct Notes {
     blended: u64,
-    transmission_maps: u64,
+    pub(super) coat_normals: u64,
+    pub(super) coats_on_maps: u64,
+    pub(super) absorbing: u64,
+    tinted_glass: u64,
     uv_sets: u64,
 }
 
@@ -83,7 +87,13 @@ impl Notes {
     fn report(&self, file: &str, report: &mut ImportReport) {
         let notes = [
             (self.blended, "blend with what is behind them; coverage is cut at one half instead"),
-            (self.transmission_maps, "have transmission maps, which are not used"),
+            (self.coat_normals, "have coats with normal maps of their own, which are not used"),
+            (self.coats_on_maps, "have coats that follow the normal map of what is under them"),
+            (
+                self.tinted_glass,
+                "are solid glass, whose colour, roughness, coat and opaque part are not used",
+            ),
+            (self.absorbing, "absorb light inside, which is left out"),
             (
                 self.uv_sets,
                 "look up their images at different UVs; all use those of the first image",
@@ -103,7 +113,6 @@ fn convert_one(
 ) -> Result<ImportedMaterial, ImportError> {
     let pbr = &material.pbr_metallic_roughness;
     let mut out = ImportedMaterial::named(name);
-    let unit = |x: f32| f64::from(x).clamp(0.0, 1.0);
     let [r, g, b, a] = pbr.base_color_factor.0;
     out.color = [r, g, b].map(unit);
     out.metallic = unit(pbr.metallic_factor.0);
@@ -122,10 +131,6 @@ fn convert_one(
         // 0 is allowed by the extension and means "reflects everything", which has no index.
         out.ior = if (1.0..=100.0).contains(&ior) { ior } else { 1.5 };
     }
-    if let Some(transmission) = extensions.and_then(|e| e.transmission.as_ref()) {
-        out.transmission = unit(transmission.transmission_factor.0);
-        notes.transmission_maps += u64::from(transmission.transmission_texture.is_some());
-    }
     out.unlit = extensions.is_some_and(|e| e.unlit.is_some());
     out.double_sided = material.double_sided;
     if let Some(normal) = &material.normal_texture {
@@ -135,6 +140,8 @@ fn convert_one(
         out.normal_map = maps.load(Some(&maps.normal_info(normal)?), ColorSpace::Data)?;
         out.normal_strength = f64::from(normal.scale);
     }
+    layers::convert(material, &mut out, maps, notes)?;
+    notes.tinted_glass += u64::from(out.is_glass() && !out.is_plain_glass());
     let clip = match material.alpha_mode {
         Checked::Valid(AlphaMode::Opaque) => None,
         Checked::Valid(AlphaMode::Mask) => {
@@ -159,7 +166,7 @@ fn convert_one(
 }
 
 /// Asks for the images of one material.
-struct Maps<'m, 'a, 'r> {
+pub(super) struct Maps<'m, 'a, 'r> {
     source: &'m mut Images<'a, 'r>,
     images: &'m mut ImageSet<'a>,
     what: &'m str,
@@ -170,7 +177,7 @@ struct Maps<'m, 'a, 'r> {
 }
 
 impl Maps<'_, '_, '_> {
-    fn error(&self, kind: ErrorKind, message: &str) -> ImportError {
+    pub(super) fn error(&self, kind: ErrorKind, message: &str) -> ImportError {
         self.source.document.error(kind, self.what, message)
     }
 
@@ -184,7 +191,7 @@ impl Maps<'_, '_, '_> {
         Ok(Info { index, tex_coord, extensions, extras: normal.extras.clone() })
     }
 
-    fn load(
+    pub(super) fn load(
         &mut self,
         info: Option<&Info>,
         space: ColorSpace,

@@ -4,7 +4,7 @@
 //! associated (premultiplied) in EXR and straight here, so colour is divided by it where it is
 //! between 0 and 1.
 
-use super::{HalfImage, Image, broken, checked_size};
+use super::{HalfImage, broken, checked_size};
 use crate::import::error::{ErrorKind, ImportError};
 use crate::import::file::Limits;
 use ::exr::image::read::image::ReadLayers as _;
@@ -27,11 +27,16 @@ pub(super) fn size(bytes: &[u8], place: &str, limits: &Limits) -> Result<[u32; 2
     choose(bytes, place, limits).map(|(_, size)| size)
 }
 
-/// Decodes the chosen layer.
-pub(super) fn decode(bytes: &[u8], place: &str, limits: &Limits) -> Result<Image, ImportError> {
+/// Decodes the chosen layer, its colours times `scale`.
+pub(super) fn decode(
+    bytes: &[u8],
+    place: &str,
+    limits: &Limits,
+    scale: f32,
+) -> Result<HalfImage, ImportError> {
     let (layer, size) = choose(bytes, place, limits)?;
-    let set = |image: &mut HalfImage, at: Vec2<usize>, [r, g, b, a]: [f32; 4]| {
-        let straight = if a > 0.0 && a < 1.0 { a } else { 1.0 };
+    let set = move |image: &mut HalfImage, at: Vec2<usize>, [r, g, b, a]: [f32; 4]| {
+        let straight = if a > 0.0 && a < 1.0 { a / scale } else { 1.0 / scale };
         let texel_idx = at.1 * image.size[0] as usize + at.0;
         image.set(texel_idx, [r / straight, g / straight, b / straight, a]);
     };
@@ -68,7 +73,7 @@ pub(super) fn decode(bytes: &[u8], place: &str, limits: &Limits) -> Result<Image
         let message = "the size of the layer differs from its header";
         return Err(ImportError::new(ErrorKind::Image, place, message));
     }
-    Ok(image.finish())
+    Ok(image)
 }
 
 /// Memory for a layer; `choose` has checked the size of every layer against the limit.

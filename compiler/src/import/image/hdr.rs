@@ -1,6 +1,6 @@
 //! Radiance HDR (shared exponent, linear) becomes half floats.
 
-use super::{HalfImage, Image, broken, checked_size};
+use super::{HalfImage, broken, checked_size};
 use crate::import::error::ImportError;
 use crate::import::file::Limits;
 use ::image::codecs::hdr::HdrDecoder;
@@ -14,15 +14,20 @@ pub(super) fn size(bytes: &[u8], place: &str, limits: &Limits) -> Result<[u32; 2
     checked_size(width, height, place, limits)
 }
 
-/// Decodes a whole file.
-pub(super) fn decode(bytes: &[u8], place: &str, limits: &Limits) -> Result<Image, ImportError> {
+/// Decodes a whole file, its colours times `scale`.
+pub(super) fn decode(
+    bytes: &[u8],
+    place: &str,
+    limits: &Limits,
+    scale: f32,
+) -> Result<HalfImage, ImportError> {
     let decoder = HdrDecoder::new(Cursor::new(bytes)).map_err(|e| broken(place, &e))?;
     let (width, height) = decoder.dimensions();
     let size = checked_size(width, height, place, limits)?;
     let decoded = DynamicImage::from_decoder(decoder).map_err(|e| broken(place, &e))?;
     let mut image = HalfImage::new(size);
     for (texel_idx, rgb) in decoded.into_rgb32f().as_raw().chunks_exact(3).enumerate() {
-        image.set(texel_idx, [rgb[0], rgb[1], rgb[2], 1.0]);
+        image.set(texel_idx, [rgb[0] * scale, rgb[1] * scale, rgb[2] * scale, 1.0]);
     }
-    Ok(image.finish())
+    Ok(image)
 }

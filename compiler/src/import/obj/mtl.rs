@@ -10,6 +10,7 @@
 //! - `Ks` without any `Kd` is a metal of that colour; without `Ks` and `Ns` (or with `illum` 0 or 1)
 //!   there is no highlight at all.
 //! - `illum` 4, 6, 7 and 9 mean glass: transmission is `1 - d`, or 1 where 6 or 7 say no `d`.
+//! - `Pc` and `Pcr` are a clear coat and its roughness.
 //! - `norm` is a normal map. `map_Bump` is a height without a unit: there is no telling how steep it is.
 //! - `map_d`, or `d` below 1 otherwise, is coverage, cut at one half.
 
@@ -153,6 +154,8 @@ fn clean_line(line: &[u8], named: bool) -> Result<Line, (ErrorKind, String)> {
             | b"Tr"
             | b"Pr"
             | b"Pm"
+            | b"Pc"
+            | b"Pcr"
             | b"illum"
             | b"map_Kd"
             | b"map_Ke"
@@ -181,7 +184,7 @@ fn clean_line(line: &[u8], named: bool) -> Result<Line, (ErrorKind, String)> {
                 n => Err((ErrorKind::Format, format!("`{key}` has 3 numbers, found {n}"))),
             }
         }
-        b"Ns" | b"Ni" | b"d" | b"Tr" | b"Pr" | b"Pm" => {
+        b"Ns" | b"Ni" | b"d" | b"Tr" | b"Pr" | b"Pm" | b"Pc" | b"Pcr" => {
             let rest = uncommented(rest);
             let number = rest.strip_prefix(b"-halo ").unwrap_or(rest).trim_ascii();
             match numbers_of(number, &mut [0.0; 1])? {
@@ -273,7 +276,9 @@ fn set_gloss(out: &mut ImportedMaterial, mtl: &tobj::Material) {
         out.metallic = metallic.clamp(0.0, 1.0);
     }
     let says_nothing = mtl.specular.is_some() || exponent.is_none();
-    let physical = number("Pr").is_some() || out.metallic > 0.0;
+    let physical = number("Pr").is_some() || out.metallic > 0.0 || number("Pc").is_some();
+    out.coat = number("Pc").unwrap_or(0.0).clamp(0.0, 1.0);
+    out.coat_roughness = number("Pcr").unwrap_or(0.0).clamp(0.0, 1.0);
     out.diffuse_only = !physical && (dull || (no_specular && says_nothing));
     if let Some(ior) = mtl.optical_density.map(f64::from).filter(|ior| *ior >= 1.0) {
         out.ior = ior;
@@ -303,6 +308,7 @@ fn set_transparency(
         }
         _ => {}
     }
+    out.solid = out.transmission > 0.0;
     if out.alpha_map.is_some() {
         out.alpha_clip = Some(0.5);
     }

@@ -29,7 +29,7 @@ abi_struct! {
         pub sky_at: u32,
         /// First heap word of the `Material` table.
         pub material_at: u32,
-        /// First heap word of the `Object` table.
+        /// First heap word of the `Object` table; `NONE` without objects.
         pub object_at: u32,
         /// First heap word of the `Medium` table.
         pub medium_at: u32,
@@ -52,7 +52,11 @@ abi_struct! {
         /// `NONE`.
         pub inside: [u32; 4],
         /// Unused.
-        pub _pad0: [u32; 3],
+        pub _pad0: u32,
+        /// First heap word of the table by which the sky is sampled.
+        pub sky_table_at: u32,
+        /// First heap word of the tree of lights; `NONE`: lights are chosen by their table.
+        pub light_tree_at: u32,
         /// Index of the `Medium` that is fog, or `NONE`.
         pub fog: u32,
     }

@@ -78,6 +78,9 @@ impl ChildRef {
 
 /// Bit of `TriShade::object`: the triangle interpolates its normals.
 pub const TRI_SMOOTH: u32 = 1 << 31;
+/// Bit of all three ids of a `Triangle`, and of `Sphere::object`: its object moves while the shutter
+/// is open.
+pub const MOVES: u32 = 1 << 31;
 
 abi_struct! {
     /// Inner node of the binary BVH, 64 bytes: the boxes of both children and where they are.
@@ -103,12 +106,13 @@ abi_struct! {
 }
 
 abi_struct! {
-    /// A triangle's corners, 48 bytes, in leaf order. Normalised world frame; the geometric normal
-    /// is `cross(v1 - v0, v2 - v0)`.
+    /// A triangle's corners, 48 bytes, in leaf order. Normalised world frame, as when the shutter
+    /// opens; the geometric normal is `cross(v1 - v0, v2 - v0)`.
     pub struct Triangle {
         /// First corner.
         pub v0: [f32; 3],
-        /// Id of the first corner after welding by position: equal bits, equal id.
+        /// Bits 0-30: id of the first corner after welding by position: equal bits, equal id.
+        /// Bit 31, [`MOVES`], is the same in all three.
         pub id0: u32,
         /// Second corner.
         pub v1: [f32; 3],
@@ -144,7 +148,7 @@ abi_struct! {
 }
 
 abi_struct! {
-    /// A sphere, 32 bytes, in leaf order. Normalised world frame.
+    /// A sphere, 32 bytes, in leaf order. Normalised world frame, as when the shutter opens.
     pub struct Sphere {
         /// Centre.
         pub center: [f32; 3],
@@ -154,7 +158,7 @@ abi_struct! {
         pub material: u32,
         /// Index of the `Light`, or `NONE`.
         pub light: u32,
-        /// Index of the `Object`.
+        /// Bits 0-30: index of the `Object`. Bit 31: [`MOVES`].
         pub object: u32,
         /// Unused.
         pub _pad0: u32,

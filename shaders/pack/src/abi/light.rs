@@ -12,11 +12,13 @@ pub enum LightKind {
     Rectangle = 1,
     /// Triangle `primitive`, sampled by area.
     Triangle = 2,
+    /// The sky, sampled by the SKYTABLE section.
+    Sky = 3,
 }
 
 impl LightKind {
     /// Every kind, in tag order.
-    pub const ALL: [Self; 3] = [Self::Sphere, Self::Rectangle, Self::Triangle];
+    pub const ALL: [Self; 4] = [Self::Sphere, Self::Rectangle, Self::Triangle, Self::Sky];
 
     /// The kind with this tag.
     #[must_use]
@@ -28,25 +30,25 @@ impl LightKind {
 abi_struct! {
     /// An emitter in the selection table, 64 bytes. Normalised world frame.
     pub struct Light {
-        /// Centre (sphere), corner (rectangle), first vertex (triangle).
+        /// Centre (sphere), corner (rectangle), first vertex (triangle); unused for the sky, as all of its geometry.
         pub origin: [f32; 3],
         /// `LightKind`.
         pub kind: u32,
-        /// First edge; x is the radius for a sphere.
+        /// First edge; for a sphere x is the radius, y the cosine of the angle of its tint.
         pub edge1: [f32; 3],
         /// Area in square normalised units; unused for a sphere.
         pub area: f32,
-        /// Second edge.
+        /// Second edge; for a sphere the unit vector towards which it is tinted.
         pub edge2: [f32; 3],
-        /// Index of the sphere, of the triangle, or of the rectangle's first triangle.
+        /// Index of the sphere, of the triangle, or of the rectangle's first triangle; 0 for the sky.
         pub primitive: u32,
         /// Probability of choosing this light, > 0; all of them sum to 1.
         pub pmf: f32,
         /// Sum of `pmf` up to and including this light; the last is exactly 1.
         pub cdf: f32,
-        /// Index of the `Material` that emits.
+        /// Index of the `Material` that emits; 0 for the sky.
         pub material: u32,
-        /// Unused.
-        pub _pad0: u32,
+        /// Turns from the root of the tree of lights to this one, the first in bit 0; 0 without a tree.
+        pub trail: u32,
     }
 }

@@ -1,5 +1,6 @@
 //! One record for all materials: a tag and shared fields whose meaning depends on it.
 
+use super::NONE;
 use super::field::abi_struct;
 
 /// How a `Material` scatters. The numbers are part of the pack format.
@@ -87,8 +88,11 @@ pub mod material_flag {
     pub const INTERIOR: u32 = 16;
     /// Some shadow rays go on behind the surface.
     pub const THROUGH: u32 = 32;
+    /// A light that is tinted by direction: `tint` is the colour, its `Light` says towards where.
+    pub const EMIT_TINT: u32 = 64;
     /// Every bit.
-    pub const ALL: u32 = EMIT_BOTH_SIDES | ALPHA_CLIP | TANGENT | OBJECT | INTERIOR | THROUGH;
+    pub const ALL: u32 =
+        EMIT_BOTH_SIDES | ALPHA_CLIP | TANGENT | OBJECT | INTERIOR | THROUGH | EMIT_TINT;
 }
 
 abi_struct! {
@@ -179,5 +183,35 @@ abi_struct! {
         pub transmission_texture: u32,
         /// Unused.
         pub _pad0: u32,
+    }
+}
+
+impl Material {
+    /// A principled surface whose dielectric part does not reflect as its refractive index says.
+    #[must_use]
+    pub fn has_specular(&self) -> bool {
+        let plain = self.specular.to_bits() == 1.0_f32.to_bits()
+            && self.tint.iter().all(|c| c.to_bits() == 1.0_f32.to_bits())
+            && self.specular_texture == NONE;
+        self.kind == MaterialKind::Principled as u32 && !plain
+    }
+
+    /// A principled surface under a coat.
+    #[must_use]
+    pub fn has_coat(&self) -> bool {
+        self.kind == MaterialKind::Principled as u32 && self.coat > 0.0
+    }
+
+    /// A thin sheet that lets shadow rays through.
+    #[must_use]
+    pub fn is_sheet(&self) -> bool {
+        let both = material_flag::THROUGH | material_flag::INTERIOR;
+        self.flags & both == material_flag::THROUGH
+    }
+
+    /// A principled surface that lets light through.
+    #[must_use]
+    pub fn has_transmission(&self) -> bool {
+        self.kind == MaterialKind::Principled as u32 && self.transmission > 0.0
     }
 }

@@ -26,3 +26,11 @@ abi_struct! {
         pub key: u32,
     }
 }
+
+impl Object {
+    /// Whether it moves while the shutter is open.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        self.motion.iter().any(|component| *component != 0.0)
+    }
+}

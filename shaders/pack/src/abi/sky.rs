@@ -10,11 +10,13 @@ pub enum SkyKind {
     Constant = 0,
     /// Three-band gradient with glow and disc around `sun_direction`.
     Gradient = 1,
+    /// `zenith` times a lat-long image.
+    Image = 2,
 }
 
 impl SkyKind {
     /// Every kind, in tag order.
-    pub const ALL: [Self; 2] = [Self::Constant, Self::Gradient];
+    pub const ALL: [Self; 3] = [Self::Constant, Self::Gradient, Self::Image];
 
     /// The kind with this tag.
     #[must_use]
@@ -23,10 +25,19 @@ impl SkyKind {
     }
 }
 
+/// `f32` values of SKYTABLE for so many rows and columns: for each row the sum of shares up to and
+/// including it; the cosine of the polar angle at each edge between rows, first and last included; for each
+/// row its columns' sums of shares. Zeros fill the last word of 16 bytes.
+#[must_use]
+pub fn sky_table_values(rows: u32, columns: u32) -> u64 {
+    let (rows, columns) = (u64::from(rows), u64::from(columns));
+    2 * rows + 1 + rows * columns
+}
+
 abi_struct! {
     /// Radiance by direction, linear Rec. 709, W/(m2 sr) up to the scene's own scale.
     pub struct Sky {
-        /// Radiance straight up; the only colour of a constant sky.
+        /// Radiance straight up; the only colour of a constant sky; the factor on an image.
         pub zenith: [f32; 3],
         /// `SkyKind`.
         pub kind: u32,
@@ -36,9 +47,9 @@ abi_struct! {
         pub blend_high: f32,
         /// Radiance at the horizon.
         pub horizon: [f32; 3],
-        /// Sine of the elevation where horizon and ground bands meet (negative).
+        /// Sine of the elevation where horizon and ground bands meet.
         pub blend_low: f32,
-        /// Radiance straight down.
+        /// Radiance at elevation sine `blend_ground` and below.
         pub ground: [f32; 3],
         /// Exponent of the wide glow around the sun, `cos^glow_power`.
         pub glow_power: f32,
@@ -48,11 +59,19 @@ abi_struct! {
         pub disc_power: f32,
         /// Radiance added at the centre of the glow.
         pub glow: [f32; 3],
-        /// Unused.
-        pub _pad0: u32,
+        /// Sine of the elevation where the ground band ends; less than -1 if it does not.
+        pub blend_ground: f32,
         /// Radiance added at the centre of the disc.
         pub disc: [f32; 3],
-        /// Unused.
-        pub _pad1: u32,
+        /// Turns from azimuth to the column of image and table: u = azimuth + rotation, azimuth from -z to +x.
+        pub rotation: f32,
+        /// Image of an image sky, wrapped along u; `NONE` for other kinds.
+        pub texture: u32,
+        /// Index of the sky in the light table; `NONE`: it is found by chance only, and there is no SKYTABLE.
+        pub light: u32,
+        /// Rows and columns of SKYTABLE; 0 without.
+        pub rows: u32,
+        /// See `rows`.
+        pub columns: u32,
     }
 }

@@ -4,9 +4,9 @@
 //! field that is not in it may hold any value, and the comment there says why.
 
 use crate::abi::{
-    Camera, Light, LightKind, Material, MaterialKind, Medium, Node, Object, RenderSettings,
-    SamplerKind, Sky, SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap, TriShade,
-    Triangle, Wrap, material_flag,
+    Camera, Light, LightKind, LightNode, MOVES, Material, MaterialKind, Medium, Node, Object,
+    RenderSettings, SamplerKind, Sky, SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap,
+    TriShade, Triangle, Wrap, material_flag,
 };
 use crate::contents::Contents;
 use crate::fault::ElementFault;
@@ -82,8 +82,9 @@ rules! { pack;
         forward: direction(),
         tan_half_width: positive(),
     }
-    // `sun_direction` is any finite vector: a sky without a sun has none.
-    Sky {
+    // `sun_direction` is any finite vector: a sky without a sun has none. `rows` and `columns` are compared
+    // with SKYTABLE.
+    Sky and sky {
         zenith: not_negative(),
         kind: tag(SkyKind::ALL.len()),
         middle: not_negative(),
@@ -95,9 +96,11 @@ rules! { pack;
         sun_direction: finite(),
         disc_power: not_negative(),
         glow: not_negative(),
-        _pad0: unused(),
+        blend_ground: finite(),
         disc: not_negative(),
-        _pad1: unused(),
+        rotation: finite(),
+        texture: index_or_none(table(pack, Kind::TEXTURE)),
+        light: index_or_none(table(pack, Kind::LIGHT)),
     }
     // `left` and `right` are the tree's; so is that `lo <= hi`.
     Node {
@@ -112,9 +115,9 @@ rules! { pack;
         v0: finite(),
         v1: finite(),
         v2: finite(),
-        id0: corner(pack.triangles.len()),
-        id1: corner(pack.triangles.len()),
-        id2: corner(pack.triangles.len()),
+        id0: id(pack),
+        id1: id(pack),
+        id2: id(pack),
     }
     // Every word is an octahedral normal.
     TriShade {
@@ -193,6 +196,16 @@ rules! { pack;
         transmission: unit_range(),
         _pad0: unused(),
     }
+    // `child` is `light_tree`'s; so is `trail` of lights.
+    LightNode {
+        center: finite(),
+        radius2: positive(),
+        axis: direction(),
+        power: positive(),
+        cos_spread: cosine(),
+        sin_spread: unit_range(),
+        _pad0: unused(),
+    }
     Light and light {
         kind: tag(LightKind::ALL.len()),
         material: index(table(pack, Kind::MATERIAL)),
@@ -202,7 +215,6 @@ rules! { pack;
         edge2: finite(),
         pmf: probability(),
         cdf: probability(),
-        _pad0: unused(),
     }
     Texture and texture {
         width: dimension(),
@@ -215,11 +227,17 @@ rules! { pack;
     }
 }
 
+/// Bits 0-30 are a welded id.
+fn id(found: u32, pack: &Contents<'_>) -> Option<ElementFault> {
+    corner(found & !MOVES, pack.triangles.len())
+}
+
 /// Bits 0-30 are the index of an object. A pack in which nothing depends on objects has none, and 0
 /// stands for them.
 fn object(found: u32, pack: &Contents<'_>) -> Option<ElementFault> {
     let count = pack.objects.len().max(1);
-    index(found & !TRI_SMOOTH, (Kind::OBJECT, count))
+    // Bit 31 says something else of triangles than of spheres.
+    index(found & !(TRI_SMOOTH | MOVES), (Kind::OBJECT, count))
 }
 
 fn at_least_one(value: u32) -> Option<ElementFault> {
@@ -270,12 +288,22 @@ fn material(record: &Material, _: &Contents<'_>) -> Option<Broken> {
     not_negative(record.ior_minus_1).map(|fault| ("ior_minus_1", fault))
 }
 
+/// An image sky has an image.
+fn sky(record: &Sky, pack: &Contents<'_>) -> Option<Broken> {
+    if record.kind != SkyKind::Image as u32 {
+        return None;
+    }
+    index(record.texture, table(pack, Kind::TEXTURE)).map(|fault| ("texture", fault))
+}
+
 /// What `primitive`, `edge1` and `area` mean depends on the kind.
 fn light(record: &Light, pack: &Contents<'_>) -> Option<Broken> {
     let kind = LightKind::from_tag(record.kind)?;
     let target = match kind {
         LightKind::Sphere => Kind::SPHERE,
         LightKind::Rectangle | LightKind::Triangle => Kind::TRIANGLE,
+        // What it is, `check::sky` compares with the sky.
+        LightKind::Sky => return None,
     };
     if let Some(fault) = index(record.primitive, table(pack, target)) {
         return Some(("primitive", fault));
@@ -285,6 +313,7 @@ fn light(record: &Light, pack: &Contents<'_>) -> Option<Broken> {
         LightKind::Rectangle | LightKind::Triangle => {
             positive(record.area).map(|fault| ("area", fault))
         }
+        LightKind::Sky => None,
     }
 }
 

@@ -8,9 +8,9 @@
 pub(crate) mod sound;
 
 use pack::abi::{
-    Camera, ChildRef, Light, LightKind, Material, MaterialKind, Medium, NONE, Node, Object,
-    RenderSettings, Sky, SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap, TriShade,
-    Triangle, Wrap, f64_bits, material_flag,
+    Camera, ChildRef, LIGHT_LEAF, Light, LightKind, LightNode, MOVES, Material, MaterialKind,
+    Medium, NONE, Node, Object, RenderSettings, Sky, SkyKind, Sphere, TRI_SMOOTH, Texture,
+    TextureFormat, ToneMap, TriShade, Triangle, Wrap, f64_bits, material_flag,
 };
 use pack::manifest::Named;
 use pack::{Kind, Manifest, PackWriter};
@@ -28,9 +28,11 @@ pub(crate) struct Scene {
     pub(crate) objects: Vec<Object>,
     pub(crate) media: Vec<Medium>,
     pub(crate) lights: Vec<Light>,
+    pub(crate) light_nodes: Vec<LightNode>,
     pub(crate) textures: Vec<Texture>,
     pub(crate) texels: Vec<[u32; 4]>,
     pub(crate) srgb: Option<[f32; 256]>,
+    pub(crate) sky_table: Vec<[f32; 4]>,
     pub(crate) kernel: String,
     pub(crate) manifest: Option<Manifest>,
 }
@@ -144,7 +146,10 @@ fn sky() -> Sky {
         sun_direction: [0.0, 1.0, 0.0],
         disc_power: 4000.0,
         glow: [1.0; 3],
+        blend_ground: -0.6,
         disc: [90.0; 3],
+        texture: NONE,
+        light: NONE,
         ..Sky::default()
     }
 }
@@ -161,9 +166,15 @@ fn materials() -> Vec<Material> {
     materials[4].metallic_roughness_texture = 1;
     materials[4].alpha_texture = 0;
     materials[4].normal_texture = 1;
-    materials[4].flags = material_flag::ALPHA_CLIP | material_flag::TANGENT | material_flag::OBJECT;
+    materials[4].flags = material_flag::ALPHA_CLIP
+        | material_flag::TANGENT
+        | material_flag::OBJECT
+        | material_flag::THROUGH;
     materials[4].alpha_cutoff = 0.5;
     materials[4].normal_texture = 1;
+    materials[4].specular = 0.5;
+    materials[4].coat = 0.5;
+    materials[4].transmission = 0.5;
     materials
 }
 
@@ -206,11 +217,11 @@ impl Scene {
     pub(crate) fn full() -> Self {
         let triangle = |at: f32, id: u32| Triangle {
             v0: [at, 0.0, 0.0],
-            id0: id,
+            id0: MOVES | id,
             v1: [at + 0.1, 0.0, 0.0],
-            id1: id + 1,
+            id1: MOVES | (id + 1),
             v2: [at, 0.1, 0.0],
-            id2: id + 2,
+            id2: MOVES | (id + 2),
         };
         let shade = |material: u32, light: u32| TriShade {
             normals: [0x7fff_0000; 3],
@@ -241,9 +252,13 @@ impl Scene {
             shades: vec![shade(0, NONE), shade(3, 1), shade(4, NONE), shade(3, 2)],
             spheres: vec![sphere(-0.5, 1, NONE), sphere(-0.2, 2, NONE), sphere(0.6, 3, 0)],
             materials: materials(),
-            objects: vec![Object::default(); 2],
+            objects: vec![
+                Object::default(),
+                Object { motion: [0.0, 0.25, 0.0], ..Object::default() },
+            ],
             media: vec![Medium { sigma_s: [0.5; 3], ..Medium::default() }],
             lights: lights(),
+            light_nodes: Vec::new(),
             textures: vec![
                 texture(TextureFormat::Rgba8Srgb, [4, 2], 0),
                 texture(TextureFormat::Rgba8Linear, [3, 1], 2),
@@ -251,9 +266,51 @@ impl Scene {
             ],
             texels: vec![[0x3c00_3800; 4]; 5],
             srgb: Some(srgb()),
+            sky_table: Vec::new(),
             kernel: "// kernel\nfn main() {}\n".to_owned(),
             manifest: Some(manifest()),
         }
+    }
+
+    /// The example with an image for a sky that is its fourth light, sampled by 2 rows of 3 columns.
+    pub(crate) fn with_sky_light() -> Self {
+        let mut scene = Self::full();
+        let sky =
+            Sky { kind: SkyKind::Image as u32, texture: 2, light: 3, rows: 2, columns: 3, ..sky() };
+        scene.sky = Some(sky);
+        scene.lights[2].pmf = 0.125;
+        scene.lights[2].cdf = 0.875;
+        scene.lights.push(Light {
+            kind: LightKind::Sky as u32,
+            pmf: 0.125,
+            cdf: 1.0,
+            ..Light::default()
+        });
+        scene.render.n_lights = 4;
+        let rows = [0.25, 1.0];
+        let edges = [1.0, 0.0, -1.0];
+        let columns = [0.0, 0.5, 1.0, 0.25, 0.75, 1.0];
+        let values = [rows.as_slice(), &edges, &columns, &[0.0]].concat();
+        scene.sky_table = values.as_chunks::<4>().0.to_vec();
+        scene
+    }
+
+    /// The example with the sky as a light and a tree over the three others.
+    pub(crate) fn with_light_tree() -> Self {
+        let mut scene = Self::with_sky_light();
+        let node = |child: u32| LightNode {
+            radius2: 0.25,
+            axis: [0.0, 1.0, 0.0],
+            power: 2.0,
+            cos_spread: -1.0,
+            child,
+            ..LightNode::default()
+        };
+        scene.light_nodes = [2, LIGHT_LEAF | 1, 4, LIGHT_LEAF, LIGHT_LEAF | 2].map(node).to_vec();
+        scene.materials[3].flags |= material_flag::EMIT_TINT;
+        scene.lights[0].trail = 0b01;
+        scene.lights[2].trail = 0b11;
+        scene
     }
 
     /// Camera and settings only: no geometry, no sky, no manifest.
@@ -292,8 +349,10 @@ impl Scene {
             .records(&self.objects)
             .records(&self.media)
             .records(&self.lights)
+            .records(&self.light_nodes)
             .records(&self.textures)
             .texels(&self.texels)
+            .sky_table(&self.sky_table)
             .kernel(&self.kernel)
             .recipe_id([7; 32]);
         if let Some(sky) = &self.sky {

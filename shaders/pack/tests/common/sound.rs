@@ -25,7 +25,11 @@ pub(crate) fn assert_sound(pack: &Pack) {
     }
     for light in pack.records::<Light>() {
         let kind = LightKind::from_tag(light.kind).unwrap();
-        let count = if kind == LightKind::Sphere { n_spheres } else { n_triangles };
+        let count = match kind {
+            LightKind::Sphere => n_spheres,
+            LightKind::Rectangle | LightKind::Triangle => n_triangles,
+            LightKind::Sky => usize::MAX,
+        };
         assert!((light.primitive as usize) < count && (light.material as usize) < n_materials);
     }
     for material in pack.records::<Material>() {
@@ -34,6 +38,10 @@ pub(crate) fn assert_sound(pack: &Pack) {
             material.emission_texture,
             material.metallic_roughness_texture,
             material.alpha_texture,
+            material.normal_texture,
+            material.specular_texture,
+            material.coat_texture,
+            material.transmission_texture,
         ] {
             assert!(or_none(id, n_textures));
         }

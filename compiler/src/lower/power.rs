@@ -1,0 +1,73 @@
+//! How strongly each emitter lights the scene, for choosing between them.
+//!
+//! What counts is the power that comes into the ball around everything that can receive light. An emitter in
+//! the ball gives it all its power, one far away the share that the ball takes of the directions around it; the
+//! sky gives it its flux times the ball's disc. All are in units of watts / pi. Shares are estimates: they are
+//! wrong by up to a factor of two for lights near the edge or with a front and a back, which costs noise only.
+
+use glam::DVec3;
+use pack::abi::LightKind;
+
+use super::geometry::Placement;
+use super::light::Emitter;
+
+/// Weighs the emitters of `placement`, and adds the sky with `sky_flux`, the integral of its luminance over
+/// all directions, where it is to be sampled.
+pub(super) fn weigh(placement: &mut Placement, sky_flux: Option<f64>) {
+    let Some((center, radius)) = receivers(placement) else { return };
+    let mut emitters = std::mem::take(&mut placement.emitters);
+    for emitter in &mut emitters {
+        let distance = (middle(placement, emitter) - center).length();
+        if distance > radius {
+            let ratio = radius / distance;
+            let square = ratio * ratio;
+            // 1 - sqrt(1 - x), without the cancellation.
+            emitter.power *= square / (1.0 + (1.0 - square).sqrt());
+        }
+    }
+    emitters.extend(sky_flux.map(|flux| Emitter {
+        kind: LightKind::Sky,
+        primitive: 0,
+        count: 0,
+        material: 0,
+        power: flux * radius * radius,
+        tint: [0.0; 4],
+    }));
+    placement.emitters = emitters;
+}
+
+/// Centre and radius of the ball around what does not emit, or around everything if all does.
+fn receivers(placement: &Placement) -> Option<(DVec3, f64)> {
+    let mut triangles = vec![false; placement.corners.len()];
+    let mut spheres = vec![false; placement.spheres.len()];
+    for emitter in &placement.emitters {
+        let glows = if emitter.kind == LightKind::Sphere { &mut spheres } else { &mut triangles };
+        glows[emitter.primitive as usize..][..emitter.count as usize].fill(true);
+    }
+    if triangles.iter().chain(&spheres).all(|glows| *glows) {
+        triangles.fill(false);
+        spheres.fill(false);
+    }
+    let corners = placement.corners.iter().zip(&triangles).filter(|(_, glows)| !**glows);
+    let balls = placement.spheres.iter().zip(&spheres).filter(|(_, glows)| !**glows);
+    let points = corners
+        .flat_map(|(corners, _)| *corners)
+        .chain(balls.flat_map(|((center, r), _)| [*center - *r, *center + *r]));
+    let (lo, hi) =
+        points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| (lo.min(p), hi.max(p)));
+    let radius = 0.5 * (hi - lo).length();
+    (radius > 0.0 && radius.is_finite()).then(|| (0.5 * (lo + hi), radius))
+}
+
+fn middle(placement: &Placement, emitter: &Emitter) -> DVec3 {
+    let primitive = emitter.primitive as usize;
+    match emitter.kind {
+        LightKind::Sphere => placement.spheres[primitive].0,
+        LightKind::Triangle => placement.corners[primitive].iter().sum::<DVec3>() / 3.0,
+        // Opposite corners.
+        LightKind::Rectangle => {
+            0.5 * (placement.corners[primitive][0] + placement.corners[primitive][2])
+        }
+        LightKind::Sky => DVec3::ZERO,
+    }
+}

@@ -1,0 +1,67 @@
+//! `scene/dispatch_choice.wgsl`, `scene/dispatch_tint.wgsl`: which light, and which colour it has.
+
+use super::imports;
+use crate::FeatureSet;
+use std::fmt::Write as _;
+
+/// The choice of a light, by the table or by the tree.
+pub(crate) fn text(features: &FeatureSet) -> String {
+    let mut modules = vec![
+        "light/choose.wgsl",
+        "light/light_choice.wgsl",
+        "scene/constants.wgsl",
+        "scene/records.wgsl",
+    ];
+    let (mut choose, mut pmf) = (String::new(), String::new());
+    if features.light_tree {
+        modules.push("light/tree.wgsl");
+        choose += "    if (load_frame_light_tree_at() != NONE) {\n";
+        pmf += "    if (load_frame_light_tree_at() != NONE) {\n        return ";
+        // The sky keeps its share of the table; the tree has the rest.
+        choose += "        let sky = tree_sky();\n        \
+                   if (u < sky.pmf) {\n            return sky;\n        }\n        \
+                   let rest = 1.0 - sky.pmf;\n        \
+                   let choice = tree_choose(p, min((u - sky.pmf) / rest, 0.99999994));\n        \
+                   return LightChoice(choice.index, choice.pmf * rest);\n    }\n";
+        pmf += "(1.0 - tree_sky().pmf) * tree_pmf(index, p);\n    }\n";
+    }
+    let mut text = String::from("// Generated: how a light of this scene is chosen.\n\n");
+    text += &imports(modules);
+    let _ = write!(
+        text,
+        "\n// One of `n_lights` lights for the point `p`; `u` in [0, 1 - 2^-24].\n\
+         fn dispatch_choose(n_lights: u32, p: vec3f, u: f32) -> LightChoice {{\n{choose}    \
+         let index = choose_light(n_lights, u);\n    \
+         return LightChoice(index, load_light_pmf(index));\n}}\n\
+         \n// Probability with which `dispatch_choose` finds light `index`, a surface, from `p`.\n\
+         fn dispatch_choose_pmf(index: u32, p: vec3f) -> f32 {{\n{pmf}    \
+         return load_light_pmf(index);\n}}\n"
+    );
+    text
+}
+
+/// The tint of lights.
+pub(crate) fn tint(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: whether lights of this scene are tinted.\n\n");
+    let mut modules = vec!["abi/light.wgsl"];
+    let (mut found, mut sampled) = ("", "");
+    if features.tint {
+        modules.extend(["light/tint.wgsl", "scene/constants.wgsl", "scene/records.wgsl"]);
+        found = "    if ((flags & FLAG_EMIT_TINT) != 0u && light != NONE) {\n        \
+                 let cosine = load_light_edge1(light).y;\n        \
+                 return tint_radiance(radiance, material, load_light_edge2(light), cosine, dir);\n    }\n";
+        sampled = "    if ((flags & FLAG_EMIT_TINT) != 0u) {\n        \
+                   return tint_radiance(radiance, light.material, light.edge2, light.edge1.y, dir);\n    }\n";
+    }
+    text += &imports(modules);
+    let _ = write!(
+        text,
+        "\n// `radiance` of a surface with flags `flags`, light `light` or `NONE`, as a ray along `dir` sees it.\n\
+         fn dispatch_tint(radiance: vec3f, material: u32, flags: u32, light: u32, dir: vec3f) -> vec3f {{\n\
+         {found}    return radiance;\n}}\n\
+         \n// The same for a light that was sampled.\n\
+         fn dispatch_light_tint(radiance: vec3f, flags: u32, light: Light, dir: vec3f) -> vec3f {{\n\
+         {sampled}    return radiance;\n}}\n"
+    );
+    text
+}

@@ -1,0 +1,101 @@
+//! `scene/layers.wgsl`, `scene/bare.wgsl`, `scene/principled.wgsl`: which layers the principled materials of
+//! a scene have.
+
+use super::imports;
+use crate::FeatureSet;
+use std::fmt::Write as _;
+
+/// Parameters that few scenes use, or what they are without them.
+pub(crate) fn layers(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: which layers the principled surfaces have.\n\n");
+    text += &imports(["bsdf/layers.wgsl", "bsdf/scatter.wgsl"]);
+    let choose = |present: bool, value: &'static str, absent| if present { value } else { absent };
+    let specular = choose(features.principled_specular, "layers_specular(s)", "vec4f(1.0)");
+    let through = choose(features.principled_transmission, "layers_transmission(s)", "0.0");
+    let coat = choose(features.principled_coat, "layers_coat(s)", "vec2f(0.0, 1.0)");
+    let _ = write!(
+        text,
+        "\n// Colour and factor of the reflectance of the dielectric part.\n\
+         fn dispatch_specular(s: Scatter) -> vec4f {{\n    return {specular};\n}}\n\
+         \n// Share of the light entering that goes through.\n\
+         fn dispatch_transmission(s: Scatter) -> f32 {{\n    return {through};\n}}\n\
+         \n// Share under a clear coat, and the width of its lobe.\n\
+         fn dispatch_coat(s: Scatter) -> vec2f {{\n    return {coat};\n}}\n"
+    );
+    text
+}
+
+/// The functions of a layer and of all that is under it, without their prefix.
+const FUNCTIONS: [(&str, &str, &str, &str, &str); 4] = [
+    ("direction", ", u: vec2f, v: f32", ", u, v", "Scattered", "As `principled_direction`."),
+    ("eval", ", wi: vec3f", ", wi", "vec3f", "f |cos|, delta lobes left out."),
+    ("pdf", ", wi: vec3f", ", wi", "f32", "Density of `wi`, per steradian."),
+    ("straight", "", "", "vec3f", "Share of light that goes straight through."),
+];
+
+/// The call of `function` of the layer `stem`; nothing goes straight through an opaque one.
+fn call(stem: &str, function: &str, arguments: &str) -> String {
+    if (stem, function) == ("principled", "straight") {
+        return "vec3f(0.0)".to_owned();
+    }
+    format!("{stem}_{function}(s, p, wo{arguments})")
+}
+
+/// The model under a coat.
+pub(crate) fn bare(features: &FeatureSet) -> String {
+    let stem = bare_stem(features);
+    let mut text = String::from("// Generated: the principled surface under a coat.\n\n");
+    let module = format!("bsdf/{stem}.wgsl");
+    text += &imports(["bsdf/principled.wgsl", "bsdf/scatter.wgsl", &module]);
+    for (function, parameters, arguments, result, comment) in FUNCTIONS {
+        let called = call(stem, function, arguments);
+        let _ = write!(
+            text,
+            "\n// {comment}\n\
+             fn dispatch_bare_{function}(s: Scatter, p: Principled, wo: vec3f{parameters}) -> {result} {{\n    \
+             return {called};\n}}\n"
+        );
+    }
+    text
+}
+
+fn bare_stem(features: &FeatureSet) -> &'static str {
+    if features.principled_transmission { "thin" } else { "principled" }
+}
+
+/// The whole model. What the surface is made of is worked out once in each function, and each layer is
+/// called once: compilers for GPUs copy what is called.
+pub(crate) fn outer(features: &FeatureSet) -> String {
+    let stem = if features.principled_coat { "coat" } else { bare_stem(features) };
+    let mut text = String::from("// Generated: the principled surface with all its layers.\n\n");
+    let module = format!("bsdf/{stem}.wgsl");
+    text += &imports(["bsdf/principled.wgsl", "bsdf/scatter.wgsl", &module]);
+    let [direction, eval, pdf, straight] =
+        FUNCTIONS.map(|(function, _, arguments, _, _)| call(stem, function, arguments));
+    let _ = write!(
+        text,
+        "\n// Samples `wi`. `u`: direction, `v`: which lobe; all in [0, 1 - 2^-24].\n\
+         fn dispatch_principled_sample(s: Scatter, wo: vec3f, u: vec2f, v: f32) -> Scattered {{\n    \
+         let p = principled_at(s);\n    \
+         let to = {direction};\n    \
+         if (to.pdf <= 0.0) {{\n        return to;\n    }}\n    \
+         let wi = to.wi;\n    \
+         let pdf = {pdf};\n    \
+         if (pdf <= 0.0) {{\n        return scatter_absorb();\n    }}\n    \
+         return Scattered(wi, pdf, {eval} / pdf, 1.0);\n}}\n"
+    );
+    for (name, parameters, result, called, comment) in [
+        ("eval", ", wi: vec3f", "vec3f", eval.as_str(), FUNCTIONS[1].4),
+        ("pdf", ", wi: vec3f", "f32", &pdf, FUNCTIONS[2].4),
+        ("straight", "", "vec3f", &straight, FUNCTIONS[3].4),
+    ] {
+        let _ = write!(
+            text,
+            "\n// {comment}\n\
+             fn dispatch_principled_{name}(s: Scatter, wo: vec3f{parameters}) -> {result} {{\n    \
+             let p = principled_at(s);\n    \
+             return {called};\n}}\n"
+        );
+    }
+    text
+}

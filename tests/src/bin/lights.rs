@@ -1,0 +1,223 @@
+//! `cargo run -p tests --bin lights`: measures how lights are chosen and rewrites `docs/lights.md`.
+//!
+//! Noise is the variance of a pixel's samples over the square of the picture's mean, averaged over pixels;
+//! cost is CPU seconds for a sample of every pixel. Their product says how long a given error takes, whatever
+//! the number of samples: lower is better.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use cpu_time::ProcessTime;
+use pack::Pack;
+use runtime::{Control, DeviceChoice, Job, SampleRange, Scene, render};
+use tests::scene;
+use tests::statistics::stream::Stream;
+
+/// Pixels of each picture.
+const SIZE: [u32; 2] = [64, 48];
+/// Independent pictures, each of so many samples a pixel.
+const SEEDS: u32 = 16;
+const SAMPLES: u32 = 16;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut text = String::from(HEADER);
+    skies(&mut text)?;
+    many(&mut text)?;
+    let target = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/lights.md");
+    std::fs::write(&target, &text)?;
+    tests::console::line(&text);
+    Ok(())
+}
+
+const HEADER: &str = "# How lights are chosen\n\n\
+    Made by `cargo run -p tests --bin lights`; edit the program, not this page.\n\n\
+    At each vertex one light is sampled and one direction by the material; both are weighted by the balance \
+    heuristic. The light is taken from a table by its power, as far as it comes into the ball around everything \
+    that is not a light itself; the sky counts with its flux through that ball. From 16 lights on a tree of \
+    lights chooses by the distance and the direction that lights face, too.\n\n\
+    Noise is the variance of a pixel's samples over the square of the mean of the picture, averaged over pixels. \
+    Cost is CPU microseconds for a sample of a pixel. Their product says how long a given error takes; lower is \
+    better.\n";
+
+/// Noise and cost of a scene.
+#[derive(Clone, Copy, Debug)]
+struct Measured {
+    noise: f64,
+    cost: f64,
+}
+
+impl Measured {
+    fn product(self) -> f64 {
+        self.noise * self.cost
+    }
+}
+
+/// Renders `bytes` with each seed; `estimator` as in `Job`.
+fn measure(bytes: &[u8], estimator: u32) -> Result<Measured, Box<dyn std::error::Error>> {
+    let scene = Scene::new(Pack::from_bytes(bytes.to_vec())?);
+    let n = f64::from(SEEDS);
+    let mut sums: Vec<(f64, f64)> = Vec::new();
+    let start = ProcessTime::now();
+    for seed in 0..SEEDS {
+        let mut job = Job::of_scene(&scene);
+        job.resize(SIZE);
+        job.estimator = estimator;
+        job.seed = 1 + seed;
+        job.samples = SampleRange { start: 0, end: SAMPLES };
+        let outcome = render(&scene, &job, &DeviceChoice::Cpu, &Control::default())?;
+        let means = outcome.film().means();
+        sums.resize(means.len(), (0.0, 0.0));
+        for (sum, rgb) in sums.iter_mut().zip(&means) {
+            let value = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+            sum.0 += value;
+            sum.1 += value * value;
+        }
+    }
+    let seconds = start.elapsed().as_secs_f64();
+    let pixels = sums.len() as f64;
+    let mean = sums.iter().map(|sum| sum.0).sum::<f64>() / n / pixels;
+    let variance =
+        sums.iter().map(|sum| (sum.1 - sum.0 * sum.0 / n) / (n - 1.0)).sum::<f64>() / pixels;
+    let samples = f64::from(SAMPLES);
+    Ok(Measured {
+        noise: variance * samples / (mean * mean),
+        cost: seconds * 1e6 / (n * samples * pixels),
+    })
+}
+
+/// Gradient skies on a diffuse plane with a ball on it: with and without sampling the sky.
+fn skies(text: &mut String) -> Result<(), Box<dyn std::error::Error>> {
+    let rows = [
+        ("sun of the defaults", "sun.direction = (0.692, 0.207, -0.692)"),
+        ("sun overhead", "sun.direction = (0.1, 0.9, 0.2)"),
+        ("glow without a disc", "sun.direction = (0.692, 0.207, -0.692), disc.color = linear(0)"),
+        (
+            "a disc of 2 degrees, `disc.power` 4000",
+            "sun.direction = (0.692, 0.207, -0.692), disc.power = 4000, disc.color = linear(150, 127, 60)",
+        ),
+        (
+            "bands alone (a glow of 1e-9 makes it a light)",
+            "sun.direction = (0.692, 0.207, -0.692), disc.color = linear(0), glow.color = linear(1e-9)",
+        ),
+    ];
+    text.push_str(
+        "\n## Gradient skies: a grey plane and a ball, two bounces\n\n\
+         | sky | found by chance: noise | cost | sampled: noise | cost | product, by chance over sampled |\n\
+         |---|---|---|---|---|---|\n",
+    );
+    for (name, fields) in rows {
+        let scene_text = format!(
+            "rts 1
+sky s: gradient {{ {fields} }}
+material grey: diffuse {{ color = linear(0.6) }}
+instance floor {{ shape = rectangle(size: (20, 20)m), material = grey }}
+instance ball {{ shape = sphere(radius: 1m), material = grey, at = (0, 1, 0)m }}
+camera eye: perspective {{ from = (0, 3, 6)m, to = (0, 0.6, 0)m, fov.vertical = 40deg }}
+film f {{ size = (64, 48)px }}
+render main: path {{ camera = eye, film = f, samples = 16, depth = 4 }}
+"
+        );
+        let bytes = scene::bytes(&scene::compile(&scene_text));
+        let (chance, sampled) = (measure(&bytes, 2)?, measure(&bytes, 0)?);
+        let _ = writeln!(
+            text,
+            "| {name} | {:.3} | {:.2} | {:.3} | {:.2} | {:.2}x |",
+            chance.noise,
+            chance.cost,
+            sampled.noise,
+            sampled.cost,
+            chance.product() / sampled.product(),
+        );
+    }
+    Ok(())
+}
+
+/// Triangles of each scene with many lights.
+const LIGHTS: usize = 10_000;
+
+/// As OBJ text: small triangles, facing down, over a square of side 60 at height 3.
+fn ceiling() -> String {
+    let mut stream = Stream::new(1, 0);
+    let mut obj = String::new();
+    for i in 0..LIGHTS {
+        let (x, z) = (stream.between(-30.0, 30.0), stream.between(-30.0, 30.0));
+        let _ = writeln!(obj, "v {x} 3 {z}\nv {} 3 {z}\nv {x} 3 {}", x + 0.06, z + 0.06);
+        let _ = writeln!(obj, "f {} {} {}", 3 * i + 1, 3 * i + 2, 3 * i + 3);
+    }
+    obj
+}
+
+/// As OBJ text: a ball of radius 1 made of triangles that face outside.
+fn globe() -> String {
+    let (rows, columns) = (50_usize, 100_usize);
+    let mut obj = String::new();
+    for row in 0..=rows {
+        for column in 0..columns {
+            let theta = std::f64::consts::PI * row as f64 / rows as f64;
+            let phi = std::f64::consts::TAU * column as f64 / columns as f64;
+            let (x, z) = (theta.sin() * phi.cos(), theta.sin() * phi.sin());
+            let _ = writeln!(obj, "v {x} {} {z}", theta.cos());
+        }
+    }
+    let at = |row: usize, column: usize| row * columns + column % columns + 1;
+    for row in 0..rows {
+        for column in 0..columns {
+            let (a, b) = (at(row, column), at(row, column + 1));
+            let (c, d) = (at(row + 1, column), at(row + 1, column + 1));
+            let _ = writeln!(obj, "f {a} {b} {c}\nf {b} {d} {c}");
+        }
+    }
+    obj
+}
+
+/// Ten thousand triangles that glow, chosen by the table and by the tree.
+fn many(text: &mut String) -> Result<(), Box<dyn std::error::Error>> {
+    let spread = "instance glow { shape = mesh, material = lamp }
+camera eye: perspective { from = (0, 1.6, 8)m, to = (0, 1.2, 0)m, fov.vertical = 50deg }";
+    let compact = "instance glow { shape = mesh, material = lamp, at = (0, 1.5, 0)m, scale = 0.4 }
+instance back { shape = rectangle(size: (60, 60)m), material = grey, rotate = (90, 0, 0)deg, at = (0, 0, -4)m }
+camera eye: perspective { from = (0, 2, 6)m, to = (0, 1.2, 0)m, fov.vertical = 50deg }";
+    text.push_str(
+        "\n## Ten thousand glowing triangles\n\n\
+         | scene | table: noise | cost | tree: noise | cost | product, table over tree |\n\
+         |---|---|---|---|---|---|\n",
+    );
+    for (name, obj, rest) in [
+        ("spread over the ceiling of a hall of 60 m", ceiling(), spread),
+        ("one glowing ball of 40 cm over a floor", globe(), compact),
+    ] {
+        let dir = tempfile::tempdir()?;
+        std::fs::write(dir.path().join("mesh.obj"), obj)?;
+        let scene_text = format!(
+            "rts 1
+asset mesh = obj(\"mesh.obj\", unit: m, up: +y)
+material lamp: emissive {{ color = linear(1), strength = 30, sides = front }}
+material grey: diffuse {{ color = linear(0.5) }}
+material gloss: principled {{ color = linear(0.4, 0.5, 0.6), roughness = 0.3 }}
+instance floor {{ shape = rectangle(size: (60, 60)m), material = grey }}
+instance ball {{ shape = sphere(radius: 80cm), material = gloss, at = (1.6, 0.8, 1)m }}
+instance block {{ shape = box(size: (1, 1.4, 1)m), material = grey, at = (-1.6, 0.7, 0)m }}
+{rest}
+film f {{ size = (64, 48)px }}
+render main: path {{ camera = eye, film = f, samples = 16, depth = 4 }}
+"
+        );
+        let mut compiled = scene::compile_in(dir.path(), &scene_text);
+        let tree = measure(&scene::bytes(&compiled), 0)?;
+        compiled.lowered.light_nodes.clear();
+        for light in &mut compiled.lowered.lights {
+            light.trail = 0;
+        }
+        let table = measure(&scene::bytes(&compiled), 0)?;
+        let _ = writeln!(
+            text,
+            "| {name} | {:.3} | {:.2} | {:.3} | {:.2} | {:.2}x |",
+            table.noise,
+            table.cost,
+            tree.noise,
+            tree.cost,
+            table.product() / tree.product(),
+        );
+    }
+    Ok(())
+}

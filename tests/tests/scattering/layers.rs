@@ -1,0 +1,268 @@
+//! Layers of principled surfaces: coat, specular colour, thin transmission.
+
+use glam::DVec3;
+use pack::abi::Material;
+use runtime::kernel::f64 as double;
+use tests::kernel::{Bench, Lobe};
+use tests::layers::Layers;
+use tests::statistics::Mean;
+use tests::statistics::grid::{Grid, Shape};
+use tests::statistics::stream::Stream;
+
+/// Cosines of the incident direction, down to grazing.
+const MU: [f64; 6] = [1.0, 0.8, 0.5, 0.2, 0.05, 0.01];
+/// Rounding of the kernel's constants, and quadrature.
+const SLACK: f64 = 1e-4;
+
+/// A white surface and its layers.
+#[derive(Clone, Copy, Debug)]
+struct Case {
+    lobe: Lobe,
+    layers: Layers,
+}
+
+impl Case {
+    fn new(roughness: f32, metallic: f32, layers: Layers) -> Self {
+        Self { lobe: Lobe::principled(roughness, metallic), layers }
+    }
+
+    fn bench(&self) -> Bench {
+        Bench::new().materials(&[Material::from(self.layers)])
+    }
+
+    /// Seen from the other side.
+    fn behind(&self) -> Self {
+        let lobe = Lobe { normal: -self.lobe.normal, front: !self.lobe.front, ..self.lobe };
+        Self { lobe, ..*self }
+    }
+
+    /// `d` mirrored at the surface.
+    fn across(&self, d: DVec3) -> DVec3 {
+        (d - self.lobe.normal * (2.0 * d.dot(self.lobe.normal))).normalize()
+    }
+
+    /// Width of the narrowest lobe that is not a mirror.
+    fn narrowest(&self) -> f64 {
+        let coat = if self.layers.coat > 0.0 { self.layers.coat_roughness } else { 1.0 };
+        let alphas = [self.lobe.roughness, coat].map(|r| f64::from(r * r));
+        alphas.into_iter().filter(|alpha| *alpha >= double::GLOSS_SMOOTH).fold(1.0, f64::min)
+    }
+
+    /// Cells that resolve the lobes on the side of `wo`.
+    fn grid(&self, wo: DVec3) -> Grid {
+        let (mu, alpha) = (self.lobe.normal.dot(wo), self.narrowest());
+        if alpha > 0.3 {
+            return Grid::new(self.lobe.normal, wo, Shape::HEMISPHERE);
+        }
+        let ring_scale = (alpha * mu.max(0.05)).min(1.0);
+        let shape = Shape { ring_scale, sector_scale: mu.clamp(0.02, 1.0), ..Shape::SPHERE };
+        Grid::new(self.lobe.mirror(wo), self.lobe.normal, shape)
+    }
+
+    /// Light from `wo` that is reflected, and that goes through; by quadrature, deltas in closed form.
+    fn shares(&self, wo: DVec3, fine: usize) -> [f64; 2] {
+        let bench = self.bench();
+        let mut kernel = bench.double();
+        let (s, up, mu) = (self.lobe.double(), self.lobe.normal, self.lobe.normal.dot(wo));
+        let cells = self.grid(wo);
+        let mut rough = |far: bool| -> f64 {
+            let to = |d| if far { self.across(d) } else { d };
+            let f = |d| kernel.dispatch_eval(s, wo, to(d)).x;
+            cells.integrate_above(fine, up, f).iter().sum()
+        };
+        let (mut near, mut far) = (rough(false), rough(true));
+        let mut kernel = bench.double();
+        let coat = kernel.layers_coat(s);
+        let coated = kernel.coat_fresnel(coat.x, mu);
+        let seen = (1.0 - coated) * (1.0 - coated);
+        if coat.y < double::GLOSS_SMOOTH {
+            near += coated;
+        }
+        let p = kernel.principled_at(s);
+        if p.alpha < double::GLOSS_SMOOTH {
+            near += kernel.principled_fresnel(p, mu).x * seen;
+            far += kernel.thin_clear(p, mu).x * seen;
+        }
+        [near, far]
+    }
+
+    /// [`Case::shares`], with finer cells until they agree where there is a doubt about the sum being below 1.
+    fn converged(&self, wo: DVec3) -> [f64; 2] {
+        let mut fine = 2;
+        let mut shares = self.shares(wo, fine);
+        while shares[0] + shares[1] > 1.0 - SLACK && fine < 128 {
+            fine *= 2;
+            let finer = self.shares(wo, fine);
+            let change = finer[0] + finer[1] - shares[0] - shares[1];
+            shares = finer;
+            if change.abs() < 0.25 * SLACK {
+                break;
+            }
+        }
+        shares
+    }
+}
+
+/// Corners of the parameters and between.
+fn cases() -> Vec<Case> {
+    let mut cases = Vec::new();
+    for layers in layers() {
+        for roughness in [0.0, 0.1, 0.3, 0.6, 1.0] {
+            for metallic in [0.0, 0.4, 1.0] {
+                cases.push(Case::new(roughness, metallic, layers));
+            }
+        }
+    }
+    cases
+}
+
+fn layers() -> Vec<Layers> {
+    let mut layers = Vec::new();
+    for (coat, coat_roughness) in
+        [(0.0, 0.0), (1.0, 0.0), (0.5, 0.2), (1.0, 0.4), (1.0, 0.7), (1.0, 1.0)]
+    {
+        for transmission in [0.0, 0.5, 1.0] {
+            layers.push(Layers { coat, coat_roughness, transmission, ..Layers::PLAIN });
+        }
+        for (specular, tint) in [(0.0, 1.0), (0.5, 1.0), (1.0, 0.0), (1.0, 30.0), (0.7, 8.0)] {
+            layers.push(Layers { coat, coat_roughness, specular, tint, ..Layers::PLAIN });
+        }
+    }
+    layers
+}
+
+#[test]
+fn layers_never_give_more_light_than_they_get() {
+    let mut largest: (f64, String) = (0.0, String::new());
+    for mut case in cases() {
+        for ior in [1.0, 1.5, 4.0] {
+            case.lobe.ior = ior;
+            for mu in MU {
+                let [near, far] = case.converged(case.lobe.at_cosine(mu));
+                let sum = near + far;
+                assert!(near >= 0.0 && far >= 0.0 && sum.is_finite(), "{case:?} at {mu}");
+                if sum > largest.0 {
+                    largest = (sum, format!("{case:?} at {mu}: {near} + {far}"));
+                }
+            }
+        }
+    }
+    assert!(largest.0 < 1.0 + SLACK, "{}", largest.1);
+    assert!(largest.0 > 1.0 - SLACK, "something white is in it: {}", largest.1);
+}
+
+/// What a white, smooth, clear sheet does not reflect goes through.
+#[test]
+fn a_clear_pane_keeps_all_light() {
+    for ior in [1.0, 1.5, 2.4] {
+        for metallic in [0.0, 0.6] {
+            let layers = Layers { transmission: 1.0, ..Layers::PLAIN };
+            let mut case = Case::new(0.0, metallic, layers);
+            case.lobe.ior = ior;
+            for mu in MU {
+                let [near, far] = case.shares(case.lobe.at_cosine(mu), 1);
+                let clear = f64::from(1.0 - metallic);
+                // The metal's part of the interface lets nothing in.
+                let least = near + clear * (1.0 - near);
+                assert!((near + far - least).abs() < 1e-6, "{case:?} at {mu}: {near} + {far}");
+            }
+        }
+    }
+}
+
+/// A rough sheet gives to both sides together what its interface would give back if it were a perfect metal.
+#[test]
+fn a_rough_pane_loses_only_what_is_masked() {
+    for roughness in [0.2, 0.5, 1.0] {
+        let pane = Case::new(roughness, 0.0, Layers { transmission: 1.0, ..Layers::PLAIN });
+        let metal = Case::new(roughness, 1.0, Layers::PLAIN);
+        for mu in MU {
+            let wo = pane.lobe.at_cosine(mu);
+            let ([near, far], [all, _]) = (pane.shares(wo, 4), metal.shares(wo, 4));
+            assert!((near + far - all).abs() < SLACK, "{roughness} at {mu}: {near} + {far}, {all}");
+        }
+    }
+}
+
+/// A direction on either side, sometimes grazing; unit in double precision.
+fn direction(stream: &mut Stream, normal: DVec3) -> DVec3 {
+    let d = stream.direction();
+    let squash = if stream.unit() < 0.3 { 0.98 } else { 0.0 };
+    (d - normal * (squash * d.dot(normal))).normalize().as_vec3().as_dvec3().normalize()
+}
+
+/// f(wo, wi) = f(wi, wo), also through the sheet.
+#[test]
+fn light_goes_both_ways_through_layers() {
+    let mut through = 0;
+    for (i, case) in cases().into_iter().enumerate() {
+        let bench = case.bench();
+        let mut kernel = bench.double();
+        let mut stream = Stream::new(47, i as u64);
+        let mut value = |a: DVec3, b: DVec3| {
+            let seen = if a.dot(case.lobe.normal) > 0.0 { case } else { case.behind() };
+            let f = kernel.dispatch_eval(seen.lobe.double(), a, b).x;
+            f / b.dot(case.lobe.normal).abs()
+        };
+        for _ in 0..300 {
+            let normal = case.lobe.normal;
+            let (a, b) = (direction(&mut stream, normal), direction(&mut stream, normal));
+            let (there, back) = (value(a, b), value(b, a));
+            let crosses = a.dot(normal) * b.dot(normal) < 0.0;
+            through += usize::from(crosses && there > 0.0);
+            assert!((there - back).abs() <= 1e-9 * back, "{case:?} {a} {b}: {there} {back}");
+        }
+    }
+    assert!(through > 1000, "{through} pairs lie on two sides");
+}
+
+/// The mean weight of samples is what quadrature finds, on both sides.
+#[test]
+fn mean_weights_are_the_shares_of_both_sides() {
+    for (i, case) in cases().into_iter().enumerate().step_by(7) {
+        let bench = case.bench();
+        let mut kernel = bench.single();
+        for (j, mu) in [0.9, 0.15].into_iter().enumerate() {
+            let wo = case.lobe.at_cosine(mu);
+            let truth = case.shares(wo, 6);
+            let mut means = [Mean::default(); 2];
+            for k in 0..60_000 {
+                let key = crate::weight::key(30_000 + 2 * i + j, k);
+                let out = kernel.dispatch_sample(case.lobe.single(), wo.as_vec3(), key);
+                let far = out.wi.as_dvec3().dot(case.lobe.normal) < 0.0;
+                let weight = f64::from(out.weight.x);
+                means[0].add(if far { 0.0 } else { weight });
+                means[1].add(if far { weight } else { 0.0 });
+            }
+            for (mean, truth) in means.into_iter().zip(truth) {
+                let (value, bound) = (mean.value(), 4.5 * mean.error() + 2e-4);
+                assert!((value - truth).abs() < bound, "{case:?} at {mu}: {value}, not {truth}");
+            }
+        }
+    }
+}
+
+/// Weight, value and density of a sample belong together, and the density is the one of the other side of the
+/// balance heuristic.
+#[test]
+fn a_weight_is_value_over_density_through_layers() {
+    for (i, case) in cases().into_iter().enumerate() {
+        let bench = case.bench();
+        let mut kernel = bench.single();
+        for mu in [1.0, 0.3, 0.01] {
+            let wo = case.lobe.at_cosine(mu).as_vec3();
+            for k in 0..300 {
+                let key = crate::weight::key(40_000 + i, k);
+                let out = kernel.dispatch_sample(case.lobe.single(), wo, key);
+                assert!(out.weight.is_finite() && out.weight.min_element() >= 0.0, "{case:?}");
+                if out.pdf > 0.0 && out.weight.x > 0.0 {
+                    let f = kernel.dispatch_eval(case.lobe.single(), wo, out.wi).x;
+                    let pdf = kernel.dispatch_pdf(case.lobe.single(), wo, out.wi);
+                    assert!((pdf / out.pdf - 1.0).abs() < 1e-4, "{case:?} {mu}: {out:?}, {pdf}");
+                    let off = (out.weight.x * out.pdf - f).abs();
+                    assert!(off <= 1e-4 * f, "{case:?} at {mu}: {out:?}, f {f}");
+                }
+            }
+        }
+    }
+}
