@@ -2,12 +2,12 @@
 
 use std::hint::black_box;
 
-use compiler::bvh::{self, Fragment};
+use compiler::bvh::{self, Input, Preset};
 use compiler::cache::Cache;
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
 
 /// A bumpy height field of `2 * n * n` triangles.
-fn terrain(n: u16) -> Vec<Fragment> {
+fn terrain(n: u16) -> Vec<[[f32; 3]; 3]> {
     let at = |i: u16, j: u16| {
         let (x, z) = (f32::from(i) / f32::from(n), f32::from(j) / f32::from(n));
         [x, 0.05 * (20.0 * x).sin() * (17.0 * z).cos() + 0.01 * (170.0 * (x + z)).sin(), z]
@@ -16,22 +16,26 @@ fn terrain(n: u16) -> Vec<Fragment> {
         let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
         [[a, b, c], [a, c, d]]
     };
-    let triangles = (0..n).flat_map(|i| (0..n).flat_map(move |j| quad(i, j)));
-    (0..).zip(triangles).map(|(i, t)| Fragment::of_triangle(&t, i)).collect()
+    (0..n).flat_map(|i| (0..n).flat_map(move |j| quad(i, j))).collect()
 }
 
 fn benches(criterion: &mut Criterion) {
-    let fragments = terrain(256);
+    let triangles = terrain(256);
+    let input = Input::of_triangles(&triangles);
     let mut group = criterion.benchmark_group("bvh");
     group.sample_size(10);
-    group.bench_function("build/terrain", |b| {
-        b.iter_batched(|| fragments.clone(), |f| bvh::build(black_box(f)), BatchSize::LargeInput);
-    });
+    for preset in [Preset::Fast, Preset::Default, Preset::Extreme] {
+        group.bench_function(format!("build/{preset}/terrain"), |b| {
+            let build = |input| bvh::build(preset, black_box(input));
+            b.iter_batched(|| input.clone(), build, BatchSize::LargeInput);
+        });
+    }
     let folder = tempfile::tempdir().expect("a temporary folder");
     let cache = Cache::at(folder.path());
-    cache.tree(fragments.clone()).expect("an ordinary mesh");
+    cache.tree(Preset::Default, input.clone()).expect("an ordinary mesh");
     group.bench_function("load/terrain", |b| {
-        b.iter_batched(|| fragments.clone(), |f| cache.tree(black_box(f)), BatchSize::LargeInput);
+        let load = |input| cache.tree(Preset::Default, black_box(input));
+        b.iter_batched(|| input.clone(), load, BatchSize::LargeInput);
     });
     group.finish();
 }

@@ -1,6 +1,6 @@
 //! Builds the tree of a triangle soup and writes it in the form that other builders are compared in.
 //!
-//! Usage: `bvh_dump SCENE TREE [THREADS [SIZES]]`, where `SIZES` is how many triangles each mesh has
+//! Usage: `bvh_dump SCENE TREE [THREADS [SIZES [BUILDER]]]`, where `SIZES` is how many triangles each mesh has
 //! (`1000x12` stands for twelve meshes of a thousand). Without it there is one mesh. All files little-endian. Scene: `u64` count, then nine
 //! `f32` per triangle. Tree: `u64` nodes, `u64` indices, nodes of 32 bytes (lower corner, first,
 //! upper corner, count: a leaf over `indices[first ..]`, or with count 0 the children `first` and
@@ -9,7 +9,7 @@
 
 use std::{env, error::Error, fs, time::Instant};
 
-use compiler::bvh::{self, Joined, Primitives};
+use compiler::bvh::{self, Joined, Preset, Primitives};
 use compiler::cache::Cache;
 use pack::abi::ChildRef;
 
@@ -18,6 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let [_, scene, out, rest @ ..] = args.as_slice() else {
         return Err("usage: bvh_dump SCENE TREE [THREADS]".into());
     };
+    let preset: Preset = rest.get(2).map_or(Ok(Preset::default()), |s| s.parse())?;
     let threads = rest.first().map_or(Ok(1), |s| s.parse())?;
     rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?;
     let bytes = fs::read(scene)?;
@@ -38,11 +39,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         spheres: &[],
         sphere_motions: &[],
     };
-    let (tree, _) = bvh::build_scene(&primitives, &Cache::disabled())?;
+    let (tree, _) = bvh::build_scene(&primitives, preset, &Cache::disabled())?;
     let wall = start.elapsed().as_secs_f64();
     let after = cpu_and_peak();
     println!(
-        "BUILD rtc th{threads} wall {wall:.3} cpu {:.3} peak B/tri {:.1} nodes {} stack {}",
+        "BUILD rtc {preset} th{threads} wall {wall:.3} cpu {:.3} peak B/tri {:.1} nodes {} stack {}",
         after.0 - before.0,
         (after.1 - before.1) / triangles.len() as f64,
         tree.nodes.len(),

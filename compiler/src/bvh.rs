@@ -1,22 +1,31 @@
-//! Bounding volume hierarchies: binned surface-area heuristic, binary, leaves of at most 8.
+//! Bounding volume hierarchies: binary, leaves of at most 8, by one of several builders (`Preset`).
 //!
-//! Turns boxes of primitives into flat arrays of `pack::abi::Node` in depth-first order. Keeps these
-//! invariants: every primitive is in exactly one leaf (checked after each build), leaf ranges tile
-//! the primitives, a child's index is greater than its parent's, no path has more than
-//! `pack::abi::MAX_DEPTH` nodes, and the bytes depend on the boxes alone, not on threads.
+//! Turns boxes of primitives, and corners of triangles where these may be split, into flat arrays of
+//! `pack::abi::Node` in depth-first order. Keeps these invariants: every piece of a primitive is in
+//! exactly one leaf and the pieces cover it (checked after each build), leaf ranges tile the pieces, a
+//! child's index is greater than its parent's, no path has more than `pack::abi::MAX_DEPTH` nodes, and
+//! the bytes depend on the input alone, not on threads.
 //! It does not know the scene language, materials or files; `cache` keeps trees on disk.
 
 mod binned;
 mod build;
 mod check;
+mod clip;
+mod cut;
 mod fragment;
 mod join;
+mod pieces;
+mod preset;
 mod probe;
 mod refit;
+mod sbvh;
 mod scene;
+mod spatial;
 mod sweep;
 mod top;
 mod words;
+
+use std::borrow::Cow;
 
 use pack::abi::{NONE, Node};
 use thiserror::Error;
@@ -24,13 +33,9 @@ use thiserror::Error;
 pub use check::TreeFault;
 pub use fragment::{Bounds, COORD_MAX, Fragment, MAX_PRIMITIVES};
 pub use join::{Group, GroupKind, Joined, join};
+pub use pieces::Split;
+pub use preset::{Preset, UnknownPreset};
 pub use scene::{BuildReport, Primitives, SMALL_MESH, build_scene, plan};
-
-/// Name and version of the builder. Any change of its results must change this.
-pub const BUILDER: &str = "binned16-sweep24-v1";
-
-/// What else the shape of a tree depends on.
-pub const PARAMETERS: &str = "leaf 8, inner levels 47, node cost 1";
 
 /// The tree of one group of primitives, with indices local to the group. Leaves are written as
 /// triangles whatever they hold.
@@ -40,8 +45,11 @@ pub struct Tree {
     pub nodes: Vec<Node>,
     /// Reference to the root: `NONE` for no primitives, a leaf for few of them.
     pub root: u32,
-    /// Primitive indices in leaf order, a permutation of `0 .. n`.
+    /// Pieces in leaf order, a permutation of `0 .. n_primitives + splits.len()`. The first pieces are
+    /// the primitives themselves.
     pub order: Vec<u32>,
+    /// How the other pieces came to be: piece `n_primitives + k` by `splits[k]`.
+    pub splits: Vec<Split>,
     /// Box of everything; `Bounds::EMPTY` for no primitives.
     pub bounds: Bounds,
     /// Most inner nodes on a path from the root to a leaf, at most 47.
@@ -68,40 +76,149 @@ pub enum BvhError {
     Fault(#[from] TreeFault),
 }
 
-/// Builds the tree of a group. `fragments[i]` must have index `i`.
-pub fn build(mut fragments: Vec<Fragment>) -> Result<Tree, BvhError> {
-    let count = fragments.len();
+impl Tree {
+    /// How many primitives there are.
+    #[must_use]
+    pub fn n_primitives(&self) -> usize {
+        self.order.len() - self.splits.len()
+    }
+
+    /// The primitives in leaf order, those twice or more that were split.
+    #[must_use]
+    pub fn primitives(&self) -> Vec<u32> {
+        let n = self.n_primitives();
+        let owners = pieces::owners(&self.splits, n);
+        let owner = |&piece: &u32| match (piece as usize).checked_sub(n) {
+            Some(k) => owners[k],
+            None => piece,
+        };
+        self.order.iter().map(owner).collect()
+    }
+
+    fn empty() -> Self {
+        let (nodes, order, splits) = (Vec::new(), Vec::new(), Vec::new());
+        Self { nodes, root: NONE, order, splits, bounds: Bounds::EMPTY, depth: 0 }
+    }
+}
+
+/// What a tree is built over.
+#[derive(Clone, Debug)]
+pub struct Input<'a> {
+    /// `fragments[i]` has index `i`.
+    pub fragments: Vec<Fragment>,
+    /// The corners of each triangle; empty where fragments are not to be split.
+    pub corners: Cow<'a, [[[f32; 3]; 3]]>,
+}
+
+/// Corners by index of a primitive; none where nothing may be split.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Corners<'a>(&'a [[[f32; 3]; 3]]);
+
+impl<'a> Corners<'a> {
+    /// The corners of what is not `whole`.
+    fn of(self, fragment: &Fragment) -> &'a [[f32; 3]; 3] {
+        &self.0[fragment.index() as usize]
+    }
+}
+
+impl<'a> Input<'a> {
+    /// Triangles that may be split, where they stand still and have finite corners.
+    #[must_use]
+    pub fn of_triangles(corners: &'a [[[f32; 3]; 3]]) -> Self {
+        let fragments = (0..).zip(corners).map(|(i, t)| Fragment::of_triangle(t, i)).collect();
+        Self { fragments, corners: Cow::Borrowed(corners) }
+    }
+
+    /// Boxes that are never split.
+    #[must_use]
+    pub fn of_boxes(fragments: Vec<Fragment>) -> Self {
+        Self { fragments, corners: Cow::Borrowed(&[]) }
+    }
+}
+
+/// Builds the tree of a group.
+///
+/// # Errors
+/// When there are too many primitives, or the builder is broken.
+pub fn build(preset: Preset, input: Input<'_>) -> Result<Tree, BvhError> {
+    let count = input.fragments.len();
     if count > MAX_PRIMITIVES {
         return Err(BvhError::TooMany { count });
     }
     if count == 0 {
-        let (nodes, order, bounds) = (Vec::new(), Vec::new(), Bounds::EMPTY);
-        return Ok(Tree { nodes, root: NONE, order, bounds, depth: 0 });
+        return Ok(Tree::empty());
     }
-    let built = build::build(&mut fragments);
-    let order: Vec<u32> = fragments.iter().map(Fragment::index).collect();
-    drop(fragments);
-    let bounds = built.bounds.without_lanes();
-    let (nodes, root) = built.flatten();
-    check::permutation(&order)?;
-    let depth = check::tree_depth(nodes.len(), count, root, |i| [nodes[i].left, nodes[i].right])?;
-    Ok(Tree { nodes, root, order, bounds, depth })
+    match preset.spatial().filter(|_| input.corners.len() == count) {
+        Some(rules) => build_with_splits(rules, input),
+        None => build_whole(preset.rule(), input.fragments),
+    }
 }
 
-/// A tree from its shape alone: the references of all nodes and the order of the primitives, from a
-/// source that is not trusted. The boxes are those of the fragments, so that a shape which passes the
+fn build_whole(rule: build::Rule, mut fragments: Vec<Fragment>) -> Result<Tree, BvhError> {
+    let (bounds, part) = build::build(&mut fragments, rule);
+    let order: Vec<u32> = fragments.iter().map(Fragment::index).collect();
+    drop(fragments);
+    let (build::Flat { nodes, .. }, root) = part.string();
+    finish(Tree { nodes, root, order, splits: Vec::new(), bounds, depth: 0 })
+}
+
+fn build_with_splits(rules: preset::SpatialRules, input: Input<'_>) -> Result<Tree, BvhError> {
+    let Input { mut fragments, corners } = input;
+    let n = fragments.len();
+    let extra = (n * rules.extra / 100).min(MAX_PRIMITIVES - n);
+    fragments.resize(n + extra, Fragment::new([0.0; 3], [0.0; 3], 0));
+    let mut splits = vec![Split::UNUSED; extra];
+    let corners = Corners(&corners);
+    let (bounds, part) = sbvh::build(&mut fragments, n, &mut splits, corners, rules);
+    drop(fragments);
+    let (build::Flat { nodes, mut order }, root) = part.string();
+    pieces::compact(&mut splits, &mut order, n);
+    finish(Tree { nodes, root, order, splits, bounds, depth: 0 })
+}
+
+/// Checks what was built.
+fn finish(mut tree: Tree) -> Result<Tree, BvhError> {
+    tree.bounds = tree.bounds.without_lanes();
+    check::permutation(&tree.order)?;
+    let Tree { nodes, order, root, .. } = &tree;
+    let children = |i: usize| [nodes[i].left, nodes[i].right];
+    tree.depth = check::tree_depth(nodes.len(), order.len(), *root, children)?;
+    Ok(tree)
+}
+
+/// A tree from its shape alone, which comes from a source that is not trusted.
+#[derive(Clone, Debug)]
+pub(crate) struct Shape {
+    pub(crate) root: u32,
+    /// The references of all nodes.
+    pub(crate) children: Vec<[u32; 2]>,
+    /// Pieces in leaf order.
+    pub(crate) order: Vec<u32>,
+    pub(crate) splits: Vec<Split>,
+}
+
+/// The tree of this shape over `input`. The boxes are computed anew, so that a shape which passes the
 /// checks is a correct tree, if not a good one.
-pub fn from_shape(
-    root: u32,
-    children: &[[u32; 2]],
-    order: Vec<u32>,
-    fragments: &[Fragment],
-) -> Result<Tree, TreeFault> {
-    if order.len() != fragments.len() {
+pub(crate) fn from_shape(shape: Shape, input: &Input<'_>) -> Result<Tree, TreeFault> {
+    let Shape { root, children, order, splits } = shape;
+    if order.len() != input.fragments.len() + splits.len() {
         return Err(TreeFault::Permutation);
+    }
+    if !splits.is_empty() && input.corners.len() != input.fragments.len() {
+        return Err(TreeFault::Split);
     }
     check::permutation(&order)?;
     let depth = check::tree_depth(children.len(), order.len(), root, |i| children[i])?;
-    let (nodes, bounds) = refit::refit(root, children, &order, fragments);
-    Ok(Tree { nodes, root, order, bounds, depth })
+    let pieces;
+    let fragments = if splits.is_empty() {
+        &input.fragments
+    } else {
+        let mut all = Vec::with_capacity(order.len());
+        all.extend_from_slice(&input.fragments);
+        pieces::replay(&mut all, &splits, Corners(&input.corners))?;
+        pieces = all;
+        &pieces
+    };
+    let (nodes, bounds) = refit::refit(root, &children, &order, fragments);
+    Ok(Tree { nodes, root, order, splits, bounds, depth })
 }

@@ -1,12 +1,13 @@
 //! Trees on disk, named by what they were built from.
 //!
 //! Turns fragments into trees, from a file when this very tree was built before. A file holds the
-//! *shape* of a tree (child references and the order of primitives), never boxes: those are computed
-//! anew from the fragments, so that no file, however damaged or forged, can make a ray miss. A file
+//! *shape* of a tree (child references, the order of primitives, where triangles were split), never
+//! boxes: those are computed anew from the fragments, so that no file, however damaged or forged, can make a ray miss. A file
 //! that fails any check is rebuilt and reported as a warning. With or without the cache the result
 //! has the same bytes; only the time differs.
 //!
-//! The name is BLAKE3 over builder, parameters, file layout and all boxes. Files are written under a
+//! The name is BLAKE3 over builder, parameters, file layout, all boxes, and all corners where triangles
+//! may be split. Files are written under a
 //! temporary name and renamed, so readers see all or nothing.
 
 mod dir;
@@ -18,7 +19,7 @@ use std::time::{Duration, Instant};
 
 use thiserror::Error;
 
-use crate::bvh::{self, BvhError, Fragment, Tree};
+use crate::bvh::{self, BvhError, Input, Preset, Tree};
 
 pub use entry::EntryFault;
 
@@ -148,23 +149,26 @@ impl Cache {
         self.root.as_deref()
     }
 
-    /// The tree of the fragments, read or built; `fragments[i]` must have index `i`.
-    pub fn tree(&self, fragments: Vec<Fragment>) -> Result<Cached, BvhError> {
+    /// The tree of the input, read or built.
+    ///
+    /// # Errors
+    /// When no tree can be built; trouble with files is a warning.
+    pub fn tree(&self, preset: Preset, input: Input<'_>) -> Result<Cached, BvhError> {
         let start = Instant::now();
-        let root = self.root.as_deref().filter(|_| fragments.len() >= MIN_PRIMITIVES);
+        let root = self.root.as_deref().filter(|_| input.fragments.len() >= MIN_PRIMITIVES);
         let Some(root) = root else {
-            let tree = bvh::build(fragments)?;
+            let tree = bvh::build(preset, input)?;
             return Ok(Cached {
                 tree,
                 source: Source::Built { took: start.elapsed() },
                 warning: None,
             });
         };
-        let key = key(&fragments);
+        let key = key(preset, &input);
         let relative = dir::entry_path(&key);
         let path = root.join(&relative);
         let mut warning = None;
-        match entry::load(&path, &key, &fragments) {
+        match entry::load(&path, &key, &input) {
             Ok((tree, took)) => {
                 dir::touch(&path);
                 let saved = took.saturating_sub(start.elapsed());
@@ -177,7 +181,7 @@ impl Cache {
             }
         }
         let start = Instant::now();
-        let tree = bvh::build(fragments)?;
+        let tree = bvh::build(preset, input)?;
         let took = start.elapsed();
         let source = match dir::store(&path, &entry::encode(&tree, &key, took)) {
             Ok(()) => Source::Stored { took },
@@ -237,13 +241,17 @@ fn io_error(path: &Path, source: io::Error) -> CacheError {
 }
 
 /// The name of a tree: everything that its shape depends on.
-fn key(fragments: &[Fragment]) -> blake3::Hash {
+fn key(preset: Preset, input: &Input<'_>) -> blake3::Hash {
+    let fragments = &input.fragments;
     let mut hasher = blake3::Hasher::new();
-    for part in [bvh::BUILDER, bvh::PARAMETERS, entry::LAYOUT] {
+    for part in [preset.recipe(), entry::LAYOUT] {
         hasher.update(&(part.len() as u64).to_le_bytes());
         hasher.update(part.as_bytes());
     }
     hasher.update(&(fragments.len() as u64).to_le_bytes());
     hasher.update(bytemuck::cast_slice(fragments));
+    if preset.splits_triangles() {
+        hasher.update(bytemuck::cast_slice(&input.corners));
+    }
     hasher.finalize()
 }

@@ -15,6 +15,7 @@ use lang::source::SourceSet;
 use pack::{PackError, PackWriter};
 use shaders::{FeatureSet, LayoutError, Linked, ShaderError};
 
+use crate::bvh::Preset;
 use crate::cache::Cache;
 use crate::import::Limits;
 use crate::lower::{self, LowerError, Lowered};
@@ -26,6 +27,8 @@ pub use load::FileRead;
 pub struct Options<'a> {
     /// Directory of the root `.rts` file; names in the pack are relative to it.
     pub root: &'a Path,
+    /// How trees are built.
+    pub preset: Preset,
     /// Trees of earlier runs.
     pub cache: &'a Cache,
     /// How large inputs may be.
@@ -98,7 +101,7 @@ pub fn compile(
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(CompileError::Scene);
     }
-    let lowered = lower::lower(scene, &loaded, options.cache, diagnostics)?;
+    let lowered = lower::lower(scene, &loaded, options.preset, options.cache, diagnostics)?;
     drop(loaded);
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(CompileError::Scene);

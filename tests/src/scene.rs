@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use compiler::bvh::Preset;
 use compiler::cache::Cache;
 use compiler::import::Limits;
 use compiler::pipeline::{self, Compiled, Options};
@@ -33,7 +34,16 @@ pub fn compile_in(root: &Path, text: &str) -> Compiled {
 /// As `compile_in`.
 #[must_use]
 pub fn compile_with(root: &Path, text: &str, cache: &Cache) -> Compiled {
-    compile_as(root, text, cache, |_| {})
+    compile_as(root, text, Preset::default(), cache, |_| {})
+}
+
+/// As `compile_with`, with trees by this builder.
+///
+/// # Panics
+/// As `compile_in`.
+#[must_use]
+pub fn compile_built(root: &Path, text: &str, preset: Preset, cache: &Cache) -> Compiled {
+    compile_as(root, text, preset, cache, |_| {})
 }
 
 /// As `compile_in`; `change` alters the checked scene before it is lowered.
@@ -42,10 +52,16 @@ pub fn compile_with(root: &Path, text: &str, cache: &Cache) -> Compiled {
 /// As `compile_in`.
 #[must_use]
 pub fn compile_changed(root: &Path, text: &str, change: impl FnOnce(&mut Scene)) -> Compiled {
-    compile_as(root, text, &Cache::disabled(), change)
+    compile_as(root, text, Preset::default(), &Cache::disabled(), change)
 }
 
-fn compile_as(root: &Path, text: &str, cache: &Cache, change: impl FnOnce(&mut Scene)) -> Compiled {
+fn compile_as(
+    root: &Path,
+    text: &str,
+    preset: Preset,
+    cache: &Cache,
+    change: impl FnOnce(&mut Scene),
+) -> Compiled {
     let name = root.join("test.rts").display().to_string();
     let analysis = lang::analyze(&name, text, &mut NoImports, &lang::Options::default());
     let mut diagnostics = analysis.diagnostics;
@@ -55,7 +71,7 @@ fn compile_as(root: &Path, text: &str, cache: &Cache, change: impl FnOnce(&mut S
     };
     let Some(mut scene) = analysis.scene else { panic!("{}", shown(&diagnostics)) };
     change(&mut scene);
-    let options = Options { root, cache, limits: Limits::default(), defines: &[] };
+    let options = Options { root, preset, cache, limits: Limits::default(), defines: &[] };
     match pipeline::compile(&scene, &analysis.sources, &options, &mut diagnostics) {
         Ok(compiled) => compiled,
         Err(error) => panic!("{error}\n{}", shown(&diagnostics)),

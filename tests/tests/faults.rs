@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use compiler::bvh::Preset;
 use compiler::cache::Cache;
 use compiler::import::Limits;
 use compiler::pipeline::{self, Options};
@@ -59,7 +60,8 @@ fn findings(dir: &Path, text: &str) -> (SourceSet, Vec<Diagnostic>) {
     if let Some(scene) = &analysis.scene {
         let cache = Cache::disabled();
         let limits = Limits::default();
-        let options = Options { root: dir, cache: &cache, limits, defines: &[] };
+        let options =
+            Options { root: dir, preset: Preset::default(), cache: &cache, limits, defines: &[] };
         // Only what was found counts here; that nothing was written follows from it.
         let _ = pipeline::compile(scene, &analysis.sources, &options, &mut diagnostics);
     }
@@ -137,6 +139,15 @@ fn the_programs_end_with_the_exit_codes_that_they_document() {
     };
     assert_eq!(rtc(&[&path("good.rts"), "-o", &path("good.pack"), "--no-cache"]), 0);
     assert_eq!(rtc(&["inspect", &path("good.pack"), "--verify"]), 0);
+    let built_by = |name: &str| {
+        rtc(&[&path("good.rts"), "-o", &path("other.pack"), "--no-cache", "--bvh", name])
+    };
+    for name in ["fast", "default", "extreme", "object-median", "spatial-median"] {
+        assert_eq!(built_by(name), 0, "{name}");
+    }
+    for name in ["sbvh", "Fast", ""] {
+        assert_eq!(built_by(name), 2, "{name}");
+    }
     assert_eq!(rtc(&["check", &path("good.rts")]), 0);
     assert_eq!(rtc(&["fmt", "--check", &path("bad.rts")]), 1, "not tidy");
     assert_eq!(rtc(&["show", "--resolved", &path("good.rts")]), 0);

@@ -14,13 +14,26 @@ use super::sweep::{self, SWEEP_MAX};
 use super::words::{leaf_word, shift_word};
 
 /// Smaller subtrees are one piece of work.
-const PARALLEL_MIN: usize = 1 << 12;
+pub(super) const PARALLEL_MIN: usize = 1 << 12;
 /// Smaller ranges are binned on one thread.
-const PARALLEL_BINS_MIN: usize = 1 << 16;
+pub(super) const PARALLEL_BINS_MIN: usize = 1 << 16;
 /// Most inner nodes on a path from the root to a leaf, so the leaf is at depth 47 (root: 0).
 pub(super) const MAX_INNER_LEVELS: u32 = pack::abi::MAX_DEPTH - 1;
 /// Cost of visiting a node in units of one primitive test.
-const NODE_COST: f32 = 1.0;
+pub(super) const NODE_COST: f32 = 1.0;
+/// Leaves of trees that are built without regard to cost: about what the others have on average.
+const MEDIAN_LEAF: usize = 2;
+
+/// Where ranges are divided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rule {
+    /// Where it costs least by the surface-area heuristic.
+    Cost,
+    /// In the middle of the list.
+    ObjectMedian,
+    /// In the middle of the space that centroids take.
+    SpatialMedian,
+}
 
 /// A range of fragments to turn into a subtree.
 struct Range<'a> {
@@ -29,52 +42,60 @@ struct Range<'a> {
     first: u32,
     /// Inner levels that may still be used.
     levels: u32,
+    rule: Rule,
     bounds: Bounds,
     /// Bounds of the doubled centroids.
     centroids: Bounds,
 }
 
 /// A built subtree.
-enum Part {
-    Chunk { nodes: Vec<Node>, root: u32 },
-    Fork { node: Node, sides: Box<[Part; 2]> },
+pub(super) enum Part {
+    /// Built on one thread. `order` holds the numbers of the pieces in its leaves; it is empty where
+    /// leaves say positions in the whole list.
+    Chunk {
+        nodes: Vec<Node>,
+        root: u32,
+        order: Vec<u32>,
+    },
+    Fork {
+        node: Node,
+        sides: Box<[Part; 2]>,
+    },
+}
+
+/// Subtrees strung together.
+#[derive(Default)]
+pub(super) struct Flat {
+    /// In depth-first order.
+    pub(super) nodes: Vec<Node>,
+    /// Pieces in leaf order, where leaves do not say positions.
+    pub(super) order: Vec<u32>,
 }
 
 /// Inner levels that median splits need to get `n` primitives into leaves.
-fn levels_needed(n: usize) -> u32 {
+pub(super) fn levels_needed(n: usize) -> u32 {
     n.div_ceil(MAX_LEAF as usize).next_power_of_two().trailing_zeros()
 }
 
-/// Builds the nodes and the root word; permutes `frags` into leaf order. The list is not empty and
-/// has at most `MAX_PRIMITIVES` entries.
-pub(super) fn build(frags: &mut [Fragment]) -> Built {
+/// The box of all fragments and the box of their doubled centroids.
+pub(super) fn measure(frags: &[Fragment]) -> [Bounds; 2] {
     let measure = |part: &[Fragment]| {
         part.iter().fold([Bounds::EMPTY; 2], |[b, c], f| {
             [b.union(f.bounds()), c.with_point(f.centroid2())]
         })
     };
-    let [bounds, centroids] = frags
+    frags
         .par_chunks(1 << 16)
         .map(measure)
-        .reduce(|| [Bounds::EMPTY; 2], |a, b| [a[0].union(b[0]), a[1].union(b[1])]);
-    let part = fork(Range { frags, first: 0, levels: MAX_INNER_LEVELS, bounds, centroids });
-    Built { bounds, part }
+        .reduce(|| [Bounds::EMPTY; 2], |a, b| [a[0].union(b[0]), a[1].union(b[1])])
 }
 
-/// The result of [`build`], still in pieces: the caller may drop the fragments before stringing it
-/// together.
-pub(super) struct Built {
-    pub(super) bounds: Bounds,
-    part: Part,
-}
-
-impl Built {
-    /// The nodes in depth-first order and the root word.
-    pub(super) fn flatten(self) -> (Vec<Node>, u32) {
-        let mut nodes = Vec::with_capacity(self.part.n_nodes());
-        let root = self.part.flatten(&mut nodes);
-        (nodes, root)
-    }
+/// Builds the tree, still in pieces: the caller may drop the fragments before stringing it together.
+/// Permutes `frags` into leaf order. The list is not empty and has at most `MAX_PRIMITIVES` entries.
+pub(super) fn build(frags: &mut [Fragment], rule: Rule) -> (Bounds, Part) {
+    let [bounds, centroids] = measure(frags);
+    let levels = MAX_INNER_LEVELS;
+    (bounds, fork(Range { frags, first: 0, levels, rule, bounds, centroids }))
 }
 
 impl Part {
@@ -85,24 +106,43 @@ impl Part {
         }
     }
 
-    /// Appends the nodes and returns the word of the subtree's root.
-    fn flatten(self, out: &mut Vec<Node>) -> u32 {
-        let base = index_of(out);
+    fn n_pieces(&self) -> usize {
         match self {
-            Self::Chunk { nodes, root } => {
-                out.extend(nodes.iter().map(|n| Node {
-                    left: shift_word(n.left, base, 0),
-                    right: shift_word(n.right, base, 0),
+            Self::Chunk { order, .. } => order.len(),
+            Self::Fork { sides, .. } => sides[0].n_pieces() + sides[1].n_pieces(),
+        }
+    }
+
+    /// Everything in depth-first order, and the root word.
+    pub(super) fn string(self) -> (Flat, u32) {
+        let mut out = Flat {
+            nodes: Vec::with_capacity(self.n_nodes()),
+            order: Vec::with_capacity(self.n_pieces()),
+        };
+        let root = self.append(&mut out);
+        (out, root)
+    }
+
+    /// Appends the subtree and returns the word of its root.
+    fn append(self, out: &mut Flat) -> u32 {
+        let base = index_of(&out.nodes);
+        match self {
+            Self::Chunk { nodes, root, order } => {
+                let prims = u32::try_from(out.order.len()).expect("at most 2^27 pieces");
+                out.order.extend_from_slice(&order);
+                out.nodes.extend(nodes.iter().map(|n| Node {
+                    left: shift_word(n.left, base, prims),
+                    right: shift_word(n.right, base, prims),
                     ..*n
                 }));
-                shift_word(root, base, 0)
+                shift_word(root, base, prims)
             }
             Self::Fork { node, sides } => {
                 let [left, right] = *sides;
-                out.push(node);
-                let left = left.flatten(out);
-                let right = right.flatten(out);
-                let node = &mut out[base as usize];
+                out.nodes.push(node);
+                let left = left.append(out);
+                let right = right.append(out);
+                let node = &mut out.nodes[base as usize];
                 (node.left, node.right) = (left, right);
                 CHILD_INNER | base
             }
@@ -116,7 +156,7 @@ fn index_of(nodes: &[Node]) -> u32 {
 }
 
 /// A node whose children are not known yet.
-fn node_of(left: &Bounds, right: &Bounds) -> Node {
+pub(super) fn node_of(left: &Bounds, right: &Bounds) -> Node {
     Node {
         left_lo: left.lo3(),
         left_hi: left.hi3(),
@@ -131,7 +171,7 @@ fn fork(mut range: Range) -> Part {
         // Two primitives per leaf is typical; growing is rare.
         let mut nodes = Vec::with_capacity(range.frags.len() / 2);
         let root = grow(range, &mut nodes);
-        return Part::Chunk { nodes, root };
+        return Part::Chunk { nodes, root, order: Vec::new() };
     }
     let [left, right] = split(&mut range);
     let node = node_of(&left.bounds, &right.bounds);
@@ -143,7 +183,13 @@ fn fork(mut range: Range) -> Part {
 fn grow(mut range: Range, out: &mut Vec<Node>) -> u32 {
     if range.frags.len() <= SWEEP_MAX {
         range.frags.sort_unstable_by_key(Fragment::index);
-        return grow_small(range.frags, range.first, range.levels, &range.bounds, out);
+        if range.rule == Rule::Cost {
+            return grow_small(range.frags, range.first, range.levels, &range.bounds, out);
+        }
+        // Without levels left there are at most `MAX_LEAF`.
+        if range.frags.len() <= MEDIAN_LEAF || range.levels == 0 {
+            return leaf_word(range.first, range.frags.len());
+        }
     }
     let at = out.len();
     let word = CHILD_INNER | index_of(out);
@@ -155,37 +201,69 @@ fn grow(mut range: Range, out: &mut Vec<Node>) -> u32 {
     word
 }
 
-/// Divides a range of more than `SWEEP_MAX` fragments in two.
+/// Divides a range in two; with `Rule::Cost` one of more than `SWEEP_MAX` fragments.
 fn split<'a>(range: &'a mut Range) -> [Range<'a>; 2] {
     let n = range.frags.len();
     let levels = range.levels - 1;
-    let mapping = Mapping::new(&range.centroids);
-    let bins = if n >= PARALLEL_BINS_MIN && rayon::current_num_threads() > 1 {
-        Bins::fill_parallel(range.frags, &mapping)
-    } else {
-        Bins::fill(range.frags, &mapping)
-    };
+    let rule = range.rule;
     let fits = |n_left: usize| levels_needed(n_left.max(n - n_left)) <= levels;
-    let (n_left, bounds, centroids) = match bins.best().filter(|s| fits(s.n_left)) {
-        Some(s) => (s.n_left, [s.left, s.right], binned::partition(range.frags, &mapping, &s)),
-        None => median(range.frags, range.centroids.widest_axis()),
+    let halves = match rule {
+        Rule::Cost => cheapest(range, fits),
+        Rule::ObjectMedian => None,
+        Rule::SpatialMedian => middle(range, fits),
     };
+    let (n_left, bounds, centroids) =
+        halves.unwrap_or_else(|| median(range.frags, range.centroids.widest_axis()));
     let (left, right) = range.frags.split_at_mut(n_left);
     let mid = range.first + u32::try_from(n_left).expect("at most 2^27 primitives");
     let side = |frags, first, k: usize| Range {
         frags,
         first,
         levels,
+        rule,
         bounds: bounds[k],
         centroids: centroids[k],
     };
     [side(left, range.first, 0), side(right, mid, 1)]
 }
 
+/// How many go left, and the boxes of both sides and of their doubled centroids.
+pub(super) type Halves = (usize, [Bounds; 2], [Bounds; 2]);
+
+/// The best plane between bins.
+fn cheapest(range: &mut Range, fits: impl Fn(usize) -> bool) -> Option<Halves> {
+    let mapping = Mapping::new(&range.centroids);
+    let bins = if range.frags.len() >= PARALLEL_BINS_MIN && rayon::current_num_threads() > 1 {
+        Bins::fill_parallel(range.frags, &mapping)
+    } else {
+        Bins::fill(range.frags, &mapping)
+    };
+    let s = bins.best().filter(|s| fits(s.n_left))?;
+    Some((s.n_left, [s.left, s.right], binned::partition(range.frags, &mapping, &s)))
+}
+
+/// The plane in the middle of the centroids along their widest axis, if both sides get something.
+fn middle(range: &mut Range, fits: impl Fn(usize) -> bool) -> Option<Halves> {
+    let axis = range.centroids.widest_axis();
+    let middle = 0.5 * (range.centroids.lo[axis] + range.centroids.hi[axis]);
+    let is_left = |f: &Fragment| f.centroid2()[axis] < middle;
+    let n_left = range.frags.iter().filter(|f| is_left(f)).count();
+    if n_left == 0 || n_left == range.frags.len() || !fits(n_left) {
+        return None;
+    }
+    // By index within a side: the order does not depend on what was done before.
+    range.frags.sort_unstable_by_key(|f| (!is_left(f), f.index()));
+    Some(measure_halves(range.frags, n_left))
+}
+
 /// Halves the range along `axis`, equal centroids by index.
-fn median(frags: &mut [Fragment], axis: usize) -> (usize, [Bounds; 2], [Bounds; 2]) {
+pub(super) fn median(frags: &mut [Fragment], axis: usize) -> Halves {
     let n_left = frags.len() / 2;
     frags.select_nth_unstable_by_key(n_left, |f| f.key(axis));
+    measure_halves(frags, n_left)
+}
+
+fn measure_halves(frags: &[Fragment], n_left: usize) -> Halves {
     let (left, right) = frags.split_at(n_left);
     let both = |part: &[Fragment]| {
         part.iter().fold((Bounds::EMPTY, Bounds::EMPTY), |(b, c), f| {

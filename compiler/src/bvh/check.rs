@@ -31,6 +31,9 @@ pub enum TreeFault {
     /// More inner nodes on a path than traversal stacks hold.
     #[error("tree too deep")]
     Depth,
+    /// A split of what is not there, is not a triangle, or does not cross the plane.
+    #[error("a split of nothing")]
+    Split,
     /// A reference to spheres or to nothing where triangles are expected.
     #[error("unexpected kind of child reference")]
     Kind,

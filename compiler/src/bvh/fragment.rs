@@ -17,6 +17,14 @@ pub const MAX_PRIMITIVES: usize = 1 << 27;
 /// whole-vector arithmetic never meets a denormal or NaN in that lane.
 const INDEX_BIAS: u32 = 0x4000_0000;
 
+/// The piece begins at this bit of the upper corner's fourth lane; indices of pieces are below 2^27,
+/// as those of primitives.
+const PIECE_SHIFT: u32 = 2;
+/// Mark of that lane: must not be split.
+const WHOLE: u32 = 1;
+/// Mark of that lane: belongs to the right side of the split that is being made.
+const TO_RIGHT: u32 = 2;
+
 /// An axis-aligned box; the fourth lanes mean nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
@@ -35,6 +43,24 @@ impl Bounds {
     #[must_use]
     pub fn union(self, other: Self) -> Self {
         Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
+    }
+
+    /// The largest box in both; corners in the wrong order where there is none.
+    #[inline]
+    #[must_use]
+    pub(super) fn intersection(self, other: Self) -> Self {
+        Self { lo: self.lo.max(other.lo), hi: self.hi.min(other.hi) }
+    }
+
+    /// Half the surface area of what both have in common; 0 where that is nothing.
+    #[inline]
+    #[must_use]
+    pub(super) fn overlap(self, other: Self) -> f32 {
+        let common = self.intersection(other);
+        let d = (common.hi - common.lo).max(Vec4::ZERO);
+        // A side of length 0 with others below 0 has no area.
+        let apart = common.lo.cmpgt(common.hi).bitmask() & 7;
+        if apart == 0 { d.x * d.y + d.y * d.z + d.z * d.x } else { 0.0 }
     }
 
     /// The smallest box around this one and the point `p`.
@@ -86,7 +112,7 @@ impl Bounds {
 pub struct Fragment {
     /// Lower corner; the fourth lane carries the index.
     lo: Vec4,
-    /// Upper corner; the fourth lane is 0.
+    /// Upper corner; the fourth lane carries the piece and its marks.
     hi: Vec4,
 }
 
@@ -102,18 +128,22 @@ impl Fragment {
             let v = v.map(|x| if x > -COORD_MAX { x } else { -COORD_MAX });
             Vec4::new(v[0], v[1], v[2], 0.0).min(limit) + Vec4::ZERO
         };
-        let mut lo = clean(lo);
+        let (mut lo, mut hi) = (clean(lo), clean(hi));
         lo.w = f32::from_bits(index | INDEX_BIAS);
-        Self { lo, hi: clean(hi) }
+        hi.w = f32::from_bits(index << PIECE_SHIFT | INDEX_BIAS);
+        Self { lo, hi }
     }
 
-    /// The exact box of a triangle.
+    /// The exact box of a triangle. One whose corners had to be made finite must not be split.
     #[must_use]
     pub fn of_triangle(corners: &[[f32; 3]; 3], index: u32) -> Self {
         let [a, b, c] = corners;
         let lo = [0, 1, 2].map(|k| a[k].min(b[k]).min(c[k]));
         let hi = [0, 1, 2].map(|k| a[k].max(b[k]).max(c[k]));
-        Self::new(lo, hi, index)
+        let new = Self::new(lo, hi, index);
+        // NaN is not in any range.
+        let sound = corners.as_flattened().iter().all(|x| (-COORD_MAX..=COORD_MAX).contains(x));
+        if sound { new } else { new.whole() }
     }
 
     /// A box that contains the real sphere, not just its rounded corners.
@@ -126,7 +156,8 @@ impl Fragment {
     }
 
     /// The box of all places where the primitive is while it moves by `motion`, with room for what the
-    /// kernel rounds on the way: the product with the time and the sum, 2^-24 each.
+    /// kernel rounds on the way: the product with the time and the sum, 2^-24 each. It must not be
+    /// split: its corners are elsewhere most of the time.
     #[must_use]
     pub fn swept(&self, motion: [f32; 3]) -> Self {
         let (lo, hi) = (self.lo.truncate().to_array(), self.hi.truncate().to_array());
@@ -134,7 +165,7 @@ impl Fragment {
         let room = reach.map(|m| libm::fabs(m) / 4_194_304.0);
         let low = |k: usize| round_down(f64::from(lo[k]) + reach[k].min(0.0) - room[k]);
         let high = |k: usize| round_up(f64::from(hi[k]) + reach[k].max(0.0) + room[k]);
-        Self::new([0, 1, 2].map(low), [0, 1, 2].map(high), self.index())
+        Self::new([0, 1, 2].map(low), [0, 1, 2].map(high), self.index()).whole()
     }
 
     /// Index of the primitive.
@@ -142,6 +173,58 @@ impl Fragment {
     #[must_use]
     pub fn index(&self) -> u32 {
         self.lo.w.to_bits() & !INDEX_BIAS
+    }
+
+    /// The same fragment, which must not be split: its primitive is no triangle, or is not where its
+    /// corners say.
+    #[must_use]
+    pub fn whole(mut self) -> Self {
+        self.hi.w = f32::from_bits(self.hi.w.to_bits() | WHOLE);
+        self
+    }
+
+    /// Whether it must not be split.
+    #[inline]
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.hi.w.to_bits() & WHOLE != 0
+    }
+
+    /// Which piece of a primitive this is: the index of the primitive until it is split.
+    #[inline]
+    #[must_use]
+    pub(super) fn piece(&self) -> u32 {
+        (self.hi.w.to_bits() & !INDEX_BIAS) >> PIECE_SHIFT
+    }
+
+    /// The same part under another number.
+    #[inline]
+    #[must_use]
+    pub(super) fn with_piece(mut self, piece: u32) -> Self {
+        let marks = self.hi.w.to_bits() & (WHOLE | TO_RIGHT);
+        self.hi.w = f32::from_bits(piece << PIECE_SHIFT | INDEX_BIAS | marks);
+        self
+    }
+
+    /// The same piece with another box, made of finite coordinates.
+    #[must_use]
+    pub(super) fn with_box(&self, lo: [f32; 3], hi: [f32; 3]) -> Self {
+        let mut new = Self::new(lo, hi, self.index());
+        new.hi.w = self.hi.w;
+        new
+    }
+
+    /// Whether it was sent to the right side.
+    #[inline]
+    pub(super) fn goes_right(&self) -> bool {
+        self.hi.w.to_bits() & TO_RIGHT != 0
+    }
+
+    /// Sends it to a side.
+    #[inline]
+    pub(super) fn send(&mut self, right: bool) {
+        let mark = if right { TO_RIGHT } else { 0 };
+        self.hi.w = f32::from_bits(self.hi.w.to_bits() & !TO_RIGHT | mark);
     }
 
     /// The box.
@@ -175,14 +258,14 @@ pub(super) fn ordered_bits(x: f32) -> u32 {
 
 /// The largest `f32` not above `x`.
 #[expect(clippy::cast_possible_truncation, reason = "rounding is corrected below")]
-fn round_down(x: f64) -> f32 {
+pub(super) fn round_down(x: f64) -> f32 {
     let y = x as f32;
     if f64::from(y) > x { y.next_down() } else { y }
 }
 
 /// The smallest `f32` not below `x`.
 #[expect(clippy::cast_possible_truncation, reason = "rounding is corrected below")]
-fn round_up(x: f64) -> f32 {
+pub(super) fn round_up(x: f64) -> f32 {
     let y = x as f32;
     if f64::from(y) < x { y.next_up() } else { y }
 }

@@ -43,7 +43,8 @@ pub struct Joined {
     pub nodes: Vec<Node>,
     /// Reference to the root; `NONE` when there is nothing.
     pub root: u32,
-    /// For each triangle as the pack stores it, its index in the scene's list.
+    /// For each triangle as the pack stores it, its index in the scene's list. A triangle that was split
+    /// is there once for each of its pieces.
     pub triangle_order: Vec<u32>,
     /// For each sphere as the pack stores it, its index in the scene's list.
     pub sphere_order: Vec<u32>,
@@ -54,6 +55,9 @@ pub struct Joined {
 }
 
 /// Joins groups. Every primitive of the scene must be a member of exactly one group.
+///
+/// # Errors
+/// When there are too many references.
 pub fn join(groups: &[Group]) -> Result<Joined, BvhError> {
     join_groups(groups).map(|(joined, _)| joined)
 }
@@ -82,7 +86,7 @@ pub(super) fn join_groups(groups: &[Group]) -> Result<(Joined, bool), BvhError> 
     if pieces.is_empty() {
         return Ok((out, tangled));
     }
-    let members: Vec<Members> = groups.iter().map(Members::new).collect();
+    let members: Vec<Vec<u32>> = groups.iter().map(scene_order).collect();
     out.root = write(&top::build(&mut pieces, MAX_TOP_LEVELS), groups, &members, &mut out);
     out.stack_need = pack::bvh::stack_need(&out.nodes, out.root);
     debug_assert_eq!([out.triangle_order.len(), out.sphere_order.len()], counts);
@@ -110,26 +114,19 @@ impl Joined {
     }
 }
 
-/// Local index to scene index.
-enum Members {
-    Offset(u32),
-    Table(Vec<u32>),
-}
-
-impl Members {
-    fn new(group: &Group) -> Self {
-        match group.members.as_slice() {
-            [one] => Self::Offset(one.start),
-            ranges => Self::Table(ranges.iter().flat_map(Clone::clone).collect()),
+/// The primitives of a group's leaves, in leaf order, as the scene numbers them.
+fn scene_order(group: &Group) -> Vec<u32> {
+    let mut order = group.tree.primitives();
+    match group.members.as_slice() {
+        [one] => order.iter_mut().for_each(|i| *i += one.start),
+        ranges => {
+            let table: Vec<u32> = ranges.iter().flat_map(Clone::clone).collect();
+            for i in &mut order {
+                *i = table[*i as usize];
+            }
         }
     }
-
-    fn scene_index(&self, local: u32) -> u32 {
-        match self {
-            Self::Offset(first) => first + local,
-            Self::Table(table) => table[local as usize],
-        }
-    }
+    order
 }
 
 fn word_of(len: usize) -> u32 {
@@ -158,7 +155,7 @@ fn margin(x: f32) -> f32 {
 }
 
 /// Appends a subtree to the output and returns its reference there.
-fn write(top: &Top, groups: &[Group], members: &[Members], out: &mut Joined) -> u32 {
+fn write(top: &Top, groups: &[Group], members: &[Vec<u32>], out: &mut Joined) -> u32 {
     match top {
         Top::Fork { sides, bounds } => {
             let at = out.nodes.len();
@@ -184,8 +181,7 @@ fn write(top: &Top, groups: &[Group], members: &[Members], out: &mut Joined) -> 
             // Differences modulo 2^32: the sum is right whichever of the two is larger.
             let nodes = word_of(out.nodes.len()).wrapping_sub(word_of(span.nodes.start));
             let prims = word_of(order.len()).wrapping_sub(word_of(span.prims.start));
-            let members = &members[piece.group];
-            order.extend(group.tree.order[span.prims].iter().map(|&i| members.scene_index(i)));
+            order.extend_from_slice(&members[piece.group][span.prims]);
             let word = |word| {
                 let word = shift_word(word, nodes, prims);
                 if group.kind == GroupKind::Spheres { as_spheres(word) } else { word }

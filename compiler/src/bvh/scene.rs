@@ -3,6 +3,7 @@
 //! Turns lists of triangles and spheres into groups (see [`plan`]), gets each group's tree from the
 //! cache or the builder, and joins them. Warnings of the cache are returned, each only once.
 
+use std::borrow::Cow;
 use std::ops::Range;
 use std::time::Duration;
 
@@ -10,7 +11,7 @@ use rayon::prelude::*;
 
 use super::join::{Group, GroupKind, Joined, join_groups};
 use super::probe::visits;
-use super::{BvhError, Fragment, MAX_PRIMITIVES};
+use super::{BvhError, Fragment, Input, MAX_PRIMITIVES, Preset};
 use crate::cache::{Cache, CacheWarning, Cached, Source};
 
 /// Meshes of fewer triangles share a group: the cache would not keep their trees anyway.
@@ -34,8 +35,12 @@ pub struct Primitives<'a> {
 /// What building cost and what the cache did.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BuildReport {
+    /// Which builder was asked for.
+    pub preset: Preset,
     /// Trees that were built or loaded.
     pub groups: usize,
+    /// Triangles in leaves; those that were split count once for each piece.
+    pub references: usize,
     /// Whether the meshes were so tangled that one tree over all triangles was taken.
     pub merged: bool,
     /// Groups whose trees are large enough for the cache and were built and stored.
@@ -78,21 +83,25 @@ pub fn plan(mesh_sizes: &[usize]) -> Vec<Vec<Range<u32>>> {
 /// Meshes that fill the same space all over (leaves and twigs, halves of one shell) remain tangled
 /// after joining: every ray visits both trees. Where joining could not separate the meshes, one tree
 /// over all triangles is made as well, and the one that takes fewer visits is used.
+///
+/// # Errors
+/// When there are too many primitives, the sizes of the meshes do not add up, or the builder is broken.
 pub fn build_scene(
     primitives: &Primitives,
+    preset: Preset,
     cache: &Cache,
 ) -> Result<(Joined, BuildReport), BvhError> {
     check_counts(primitives)?;
-    let mut report = BuildReport::default();
+    let mut report = BuildReport { preset, ..BuildReport::default() };
     let by_mesh = plan(primitives.mesh_sizes);
     let n_groups = by_mesh.len();
-    let groups = build_groups(primitives, by_mesh, cache, &mut report)?;
+    let groups = build_groups(primitives, by_mesh, preset, cache, &mut report)?;
     let (mut joined, tangled) = join_groups(&groups)?;
     drop(groups);
     if tangled && n_groups > 1 {
         let end = u32::try_from(primitives.triangles.len()).expect("counts were checked");
         let all = vec![std::iter::once(0..end).collect()];
-        let groups = build_groups(primitives, all, cache, &mut report)?;
+        let groups = build_groups(primitives, all, preset, cache, &mut report)?;
         let (merged, _) = join_groups(&groups)?;
         let [one, many] = [&merged, &joined].map(|tree| visits(tree, primitives.triangles));
         if one < many {
@@ -100,6 +109,7 @@ pub fn build_scene(
             report.merged = true;
         }
     }
+    report.references = joined.triangle_order.len();
     if report.stored > 0 {
         // A cache that stays too large harms nobody; the next run tries again.
         let _ = cache.prune();
@@ -127,6 +137,7 @@ fn check_counts(primitives: &Primitives) -> Result<(), BvhError> {
 fn build_groups(
     primitives: &Primitives,
     groups: Vec<Vec<Range<u32>>>,
+    preset: Preset,
     cache: &Cache,
     report: &mut BuildReport,
 ) -> Result<Vec<Group>, BvhError> {
@@ -140,23 +151,11 @@ fn build_groups(
     let results: Vec<_> = todo
         .into_par_iter()
         .map(|(kind, members)| {
-            let fragments = match kind {
-                GroupKind::Triangles => (0..)
-                    .zip(members.iter().flat_map(Clone::clone))
-                    .map(|(i, t)| {
-                        let box_ = Fragment::of_triangle(&primitives.triangles[t as usize], i);
-                        moves.triangle(t).map_or(box_, |motion| box_.swept(motion))
-                    })
-                    .collect(),
-                GroupKind::Spheres => (0..)
-                    .zip(primitives.spheres)
-                    .map(|(i, &(center, radius))| {
-                        let box_ = Fragment::of_sphere(center, radius, i);
-                        moves.sphere(i).map_or(box_, |motion| box_.swept(motion))
-                    })
-                    .collect(),
+            let input = match kind {
+                GroupKind::Triangles => triangles(primitives, &members, &moves),
+                GroupKind::Spheres => spheres(primitives, &moves),
             };
-            cache.tree(fragments).map(|cached| (kind, members, cached))
+            cache.tree(preset, input).map(|cached| (kind, members, cached))
         })
         .collect::<Result<_, _>>()?;
     let finish = |(kind, members, cached): (GroupKind, Vec<Range<u32>>, Cached)| {
@@ -164,6 +163,40 @@ fn build_groups(
         Group { kind, tree: cached.tree, members }
     };
     Ok(results.into_iter().map(finish).collect())
+}
+
+/// What the tree of some meshes is built over.
+fn triangles<'a>(
+    primitives: &Primitives<'a>,
+    members: &[Range<u32>],
+    moves: &Moves<'_>,
+) -> Input<'a> {
+    let indices = members.iter().flat_map(Clone::clone);
+    let fragment = |(i, t): (u32, u32)| {
+        let box_ = Fragment::of_triangle(&primitives.triangles[t as usize], i);
+        moves.triangle(t).map_or(box_, |motion| box_.swept(motion))
+    };
+    let fragments = (0..).zip(indices).map(fragment).collect();
+    let part = |r: &Range<u32>| &primitives.triangles[r.start as usize..r.end as usize];
+    let corners = match members {
+        [one] => Cow::Borrowed(part(one)),
+        parts => Cow::Owned(parts.iter().flat_map(part).copied().collect()),
+    };
+    Input { fragments, corners }
+}
+
+/// What the tree of the spheres is built over.
+fn spheres(primitives: &Primitives<'_>, moves: &Moves<'_>) -> Input<'static> {
+    let fragment = |(i, &(center, radius)): (u32, &([f32; 3], f32))| {
+        let box_ = Fragment::of_sphere(center, radius, i);
+        moves.sphere(i).map_or(box_, |motion| box_.swept(motion))
+    };
+    Input::of_boxes((0..).zip(primitives.spheres).map(fragment).collect())
+}
+
+/// Whether that is any way at all.
+fn moves(motion: &[f32; 3]) -> bool {
+    motion.iter().any(|x| x.abs() > 0.0)
 }
 
 /// How far single primitives come.
@@ -189,15 +222,12 @@ impl<'a> Moves<'a> {
     /// `None` for a triangle that stands still.
     fn triangle(&self, index: u32) -> Option<[f32; 3]> {
         let mesh = self.ends.partition_point(|end| *end <= index);
-        self.meshes.get(mesh).copied().filter(|motion| motion.iter().any(|c| c.abs() > 0.0))
+        self.meshes.get(mesh).copied().filter(moves)
     }
 
     /// `None` for a sphere that stands still.
     fn sphere(&self, index: u32) -> Option<[f32; 3]> {
-        self.spheres
-            .get(index as usize)
-            .copied()
-            .filter(|motion| motion.iter().any(|c| c.abs() > 0.0))
+        self.spheres.get(index as usize).copied().filter(moves)
     }
 }
 

@@ -5,14 +5,17 @@
 //!  8   4  version          of this layout
 //! 12   4  root             child reference
 //! 16   4  n_nodes
-//! 20   4  n_prims
+//! 20   4  n_pieces
 //! 24   8  build            microseconds that building took
 //! 32  32  key              the name: a file moved elsewhere is not taken for another tree
 //! 64  32  hash             BLAKE3 of bytes 0 .. 64 and 96 .. end
-//! 96   8 * n_nodes         left and right reference of each node, depth-first order
-//!      4 * n_prims         primitives in leaf order
+//! 96   4  n_splits
+//!100   4  0
+//!104   8 * n_nodes         left and right reference of each node, depth-first order
+//!      4 * n_pieces        pieces in leaf order
+//!     12 * n_splits        which piece, axis, where (f32)
 //! ```
-//! All integers little-endian. The length is exactly what the two counts say.
+//! All integers little-endian. The length is exactly what the three counts say.
 
 use std::fs;
 use std::io::{self, Read};
@@ -21,13 +24,13 @@ use std::time::Duration;
 
 use thiserror::Error;
 
-use crate::bvh::{self, Fragment, Tree, TreeFault};
+use crate::bvh::{self, Input, Shape, Split, Tree, TreeFault};
 
 /// Part of the key: files of another layout are never even opened.
-pub(super) const LAYOUT: &str = "references-v1";
+pub(super) const LAYOUT: &str = "references-v2";
 const MAGIC: [u8; 8] = [0x89, b'R', b'T', b'B', 0x0d, 0x0a, 0x1a, 0x0a];
-const VERSION: u32 = 1;
-const HEADER: usize = 96;
+const VERSION: u32 = 2;
+const HEADER: usize = 104;
 const HASH: std::ops::Range<usize> = 64..96;
 
 /// Why a file is not used.
@@ -63,7 +66,8 @@ pub enum EntryFault {
 pub(super) fn encode(tree: &Tree, key: &blake3::Hash, took: Duration) -> Vec<u8> {
     let len = |n: usize| u32::try_from(n).expect("a tree has at most 2^27 primitives");
     let micros = u64::try_from(took.as_micros()).unwrap_or(u64::MAX);
-    let mut out = Vec::with_capacity(HEADER + 8 * tree.nodes.len() + 4 * tree.order.len());
+    let sizes = [8 * tree.nodes.len(), 4 * tree.order.len(), 12 * tree.splits.len()];
+    let mut out = Vec::with_capacity(HEADER + sizes.iter().sum::<usize>());
     out.extend(MAGIC);
     for word in [VERSION, tree.root, len(tree.nodes.len()), len(tree.order.len())] {
         out.extend(word.to_le_bytes());
@@ -71,12 +75,19 @@ pub(super) fn encode(tree: &Tree, key: &blake3::Hash, took: Duration) -> Vec<u8>
     out.extend(micros.to_le_bytes());
     out.extend(key.as_bytes());
     out.extend([0; 32]);
+    out.extend(len(tree.splits.len()).to_le_bytes());
+    out.extend([0; 4]);
     for node in &tree.nodes {
         out.extend(node.left.to_le_bytes());
         out.extend(node.right.to_le_bytes());
     }
     for index in &tree.order {
         out.extend(index.to_le_bytes());
+    }
+    for split in &tree.splits {
+        for word in [split.piece, split.axis, split.at.to_bits()] {
+            out.extend(word.to_le_bytes());
+        }
     }
     let hash = checksum(&out);
     out[HASH].copy_from_slice(hash.as_bytes());
@@ -89,13 +100,13 @@ fn checksum(bytes: &[u8]) -> blake3::Hash {
     hasher.finalize()
 }
 
-/// Reads a file and proves that it is the tree of these fragments. Returns what building took, too.
+/// Reads a file and proves that it is a tree of this input. Returns what building took, too.
 pub(super) fn load(
     path: &Path,
     key: &blake3::Hash,
-    fragments: &[Fragment],
+    input: &Input<'_>,
 ) -> Result<(Tree, Duration), EntryFault> {
-    decode(&read(path, fragments.len())?, key, fragments)
+    decode(&read(path, input.fragments.len())?, key, input)
 }
 
 /// Reads at most as many bytes as a tree of `n_prims` primitives can have.
@@ -105,7 +116,8 @@ fn read(path: &Path, n_prims: usize) -> Result<Vec<u8>, EntryFault> {
         _ => EntryFault::Io(error.to_string()),
     };
     let file = fs::File::open(path).map_err(failed)?;
-    let most = (HEADER + 12 * n_prims) as u64;
+    // No builder makes more pieces than twice the primitives.
+    let most = (HEADER + (8 + 4) * 2 * n_prims + 12 * n_prims) as u64;
     let len = file.metadata().map_err(failed)?.len();
     if len > most {
         return Err(EntryFault::Length);
@@ -119,7 +131,7 @@ fn read(path: &Path, n_prims: usize) -> Result<Vec<u8>, EntryFault> {
 fn decode(
     bytes: &[u8],
     key: &blake3::Hash,
-    fragments: &[Fragment],
+    input: &Input<'_>,
 ) -> Result<(Tree, Duration), EntryFault> {
     let Some((header, body)) = bytes.split_first_chunk::<HEADER>() else {
         return Err(EntryFault::Length);
@@ -132,35 +144,66 @@ fn decode(
     if word(8) != VERSION {
         return Err(EntryFault::Version(word(8)));
     }
-    let (root, n_nodes, n_prims) = (word(12), word(16) as usize, word(20) as usize);
-    // Both counts are 32-bit numbers: no overflow in 64 bits.
-    if body.len() as u64 != 8 * n_nodes as u64 + 4 * n_prims as u64 {
+    let (root, n_nodes) = (word(12), word(16) as usize);
+    let (n_pieces, n_splits) = (word(20) as usize, word(96) as usize);
+    // All counts are 32-bit numbers: no overflow in 64 bits.
+    if body.len() as u64 != 8 * n_nodes as u64 + 4 * n_pieces as u64 + 12 * n_splits as u64 {
         return Err(EntryFault::Length);
     }
-    if header[32..64] != *key.as_bytes() || n_prims != fragments.len() {
+    if header[32..64] != *key.as_bytes() || n_pieces != input.fragments.len() + n_splits {
         return Err(EntryFault::Key);
     }
     if checksum(bytes).as_bytes()[..] != header[HASH] {
         return Err(EntryFault::Checksum);
     }
     let (words, _) = body.as_chunks::<4>();
-    let (references, order) = words.split_at(2 * n_nodes);
-    let word_at = |i: usize| u32::from_le_bytes(references[i]);
-    let children: Vec<[u32; 2]> =
-        (0..n_nodes).map(|i| [word_at(2 * i), word_at(2 * i + 1)]).collect();
-    let order = order.iter().map(|w| u32::from_le_bytes(*w)).collect();
+    let (references, rest) = words.split_at(2 * n_nodes);
+    let (order, splits) = rest.split_at(n_pieces);
+    let number = |w: &[u8; 4]| u32::from_le_bytes(*w);
+    let split = |[piece, axis, at]: &[[u8; 4]; 3]| Split {
+        piece: number(piece),
+        axis: number(axis),
+        at: f32::from_le_bytes(*at),
+    };
+    let shape = Shape {
+        root,
+        children: references
+            .as_chunks()
+            .0
+            .iter()
+            .map(|pair: &[_; 2]| pair.map(|w| number(&w)))
+            .collect(),
+        order: order.iter().map(number).collect(),
+        splits: splits.as_chunks().0.iter().map(split).collect(),
+    };
     let micros = u64::from(word(24)) | u64::from(word(28)) << 32;
-    let tree = bvh::from_shape(root, &children, order, fragments).map_err(EntryFault::Tree)?;
+    let tree = bvh::from_shape(shape, input).map_err(EntryFault::Tree)?;
     Ok((tree, Duration::from_micros(micros)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bvh::Preset;
 
-    fn fragments() -> Vec<Fragment> {
+    /// Long triangles, some of which are split.
+    fn triangles(n: u32) -> Vec<[[f32; 3]; 3]> {
         let at = |i: u32| [(i % 13) as f32, (i / 13) as f32, (i % 7) as f32 * 0.3];
-        (0..100).map(|i| Fragment::new(at(i), at(i).map(|x| x + 0.5), i)).collect()
+        let triangle = |i: u32| {
+            let [p, q] = [at(i), at(i * 31 % 97 + 3)];
+            [p, q, q.map(|x| x + 0.125)]
+        };
+        (0..n).map(triangle).collect()
+    }
+
+    fn build(triangles: &[[[f32; 3]; 3]]) -> Tree {
+        let tree = bvh::build(Preset::Default, Input::of_triangles(triangles)).unwrap();
+        assert!(tree.splits.len() > 5);
+        tree
+    }
+
+    fn decoded(bytes: &[u8], n: u32) -> Result<(Tree, Duration), EntryFault> {
+        decode(bytes, &key(), &Input::of_triangles(&triangles(n)))
     }
 
     fn key() -> blake3::Hash {
@@ -168,7 +211,7 @@ mod tests {
     }
 
     fn good() -> Vec<u8> {
-        encode(&bvh::build(fragments()).unwrap(), &key(), Duration::from_micros(1234))
+        encode(&build(&triangles(100)), &key(), Duration::from_micros(1234))
     }
 
     /// Applies a change, renews the checksum, and expects a fault of the tree's own checks.
@@ -177,7 +220,7 @@ mod tests {
         change(&mut bytes);
         let hash = checksum(&bytes);
         bytes[HASH].copy_from_slice(hash.as_bytes());
-        assert_eq!(&decode(&bytes, &key(), &fragments()).unwrap_err(), expected);
+        assert_eq!(&decoded(&bytes, 100).unwrap_err(), expected);
     }
 
     fn put(bytes: &mut [u8], at: usize, word: u32) {
@@ -190,8 +233,8 @@ mod tests {
 
     #[test]
     fn a_tree_survives_bit_for_bit() {
-        let (tree, took) = decode(&good(), &key(), &fragments()).unwrap();
-        assert_eq!(tree, bvh::build(fragments()).unwrap());
+        let (tree, took) = decoded(&good(), 100).unwrap();
+        assert_eq!(tree, build(&triangles(100)));
         assert_eq!(took, Duration::from_micros(1234));
     }
 
@@ -201,7 +244,7 @@ mod tests {
         for bit in 0..8 * good.len() {
             let mut bytes = good.clone();
             bytes[bit / 8] ^= 1 << (bit % 8);
-            assert!(decode(&bytes, &key(), &fragments()).is_err(), "bit {bit}");
+            assert!(decoded(&bytes, 100).is_err(), "bit {bit}");
         }
     }
 
@@ -209,24 +252,24 @@ mod tests {
     fn every_other_length_is_noticed() {
         let good = good();
         for len in 0..good.len() {
-            let error = decode(&good[..len], &key(), &fragments()).unwrap_err();
+            let error = decoded(&good[..len], 100).unwrap_err();
             assert_eq!(error, EntryFault::Length);
         }
         let longer = [good.as_slice(), &[0]].concat();
-        assert_eq!(decode(&longer, &key(), &fragments()).unwrap_err(), EntryFault::Length);
+        assert_eq!(decoded(&longer, 100).unwrap_err(), EntryFault::Length);
     }
 
     #[test]
     fn foreign_files_are_named() {
         check_forged(|b| b[1] = b'P', &EntryFault::Magic);
-        check_forged(|b| put(b, 8, 2), &EntryFault::Version(2));
+        check_forged(|b| put(b, 8, 1), &EntryFault::Version(1));
         check_forged(|b| b[40] ^= 1, &EntryFault::Key);
         check_forged(|b| put(b, 16, u32::MAX), &EntryFault::Length);
-        let other = decode(&good(), &key(), &fragments()[..99]).unwrap_err();
+        let other = decoded(&good(), 99).unwrap_err();
         assert_eq!(other, EntryFault::Key);
         let mut bytes = good();
         *bytes.last_mut().unwrap() ^= 1;
-        assert_eq!(decode(&bytes, &key(), &fragments()).unwrap_err(), EntryFault::Checksum);
+        assert_eq!(decoded(&bytes, 100).unwrap_err(), EntryFault::Checksum);
     }
 
     #[test]
@@ -258,5 +301,11 @@ mod tests {
         // The same primitive twice; one that does not exist.
         check_forged(|b| b.copy_within(order..order + 4, order + 4), &tree(TreeFault::Permutation));
         check_forged(|b| put(b, order, u32::MAX), &tree(TreeFault::Permutation));
+        // A split of what is not there yet, along no axis, beside what it splits, nowhere.
+        let split = order + 4 * get(&good(), 20) as usize;
+        check_forged(|b| put(b, split, 100), &tree(TreeFault::Split));
+        check_forged(|b| put(b, split + 4, 3), &tree(TreeFault::Split));
+        check_forged(|b| put(b, split + 8, 1e9_f32.to_bits()), &tree(TreeFault::Split));
+        check_forged(|b| put(b, split + 8, f32::NAN.to_bits()), &tree(TreeFault::Split));
     }
 }

@@ -19,7 +19,7 @@ use super::order::{Declared, Ordered, order};
 use super::sky::LoweredSky;
 use super::sky_table::SkyTable;
 use super::{Loaded, camera, closed, light_tree, medium, motion, power, sky};
-use crate::bvh::{self, BuildReport, BvhError, Joined, Primitives};
+use crate::bvh::{self, BuildReport, BvhError, Joined, Preset, Primitives};
 use crate::cache::Cache;
 use crate::normalize::Normalization;
 use crate::weld::weld;
@@ -29,6 +29,8 @@ use crate::weld::weld;
 pub struct Counters {
     /// Triangles in the pack.
     pub triangles: u64,
+    /// Triangles in the leaves of the tree; those that were split count once for each piece.
+    pub references: u64,
     /// Triangles that had no area once positions were rounded; not in the pack.
     pub dropped_triangles: u64,
     /// Distinct vertex positions.
@@ -114,6 +116,7 @@ pub enum LowerError {
 pub fn lower(
     scene: &Scene,
     loaded: &Loaded,
+    preset: Preset,
     cache: &Cache,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Lowered, LowerError> {
@@ -138,14 +141,15 @@ pub fn lower(
     let start = Instant::now();
     let balls = normalised_spheres(&placement, &frame);
     let motions = motion::displacements(&placement, &frame).unwrap_or_default();
-    let (joined, trees) = build_tree(&placement, &corners, &balls, &motions, cache)?;
+    let (joined, trees) = build_tree(&placement, &corners, &balls, &motions, preset, cache)?;
     times.bvh = start.elapsed();
 
     let start = Instant::now();
     let declared = Declared { corners, welded, balls };
     let mut ordered = order(&placement, &declared, &joined);
     drop(declared);
-    counters.triangles = ordered.triangles.len() as u64;
+    counters.triangles = placement.shades.len() as u64;
+    counters.references = ordered.triangles.len() as u64;
     counters.spheres = ordered.spheres.len() as u64;
     counters.lights = ordered.lights.len() as u64;
     times.order = start.elapsed();
@@ -223,6 +227,7 @@ fn build_tree(
     corners: &[[[f32; 3]; 3]],
     balls: &[([f32; 3], f32)],
     motions: &[[f32; 3]],
+    preset: Preset,
     cache: &Cache,
 ) -> Result<(Joined, BuildReport), BvhError> {
     let sizes = placement.mesh_sizes();
@@ -234,7 +239,7 @@ fn build_tree(
         spheres: balls,
         sphere_motions: &sphere_motions,
     };
-    bvh::build_scene(&primitives, cache)
+    bvh::build_scene(&primitives, preset, cache)
 }
 
 /// How far each mesh and each sphere comes, from the displacements of things; empty where those are.

@@ -1,4 +1,7 @@
 //! Primitives in leaf order, lights numbered, each primitive knowing its light.
+//!
+//! A triangle that was split is there once for each of its pieces, with everything it has: whichever
+//! of them a ray meets, the answer is the same.
 
 use pack::abi::{self, LightKind, NONE};
 
@@ -48,8 +51,8 @@ pub(super) fn order(placement: &Placement, declared: &Declared, joined: &Joined)
 
 impl Ordered {
     fn connect_lights(&mut self, placement: &Placement, joined: &Joined) {
-        let triangle_at = inverse(&joined.triangle_order);
-        let sphere_at = inverse(&joined.sphere_order);
+        let triangle_at = first_places(&joined.triangle_order, placement.shades.len());
+        let sphere_at = first_places(&joined.sphere_order, placement.spheres.len());
         let geometry = Geometry {
             triangles: &self.triangles,
             triangle_at: &triangle_at,
@@ -58,23 +61,28 @@ impl Ordered {
         };
         let (lights, ids) = light::table(&placement.emitters, &geometry);
         self.lights = lights;
+        let mut light_of = vec![NONE; placement.shades.len()];
         for (emitter, id) in placement.emitters.iter().zip(ids) {
             for primitive in emitter.primitive..emitter.primitive + emitter.count {
                 if emitter.kind == LightKind::Sphere {
                     self.spheres[sphere_at[primitive as usize] as usize].light = id;
                 } else {
-                    self.shades[triangle_at[primitive as usize] as usize].light = id;
+                    light_of[primitive as usize] = id;
                 }
             }
+        }
+        for (shade, &primitive) in self.shades.iter_mut().zip(&joined.triangle_order) {
+            shade.light = light_of[primitive as usize];
         }
     }
 }
 
-/// Where each element went: `inverse(order)[order[i]] == i`.
-fn inverse(order: &[u32]) -> Vec<u32> {
-    let mut at = vec![0; order.len()];
+/// Where each of `n` primitives went; the first of several places.
+fn first_places(order: &[u32], n: usize) -> Vec<u32> {
+    let mut at = vec![NONE; n];
     for (new, &old) in (0..).zip(order) {
-        at[old as usize] = new;
+        let place = &mut at[old as usize];
+        *place = new.min(*place);
     }
     at
 }

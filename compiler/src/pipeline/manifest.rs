@@ -7,6 +7,7 @@ use pack::manifest::Named;
 use shaders::FeatureSet;
 
 use super::{FileRead, Options, features, load};
+use crate::bvh::Preset;
 use crate::lower::Lowered;
 
 /// What a manifest is made from.
@@ -40,9 +41,10 @@ impl Context<'_> {
             cameras: vec![self.declared(&scene.camera.name)],
             features_kept,
             features_left_out,
-            options: self.options.defines.iter().map(|(n, v)| format!("-D {n}={v}")).collect(),
+            options: self.named_options(),
             counters: vec![
                 ("triangles".to_owned(), counters.triangles),
+                ("triangles in leaves".to_owned(), counters.references),
                 ("triangles without area, left out".to_owned(), counters.dropped_triangles),
                 ("vertices".to_owned(), counters.vertices),
                 ("spheres".to_owned(), counters.spheres),
@@ -51,7 +53,15 @@ impl Context<'_> {
         }
     }
 
-    /// BLAKE3 over compiler version, overrides, scene texts and files.
+    /// What was asked for on the command line, where it is not what everybody gets.
+    fn named_options(&self) -> Vec<String> {
+        let preset = self.options.preset;
+        let bvh = (preset != Preset::default()).then(|| format!("--bvh {preset}"));
+        let defines = self.options.defines.iter().map(|(n, v)| format!("-D {n}={v}"));
+        defines.chain(bvh).collect()
+    }
+
+    /// BLAKE3 over compiler version, tree builder, overrides, scene texts and files.
     pub(super) fn recipe_id(&self) -> [u8; 32] {
         let mut hasher = blake3::Hasher::new();
         let mut field = |bytes: &[u8]| {
@@ -60,6 +70,7 @@ impl Context<'_> {
             hasher.update(bytes);
         };
         field(env!("CARGO_PKG_VERSION").as_bytes());
+        field(self.options.preset.recipe().as_bytes());
         for (name, value) in self.options.defines {
             field(name.as_bytes());
             field(value.as_bytes());

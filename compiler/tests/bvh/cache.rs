@@ -3,10 +3,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use compiler::bvh::{self, Primitives, Tree, build_scene};
+use compiler::bvh::{self, Input, Preset, Primitives, Tree, build_scene};
 use compiler::cache::{Cache, CacheStats, CacheWarning, EntryFault, Source};
 
-use crate::shapes::{Tri, degenerate, fragments};
+use crate::shapes::{Tri, degenerate};
 
 /// Large enough to be stored.
 const N: u32 = 20_000;
@@ -22,14 +22,14 @@ fn only_file(root: &Path) -> PathBuf {
 }
 
 fn soup() -> Tree {
-    bvh::build(fragments(&degenerate("soup", N))).unwrap()
+    bvh::build(Preset::Default, Input::of_triangles(&degenerate("soup", N))).unwrap()
 }
 
 #[test]
 fn the_second_time_is_loaded_and_equal() {
     let dir = tempfile::tempdir().unwrap();
     let cache = Cache::at(dir.path());
-    let run = || cache.tree(fragments(&degenerate("soup", N))).unwrap();
+    let run = || cache.tree(Preset::Default, Input::of_triangles(&degenerate("soup", N))).unwrap();
     let (first, second) = (run(), run());
     assert!(matches!(first.source, Source::Stored { .. }), "{:?}", first.source);
     assert!(matches!(second.source, Source::Loaded { .. }), "{:?}", second.source);
@@ -46,20 +46,58 @@ fn other_boxes_are_another_entry() {
     let dir = tempfile::tempdir().unwrap();
     let cache = Cache::at(dir.path());
     let mut triangles = degenerate("soup", N);
-    cache.tree(fragments(&triangles)).unwrap();
+    cache.tree(Preset::Default, Input::of_triangles(&triangles)).unwrap();
     triangles[777][1][2] += 0.125;
-    let other = cache.tree(fragments(&triangles)).unwrap();
+    let other = cache.tree(Preset::Default, Input::of_triangles(&triangles)).unwrap();
     assert!(matches!(other.source, Source::Stored { .. }));
     assert_eq!(cache.stats().unwrap().entries, 2);
+}
+
+#[test]
+fn every_builder_has_its_own_entry() {
+    let dir = tempfile::tempdir().unwrap();
+    let cache = Cache::at(dir.path());
+    let triangles = degenerate("long", N);
+    let run = |preset| cache.tree(preset, Input::of_triangles(&triangles)).unwrap();
+    for preset in Preset::ALL {
+        assert!(matches!(run(preset).source, Source::Stored { .. }), "{preset}");
+    }
+    for preset in Preset::ALL {
+        let loaded = run(preset);
+        assert!(matches!(loaded.source, Source::Loaded { .. }), "{preset}");
+        let built = bvh::build(preset, Input::of_triangles(&triangles)).unwrap();
+        assert_eq!(loaded.tree.splits.is_empty(), !preset.splits_triangles(), "{preset}");
+        assert_eq!(loaded.tree, built, "{preset}");
+    }
+}
+
+/// Two triangles may have the same boxes and other parts.
+#[test]
+fn other_corners_are_another_entry_where_triangles_are_split() {
+    let dir = tempfile::tempdir().unwrap();
+    let cache = Cache::at(dir.path());
+    let mut triangles = degenerate("long", N);
+    let run = |preset, triangles: &[Tri]| {
+        cache.tree(preset, Input::of_triangles(triangles)).unwrap().source
+    };
+    for preset in [Preset::Fast, Preset::Default] {
+        run(preset, &triangles);
+    }
+    triangles[777].swap(0, 1);
+    assert!(matches!(run(Preset::Fast, &triangles), Source::Loaded { .. }));
+    assert!(matches!(run(Preset::Default, &triangles), Source::Stored { .. }));
 }
 
 #[test]
 fn small_trees_and_disabled_caches_write_nothing() {
     let dir = tempfile::tempdir().unwrap();
     let cache = Cache::at(dir.path());
-    let small = cache.tree(fragments(&degenerate("soup", N - 1))).unwrap();
+    let small =
+        cache.tree(Preset::Default, Input::of_triangles(&degenerate("soup", N - 1))).unwrap();
     assert!(matches!(small.source, Source::Built { .. }));
-    let none = Cache::disabled().tree(fragments(&degenerate("soup", N))).unwrap();
+    let none = Cache::disabled()
+        .tree(Preset::Default, Input::of_triangles(&degenerate("soup", N)))
+        .unwrap();
     assert!(matches!(none.source, Source::Built { .. }));
     assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0);
     assert_eq!(Cache::disabled().stats().unwrap(), CacheStats::default());
@@ -76,7 +114,7 @@ fn apart(n_meshes: u8) -> Vec<Tri> {
 fn check_damage(damage: impl Fn(&mut Vec<u8>), expected: &EntryFault) {
     let dir = tempfile::tempdir().unwrap();
     let cache = Cache::at(dir.path());
-    let run = || cache.tree(fragments(&degenerate("soup", N))).unwrap();
+    let run = || cache.tree(Preset::Default, Input::of_triangles(&degenerate("soup", N))).unwrap();
     run();
     let file = only_file(dir.path());
     let mut bytes = fs::read(&file).unwrap();
@@ -100,7 +138,7 @@ fn check_damage(damage: impl Fn(&mut Vec<u8>), expected: &EntryFault) {
 #[test]
 fn every_kind_of_damage_is_repaired_with_a_warning() {
     check_damage(Vec::clear, &EntryFault::Length);
-    check_damage(|b| b.truncate(95), &EntryFault::Length);
+    check_damage(|b| b.truncate(103), &EntryFault::Length);
     check_damage(|b| b.truncate(b.len() / 2), &EntryFault::Length);
     check_damage(|b| b.push(0), &EntryFault::Length);
     check_damage(|b| b.resize(1 << 22, 0), &EntryFault::Length);
@@ -111,7 +149,8 @@ fn every_kind_of_damage_is_repaired_with_a_warning() {
     check_damage(|b| b[12] ^= 1, &EntryFault::Checksum);
     check_damage(|b| b[24] ^= 1, &EntryFault::Checksum);
     check_damage(|b| b[70] ^= 1, &EntryFault::Checksum);
-    check_damage(|b| b[96] ^= 1, &EntryFault::Checksum);
+    check_damage(|b| b[96] ^= 1, &EntryFault::Length);
+    check_damage(|b| b[104] ^= 1, &EntryFault::Checksum);
     check_damage(|b| *b.last_mut().unwrap() ^= 128, &EntryFault::Checksum);
     check_damage(|b| b.fill(0xff), &EntryFault::Magic);
 }
@@ -120,23 +159,26 @@ fn every_kind_of_damage_is_repaired_with_a_warning() {
 fn an_entry_under_another_name_is_not_taken() {
     let dir = tempfile::tempdir().unwrap();
     let cache = Cache::at(dir.path());
-    cache.tree(fragments(&degenerate("soup", N))).unwrap();
+    cache.tree(Preset::Default, Input::of_triangles(&degenerate("soup", N))).unwrap();
     let file = only_file(dir.path());
     let bytes = fs::read(&file).unwrap();
     cache.clear().unwrap();
-    cache.tree(fragments(&degenerate("flat", N))).unwrap();
+    cache.tree(Preset::Default, Input::of_triangles(&degenerate("flat", N))).unwrap();
     fs::write(only_file(dir.path()), bytes).unwrap();
-    let flat = cache.tree(fragments(&degenerate("flat", N))).unwrap();
+    let flat = cache.tree(Preset::Default, Input::of_triangles(&degenerate("flat", N))).unwrap();
     let Some(CacheWarning::Damaged { fault, .. }) = flat.warning else { panic!("no warning") };
     assert!(matches!(fault, EntryFault::Key | EntryFault::Length), "{fault:?}");
-    assert_eq!(flat.tree, bvh::build(fragments(&degenerate("flat", N))).unwrap());
+    assert_eq!(
+        flat.tree,
+        bvh::build(Preset::Default, Input::of_triangles(&degenerate("flat", N))).unwrap()
+    );
 }
 
 #[test]
 fn an_entry_that_is_a_folder_is_a_warning() {
     let dir = tempfile::tempdir().unwrap();
     let cache = Cache::at(dir.path());
-    let run = || cache.tree(fragments(&degenerate("soup", N))).unwrap();
+    let run = || cache.tree(Preset::Default, Input::of_triangles(&degenerate("soup", N))).unwrap();
     run();
     let file = only_file(dir.path());
     fs::remove_file(&file).unwrap();
@@ -161,10 +203,10 @@ fn an_unwritable_cache_is_one_warning() {
         spheres: &[],
         sphere_motions: &[],
     };
-    let (tree, report) = build_scene(&primitives, &Cache::at(&blocked)).unwrap();
+    let (tree, report) = build_scene(&primitives, Preset::Default, &Cache::at(&blocked)).unwrap();
     assert_eq!(report.warnings.len(), 1, "{:?}", report.warnings);
     assert!(matches!(report.warnings[0], CacheWarning::Unwritable { .. }));
-    assert_eq!(tree, build_scene(&primitives, &Cache::disabled()).unwrap().0);
+    assert_eq!(tree, build_scene(&primitives, Preset::Default, &Cache::disabled()).unwrap().0);
     assert_eq!(fs::read_to_string(&blocked).unwrap(), "not a directory");
 }
 
@@ -182,7 +224,7 @@ fn with_or_without_cache_the_scene_is_the_same() {
         spheres: &[],
         sphere_motions: &[],
     };
-    let run = |cache: &Cache| build_scene(&primitives, cache).unwrap();
+    let run = |cache: &Cache| build_scene(&primitives, Preset::Default, cache).unwrap();
     let (cold, first) = run(&cache);
     let (warm, second) = run(&cache);
     assert_eq!((first.groups, first.stored, first.loaded), (3, 2, 0));
@@ -198,7 +240,7 @@ fn clear_deletes_trees_and_nothing_else() {
     let dir = tempfile::tempdir().unwrap();
     let cache = Cache::at(dir.path());
     assert_eq!(cache.clear().unwrap(), CacheStats::default());
-    cache.tree(fragments(&degenerate("soup", N))).unwrap();
+    cache.tree(Preset::Default, Input::of_triangles(&degenerate("soup", N))).unwrap();
     let folder = only_file(dir.path()).parent().unwrap().to_owned();
     let keep = [dir.path().join("bvh/notes.bvh"), folder.join("mine.txt")];
     for path in &keep {
@@ -215,7 +257,8 @@ fn clear_deletes_trees_and_nothing_else() {
 fn pruning_deletes_what_was_used_least_recently() {
     let dir = tempfile::tempdir().unwrap();
     let cache = Cache::at(dir.path());
-    let run = |kind| cache.tree(fragments(&degenerate(kind, N))).unwrap();
+    let run =
+        |kind| cache.tree(Preset::Default, Input::of_triangles(&degenerate(kind, N))).unwrap();
     run("soup");
     let oldest = only_file(dir.path());
     let past = std::time::SystemTime::UNIX_EPOCH;

@@ -1,7 +1,8 @@
 //! Trees of groups joined into one.
 
 use compiler::bvh::{
-    self, BvhError, Fragment, Group, GroupKind, Joined, Primitives, SMALL_MESH, build_scene, join,
+    self, BvhError, Fragment, Group, GroupKind, Input, Joined, Preset, Primitives, SMALL_MESH,
+    build_scene, join,
 };
 use compiler::cache::Cache;
 use pack::abi::{ChildRef, NONE};
@@ -18,7 +19,7 @@ fn spheres(n: usize) -> Vec<([f32; 3], f32)> {
 fn check(triangles: &[Tri], mesh_sizes: &[usize], spheres: &[([f32; 3], f32)]) -> Joined {
     let primitives =
         Primitives { triangles, mesh_sizes, mesh_motions: &[], spheres, sphere_motions: &[] };
-    let (tree, report) = build_scene(&primitives, &Cache::disabled()).unwrap();
+    let (tree, report) = build_scene(&primitives, Preset::Fast, &Cache::disabled()).unwrap();
     assert_eq!((report.stored, report.loaded, report.warnings.len()), (0, 0, 0));
     let balls: Vec<_> =
         (0..).zip(spheres).map(|(i, &(c, r))| Fragment::of_sphere(c, r, i)).collect();
@@ -100,7 +101,7 @@ fn sizes_that_do_not_add_up_are_an_error() {
             spheres: &[],
             sphere_motions: &[],
         };
-        let error = build_scene(&primitives, &Cache::disabled()).unwrap_err();
+        let error = build_scene(&primitives, Preset::Fast, &Cache::disabled()).unwrap_err();
         assert_eq!(error, BvhError::Sizes { count: 10 });
     }
 }
@@ -125,7 +126,7 @@ fn own_groups(triangles: &[Tri], sizes: &[usize]) -> Vec<Group> {
         let (part, after) = rest.split_at(size);
         rest = after;
         let members = std::iter::once(start..start + u32::try_from(size).unwrap()).collect();
-        let tree = bvh::build(fragments(part)).unwrap();
+        let tree = bvh::build(Preset::Fast, Input::of_triangles(part)).unwrap();
         groups.push(Group { kind: GroupKind::Triangles, tree, members });
     }
     assert!(rest.is_empty());
@@ -161,7 +162,7 @@ fn tangled_meshes_become_one_tree() {
         spheres: &[],
         sphere_motions: &[],
     };
-    let (two, report) = build_scene(&primitives, &Cache::disabled()).unwrap();
+    let (two, report) = build_scene(&primitives, Preset::Fast, &Cache::disabled()).unwrap();
     assert!(report.merged);
     assert_eq!((report.groups, two.cost()), (3, one.cost()));
     let joined = join(&own_groups(&soup, &[SMALL_MESH; 2])).unwrap();
@@ -181,6 +182,6 @@ fn meshes_apart_keep_their_own_trees() {
         spheres: &[],
         sphere_motions: &[],
     };
-    let (_, report) = build_scene(&primitives, &Cache::disabled()).unwrap();
+    let (_, report) = build_scene(&primitives, Preset::Fast, &Cache::disabled()).unwrap();
     assert_eq!((report.groups, report.merged), (2, false));
 }

@@ -1,6 +1,6 @@
 //! Boxes of what moves while the shutter is open.
 
-use compiler::bvh::{BvhError, Fragment, Primitives, SMALL_MESH, build_scene};
+use compiler::bvh::{BvhError, Fragment, Preset, Primitives, SMALL_MESH, build_scene};
 use compiler::cache::Cache;
 
 use crate::shapes::{Rng, Tri, degenerate, fragments};
@@ -31,7 +31,7 @@ fn boxes_hold_what_moves_on_all_its_way() {
         spheres: &spheres,
         sphere_motions: &sphere_motions,
     };
-    let (tree, _) = build_scene(&primitives, &Cache::disabled()).unwrap();
+    let (tree, _) = build_scene(&primitives, Preset::Fast, &Cache::disabled()).unwrap();
     let of_triangle: Vec<[f32; 3]> = (sizes.iter().zip(motions))
         .flat_map(|(size, motion)| std::iter::repeat_n(motion, *size))
         .collect();
@@ -60,7 +60,7 @@ fn the_cache_tells_displacements_apart() {
             spheres: &[],
             sphere_motions: &[],
         };
-        build_scene(&primitives, &cache).unwrap()
+        build_scene(&primitives, Preset::Fast, &cache).unwrap()
     };
     let loaded = [&[][..], &[STILL], &[[0.1, 0.0, 0.0]], &[[0.2, 0.0, 0.0]], &[[0.1, 0.0, 0.0]]]
         .map(|motions| run(motions).1.loaded);
@@ -78,7 +78,7 @@ fn displacements_must_be_as_many_as_what_they_move() {
             spheres: &[(STILL, 1.0)],
             sphere_motions: &vec![STILL; balls],
         };
-        let error = build_scene(&primitives, &Cache::disabled()).unwrap_err();
+        let error = build_scene(&primitives, Preset::Fast, &Cache::disabled()).unwrap_err();
         assert_eq!(error, BvhError::Sizes { count: 10 });
     }
 }

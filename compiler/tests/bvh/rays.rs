@@ -3,7 +3,7 @@
 //! The slab test is that of the kernel, in `f32`; triangles are tested in `f64`, so that a hit is a
 //! hit of the real triangle and a tree that misses it is wrong.
 
-use compiler::bvh::{self, Joined, Primitives};
+use compiler::bvh::{self, Joined, Preset, Primitives};
 use compiler::cache::Cache;
 use pack::abi::ChildRef;
 
@@ -99,6 +99,19 @@ fn through_tree(ray: &Ray, tree: &Joined, triangles: &[Tri]) -> (Option<f64>, us
 
 /// Every ray must find through the tree exactly what it finds without; returns the hits.
 fn check(name: &str, triangles: &[Tri], sizes: &[usize], rays: &[Ray]) -> usize {
+    let expected: Vec<_> = rays.iter().map(|ray| brute(ray, triangles)).collect();
+    for preset in Preset::ALL {
+        check_preset(&format!("{preset} {name}"), preset, (triangles, sizes), (rays, &expected));
+    }
+    expected.iter().flatten().count()
+}
+
+fn check_preset(
+    name: &str,
+    preset: Preset,
+    (triangles, sizes): (&[Tri], &[usize]),
+    (rays, expected): (&[Ray], &[Option<f64>]),
+) {
     let primitives = Primitives {
         triangles,
         mesh_sizes: sizes,
@@ -106,17 +119,15 @@ fn check(name: &str, triangles: &[Tri], sizes: &[usize], rays: &[Ray]) -> usize 
         spheres: &[],
         sphere_motions: &[],
     };
-    let (tree, _) = bvh::build_scene(&primitives, &Cache::disabled()).unwrap();
-    let (mut hits, mut tested) = (0, 0);
-    for ray in rays {
+    let (tree, _) = bvh::build_scene(&primitives, preset, &Cache::disabled()).unwrap();
+    let mut tested = 0;
+    for (ray, expected) in rays.iter().zip(expected) {
         let (found, n) = through_tree(ray, &tree, triangles);
-        assert_eq!(found, brute(ray, triangles), "{name}: from {:?} along {:?}", ray.o, ray.d);
-        hits += usize::from(found.is_some());
+        assert_eq!(found, *expected, "{name}: from {:?} along {:?}", ray.o, ray.d);
         tested += n;
     }
     // The tree must be of use, too.
     assert!(tested < rays.len() * triangles.len().max(16) / 2, "{name}: {tested} tests");
-    hits
 }
 
 fn random_rays(n: usize, size: f32) -> Vec<Ray> {
@@ -136,9 +147,37 @@ fn random_rays_find_the_same_triangle_at_the_same_distance() {
     let soup = degenerate("soup", 3000);
     let hits = check("soup", &soup, &[3000], &random_rays(20_000, 1.0));
     assert!(hits > 2000, "{hits} hits");
-    for kind in ["nested", "flat", "far", "fan", "slivers", "same"] {
+    for kind in ["nested", "flat", "far", "fan", "slivers", "same", "long"] {
         check(kind, &normalised(kind, 1000), &[1000], &random_rays(3000, 1.0));
     }
+}
+
+/// Rays at the edges and corners of long triangles, along them, and along axes through them: where pieces
+/// meet, boxes are tight.
+#[test]
+fn rays_aimed_at_long_triangles_find_the_same() {
+    let triangles = normalised("long", 1500);
+    let mut rng = Rng::new(17);
+    let mut rays = Vec::new();
+    for t in &triangles {
+        let along = [0, 1, 2].map(|k| t[1][k] - t[0][k]);
+        for _ in 0..16 {
+            let s = [0.0, 1.0, 0.5, rng.unit()][rng.next() as usize % 4];
+            let target = [0, 1, 2].map(|k| t[0][k] + s * along[k]);
+            let o = match rng.next() % 3 {
+                0 => [0, 1, 2].map(|k| target[k] - 1.5 * along[k]),
+                1 => {
+                    let (mut o, axis) = (target, rng.next() as usize % 3);
+                    o[axis] = -2.0;
+                    o
+                }
+                _ => rng.point(2.0),
+            };
+            rays.push(Ray { o, d: [0, 1, 2].map(|k| target[k] - o[k]) });
+        }
+    }
+    let hits = check("long", &triangles, &[triangles.len()], &rays);
+    assert!(hits > rays.len() / 3, "{hits} of {}", rays.len());
 }
 
 #[test]

@@ -35,8 +35,10 @@ impl Rng {
 }
 
 /// Names of all degenerate kinds.
-pub(crate) const KINDS: [&str; 11] =
-    ["same", "point", "nested", "geom", "flat", "line", "far", "nan", "fan", "slivers", "soup"];
+pub(crate) const KINDS: [&str; 12] = [
+    "same", "point", "nested", "geom", "flat", "line", "far", "nan", "fan", "slivers", "soup",
+    "long",
+];
 
 /// `n` triangles of a kind.
 pub(crate) fn degenerate(kind: &str, n: u32) -> Vec<Tri> {
@@ -91,6 +93,13 @@ fn triangle(kind: &str, i: u32, n: u32, rng: &mut Rng) -> Tri {
         "slivers" => {
             let p = [0; 3].map(|_| rng.range(0.0, 1.0));
             [p, [0; 3].map(|_| rng.range(0.0, 1000.0)), [p[0] + 1e-4, p[1], p[2]]]
+        }
+        // Long and thin, in all directions, among many small ones: what spatial splits are for.
+        "long" => {
+            let p = rng.point(1.0);
+            let d = rng.point(if i.is_multiple_of(8) { 0.6 } else { 0.005 });
+            let end = [0, 1, 2].map(|k| p[k] + d[k]);
+            [p, end, [end[0] + 0.003, end[1], end[2] - 0.002]]
         }
         "soup" => {
             let p = rng.point(1.0);

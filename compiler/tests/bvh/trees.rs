@@ -2,72 +2,84 @@
 
 use std::time::{Duration, Instant};
 
-use compiler::bvh::{self, Bounds, Tree};
+use compiler::bvh::{self, Bounds, Fragment, Input, Preset, Tree};
 use pack::abi::{ChildRef, NONE};
 
-use crate::shapes::{KINDS, degenerate, fragments};
+use crate::shapes::{KINDS, Tri, degenerate, fragments};
 use crate::verify;
 
-fn on_threads(threads: usize, kind: &str, n: u32) -> Tree {
+fn build(preset: Preset, triangles: &[Tri]) -> Tree {
+    bvh::build(preset, Input::of_triangles(triangles)).unwrap()
+}
+
+fn on_threads(threads: usize, preset: Preset, kind: &str, n: u32) -> Tree {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    pool.install(|| bvh::build(fragments(&degenerate(kind, n)))).unwrap()
+    let triangles = degenerate(kind, n);
+    pool.install(|| build(preset, &triangles))
 }
 
 #[test]
 fn every_degenerate_input_gives_a_correct_tree_quickly() {
     for kind in KINDS {
-        let fragments = fragments(&degenerate(kind, 20_000));
-        let start = Instant::now();
-        let tree = bvh::build(fragments.clone()).unwrap();
-        let took = start.elapsed();
-        // Quadratic behaviour would take minutes; a loaded machine does not take 10 s.
-        assert!(took < Duration::from_secs(10), "{kind}: {took:?}");
-        verify::tree(&tree, &fragments);
+        let triangles = degenerate(kind, 20_000);
+        for preset in Preset::ALL {
+            let start = Instant::now();
+            let tree = build(preset, &triangles);
+            let took = start.elapsed();
+            // Quadratic behaviour would take minutes; a loaded machine does not take 10 s.
+            assert!(took < Duration::from_secs(10), "{preset} {kind}: {took:?}");
+            verify::tree(&tree, &triangles);
+        }
     }
 }
 
 #[test]
 fn coincident_primitives_give_a_balanced_tree() {
     for kind in ["same", "point"] {
-        let tree = on_threads(2, kind, 20_000);
-        // 8 * 2^12 > 20,000 > 8 * 2^11
-        assert_eq!(tree.depth, 12, "{kind}");
+        for preset in [Preset::Fast, Preset::Default, Preset::Extreme] {
+            let tree = on_threads(2, preset, kind, 20_000);
+            // 8 * 2^12 > 20,000 > 8 * 2^11
+            assert_eq!(tree.depth, 12, "{preset} {kind}");
+        }
     }
 }
 
 #[test]
 fn threads_do_not_change_a_byte() {
     // Beyond the sizes from which work is divided.
-    for (kind, n) in [("soup", 150_000), ("nested", 20_000), ("same", 20_000)] {
-        let one = on_threads(1, kind, n);
+    let kinds = [("soup", 150_000), ("long", 70_000), ("nested", 20_000), ("same", 20_000)];
+    for (preset, (kind, n)) in Preset::ALL.into_iter().flat_map(|p| kinds.map(|k| (p, k))) {
+        let one = on_threads(1, preset, kind, n);
         for threads in [2, 4] {
-            let many = on_threads(threads, kind, n);
+            let many = on_threads(threads, preset, kind, n);
             assert_eq!(
                 bytemuck::cast_slice::<_, u8>(&one.nodes),
                 bytemuck::cast_slice::<_, u8>(&many.nodes),
-                "{kind}"
+                "{preset} {kind}"
             );
-            assert_eq!((one.root, &one.order), (many.root, &many.order), "{kind}");
+            assert_eq!((one.root, &one.order), (many.root, &many.order), "{preset} {kind}");
+            assert_eq!(one.splits, many.splits, "{preset} {kind}");
         }
     }
 }
 
 #[test]
 fn small_counts_give_small_trees() {
-    let empty = bvh::build(Vec::new()).unwrap();
-    assert_eq!((empty.root, empty.nodes.len(), empty.depth), (NONE, 0, 0));
-    assert_eq!(empty.bounds, Bounds::EMPTY);
-    for n in 1..=40 {
-        for kind in KINDS {
-            let fragments = fragments(&degenerate(kind, n));
-            let tree = bvh::build(fragments.clone()).unwrap();
-            verify::tree(&tree, &fragments);
-            if n == 1 {
-                assert_eq!(ChildRef::decode(tree.root), ChildRef::Triangles { first: 0, count: 1 });
-            }
+    for preset in Preset::ALL {
+        let empty = build(preset, &[]);
+        assert_eq!((empty.root, empty.nodes.len(), empty.depth), (NONE, 0, 0));
+        assert_eq!(empty.bounds, Bounds::EMPTY);
+    }
+    let one = ChildRef::Triangles { first: 0, count: 1 };
+    for (preset, kind) in Preset::ALL.into_iter().flat_map(|p| KINDS.map(|k| (p, k))) {
+        for n in 1..=40 {
+            let triangles = degenerate(kind, n);
+            let tree = build(preset, &triangles);
+            verify::tree(&tree, &triangles);
+            assert!(n > 1 || ChildRef::decode(tree.root) == one, "{preset} {kind}");
         }
     }
-    let same = |n| bvh::build(fragments(&degenerate("same", n))).unwrap();
+    let same = |n| build(Preset::Fast, &degenerate("same", n));
     assert_eq!(ChildRef::decode(same(8).root), ChildRef::Triangles { first: 0, count: 8 });
     assert_eq!(same(9).nodes.len(), 1);
 }
@@ -75,10 +87,64 @@ fn small_counts_give_small_trees() {
 #[test]
 fn separate_primitives_are_separated() {
     let far_apart = [0.0, 1000.0_f32].map(|x| [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x, 1.0, 1.0]]);
-    let tree = bvh::build(fragments(&far_apart)).unwrap();
-    assert_eq!(tree.nodes.len(), 1);
-    assert_eq!(tree.nodes[0].left_hi, [1.0, 1.0, 1.0]);
-    assert_eq!(tree.nodes[0].right_lo, [1000.0, 0.0, 0.0]);
+    for preset in [Preset::Fast, Preset::Default, Preset::Extreme] {
+        let tree = build(preset, &far_apart);
+        assert_eq!(tree.nodes.len(), 1);
+        assert_eq!(tree.nodes[0].left_hi, [1.0, 1.0, 1.0]);
+        assert_eq!(tree.nodes[0].right_lo, [1000.0, 0.0, 0.0]);
+    }
+}
+
+#[test]
+fn pieces_are_few_and_worth_it() {
+    let triangles = degenerate("long", 20_000);
+    let whole = build(Preset::Fast, &triangles);
+    for (preset, most) in [(Preset::Default, 26_000), (Preset::Extreme, 32_000)] {
+        let tree = build(preset, &triangles);
+        assert!(tree.splits.len() > 4000, "{preset}: {}", tree.splits.len());
+        assert!(tree.order.len() <= most, "{preset}: {} references", tree.order.len());
+        assert!(sah(&tree) < 0.8 * sah(&whole), "{preset}: {} {}", sah(&tree), sah(&whole));
+    }
+}
+
+/// Two crossed bundles of long triangles beside one that is a million times larger.
+#[test]
+fn giants_do_not_switch_splits_off() {
+    let mut triangles = degenerate("long", 20_000);
+    let alone = build(Preset::Default, &triangles).splits.len();
+    triangles.push([[-1e6, -1.5, -1e6], [1e6, -1.5, -1e6], [0.0, -1.5, 2e6]]);
+    let beside = build(Preset::Default, &triangles).splits.len();
+    assert!(beside * 10 >= alone * 9, "{beside} splits, without the giant {alone}");
+}
+
+/// What moves is not where its corners say; boxes have none.
+#[test]
+fn what_must_stay_whole_does() {
+    let triangles = degenerate("long", 5000);
+    let mut input = Input::of_triangles(&triangles);
+    for f in &mut input.fragments[..2500] {
+        *f = f.swept([0.01, 0.0, 0.0]);
+    }
+    let swept = input.fragments.clone();
+    let tree = bvh::build(Preset::Default, input).unwrap();
+    verify::fragments(&tree, &triangles, &swept);
+    let mut times = vec![0; triangles.len()];
+    tree.primitives().iter().for_each(|&i| times[i as usize] += 1);
+    assert!(times[..2500].iter().all(|&n| n == 1));
+    assert!(times[2500..].iter().any(|&n| n > 1));
+    let boxes = bvh::build(Preset::Default, Input::of_boxes(fragments(&triangles))).unwrap();
+    assert_eq!(boxes, build(Preset::Fast, &triangles));
+    let bad = Fragment::of_triangle(&[[0.0; 3], [f32::NAN, 0.0, 0.0], [0.0, 1.0, 0.0]], 0);
+    assert!(bad.is_whole());
+}
+
+#[test]
+fn names_of_builders_are_read_back() {
+    for preset in Preset::ALL {
+        assert_eq!(preset.to_string().parse(), Ok(preset));
+    }
+    let error = "sbvh".parse::<Preset>().unwrap_err().to_string();
+    assert!(error.contains("`sbvh`") && error.contains("`extreme`"), "{error}");
 }
 
 /// Cost by the surface-area heuristic, node and primitive both 1, in units of the root's area.
@@ -102,7 +168,7 @@ fn sah(tree: &Tree) -> f64 {
 /// took as many steps and tests as through a tree by Embree (medium quality).
 #[test]
 fn trees_stay_as_good_as_they_are() {
-    let soup = sah(&on_threads(2, "soup", 50_000));
-    let flat = sah(&on_threads(2, "flat", 50_000));
+    let soup = sah(&on_threads(2, Preset::Fast, "soup", 50_000));
+    let flat = sah(&on_threads(2, Preset::Fast, "flat", 50_000));
     assert!(soup < 177.0 && flat < 13.7, "soup {soup}, flat {flat}");
 }

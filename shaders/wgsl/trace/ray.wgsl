@@ -15,7 +15,7 @@ struct Ray {
     // Unit.
     dir: vec3f,
     // The primitive that the ray starts on, as in `Hit::prim`, or `NONE`. A triangle cannot be hit
-    // again; of a sphere only the other end of the chord counts.
+    // again, in any of its places; of a sphere only the other end of the chord counts.
     skip: u32,
     // `NONE`: find the nearest hit. Otherwise a shadow ray towards this light: any hit ends the search,
     // and primitives of this light are not there.
@@ -38,7 +38,7 @@ fn ray_miss(t_max: f32) -> Hit {
     return Hit(t_max, NONE, vec2f(0.0));
 }
 
-// Whether a candidate replaces the best hit so far. On equal distance the lower index wins, so that the
+// Whether a sphere replaces the best hit so far. On equal distance the lower index wins, so that the
 // picture of coinciding surfaces does not depend on the order of traversal.
 fn ray_accepts(best: Hit, t: f32, prim: u32) -> bool {
     return t > 0.0 && (t < best.t || (t == best.t && prim < best.prim));

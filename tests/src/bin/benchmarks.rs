@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use compiler::bvh::{Fragment, build};
+use compiler::bvh::{Fragment, Input, Preset, build};
 use cpu_time::ProcessTime;
 use pack::abi::Triangle;
 use pack::{MapMode, Pack};
@@ -143,7 +143,7 @@ fn bvh(pack: &Path, text: &mut String) -> Result<(), Box<dyn std::error::Error>>
             .map(|(i, t)| Fragment::of_triangle(&[t.v0, t.v1, t.v2], i))
             .collect();
         let start = ProcessTime::now();
-        pool.install(|| build(fragments))?;
+        pool.install(|| build(Preset::Fast, Input::of_boxes(fragments)))?;
         seconds.push(start.elapsed().as_secs_f64());
     }
     let cpu = median(seconds);

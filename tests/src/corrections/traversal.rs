@@ -5,7 +5,7 @@
 
 #![expect(clippy::cast_possible_truncation, reason = "the guide and the kernel compute in f32")]
 
-use compiler::bvh::{Fragment, Tree, build};
+use compiler::bvh::{Fragment, Input, Preset, Tree, build};
 use glam::{DVec3, Vec3};
 use pack::abi::{NONE, Triangle};
 use runtime::kernel::f32 as single;
@@ -26,7 +26,8 @@ pub fn sheets(n: usize) -> Vec<Corners> {
 fn ours(triangles: &[Corners]) -> (Tree, Bench) {
     let corners = |t: &Corners| t.map(|v| v.to_array());
     let fragments = (0..).zip(triangles).map(|(i, t)| Fragment::of_triangle(&corners(t), i));
-    let tree = build(fragments.collect()).expect("few triangles have a tree");
+    let tree = build(Preset::Fast, Input::of_boxes(fragments.collect()))
+        .expect("few triangles have a tree");
     let record = |i: &u32| {
         let [v0, v1, v2] = corners(&triangles[*i as usize]);
         Triangle { v0, id0: 3 * i, v1, id1: 3 * i + 1, v2, id2: 3 * i + 2 }

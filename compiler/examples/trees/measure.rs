@@ -1,0 +1,144 @@
+//! Building, timing and walking trees.
+
+use std::error::Error;
+use std::fs;
+use std::path::Path;
+
+use compiler::bvh::{self, Joined, Preset, Primitives};
+use compiler::cache::Cache;
+use glam::Vec3;
+use pack::abi::{ChildRef, Node};
+
+use crate::other;
+use crate::scene::Tri;
+use crate::walk::{Child, Cost, Ray, Shape, To, Walked};
+
+/// Builds of each tree; odd, so that the median is a measured value.
+pub(crate) const ROUNDS: usize = 3;
+
+/// One tree.
+pub(crate) struct Row {
+    pub(crate) name: String,
+    /// Median of CPU seconds.
+    pub(crate) cpu: f64,
+    /// Bytes a triangle, where it is known.
+    pub(crate) peak: Option<f64>,
+    pub(crate) references: usize,
+    pub(crate) shape: Shape,
+    pub(crate) cost: Cost,
+    n_rays: usize,
+}
+
+/// All trees of one scene.
+pub(crate) struct Rows {
+    pub(crate) n_triangles: usize,
+    pub(crate) rows: Vec<Row>,
+}
+
+impl Row {
+    pub(crate) fn per_ray(&self, count: u64) -> f64 {
+        count as f64 / self.n_rays as f64
+    }
+}
+
+/// What one build took: CPU seconds, and bytes a triangle where known.
+type Took = (f64, Option<f64>);
+
+/// Builds and walks every tree.
+pub(crate) fn all(triangles: &[Tri], yardstick: Option<&Path>) -> Result<Rows, Box<dyn Error>> {
+    let folder = tempfile::tempdir()?;
+    let other =
+        yardstick.map(|p| other::Yardstick::new(p, folder.path(), triangles)).transpose()?;
+    let mut took: Vec<(String, Vec<Took>)> = Vec::new();
+    let mut trees: Vec<Walked> = Vec::new();
+    for round in 0..ROUNDS {
+        let mut note = |name: String, time: Took, tree: &mut dyn FnMut() -> Walked| match round {
+            0 => {
+                took.push((name, vec![time]));
+                trees.push(tree());
+            }
+            _ => took.iter_mut().filter(|t| t.0 == name).for_each(|t| t.1.push(time)),
+        };
+        for preset in Preset::ALL {
+            let (tree, time) = build(preset, triangles)?;
+            note(format!("`{preset}`"), time, &mut || walked(&tree));
+        }
+        for (mode, name) in other::MODES {
+            let Some(other) = &other else { continue };
+            let (cpu, tree) = other.build(mode)?;
+            note(name.to_owned(), (cpu, None), &mut || other::read(&tree));
+        }
+    }
+    let rays = trees[1].rays(triangles);
+    let rows = took.into_iter().zip(&trees).map(|((name, mut times), tree)| {
+        times.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (cpu, peak) = times[ROUNDS / 2];
+        row(name, (cpu, peak), tree, triangles, &rays)
+    });
+    let rows: Vec<Row> = rows.collect();
+    for row in &rows {
+        assert_eq!(row.cost.hits, rows[0].cost.hits, "{} finds other hits", row.name);
+    }
+    Ok(Rows { n_triangles: triangles.len(), rows })
+}
+
+fn row(name: String, (cpu, peak): Took, tree: &Walked, triangles: &[Tri], rays: &[Ray]) -> Row {
+    let mut seen = vec![false; triangles.len()];
+    tree.order.iter().for_each(|&i| seen[i as usize] = true);
+    assert!(seen.iter().all(|s| *s), "{name} has lost triangles");
+    let references = tree.order.len();
+    let (shape, cost) = (tree.shape(), tree.cost(rays, triangles));
+    Row { name, cpu, peak, references, shape, cost, n_rays: rays.len() }
+}
+
+fn build(preset: Preset, triangles: &[Tri]) -> Result<(Joined, Took), Box<dyn Error>> {
+    let primitives = Primitives {
+        triangles,
+        mesh_sizes: &[triangles.len()],
+        mesh_motions: &[],
+        spheres: &[],
+        sphere_motions: &[],
+    };
+    let (cpu, resident) = (cpu_seconds(), fresh_resident());
+    let (tree, _) = bvh::build_scene(&primitives, preset, &Cache::disabled())?;
+    let cpu = cpu_seconds() - cpu;
+    let peak = (peak_resident() - resident) / triangles.len() as f64;
+    Ok((tree, (cpu, (peak > 0.0).then_some(peak))))
+}
+
+fn walked(tree: &Joined) -> Walked {
+    let to = |word| match ChildRef::decode(word) {
+        ChildRef::Inner(node) => To::Inner(node),
+        ChildRef::Triangles { first, count } | ChildRef::Spheres { first, count } => {
+            To::Leaf { first, count }
+        }
+        ChildRef::Empty => To::Leaf { first: 0, count: 0 },
+    };
+    let child =
+        |lo, hi, word| Child { lo: Vec3::from_array(lo), hi: Vec3::from_array(hi), to: to(word) };
+    let pair =
+        |n: &Node| [child(n.left_lo, n.left_hi, n.left), child(n.right_lo, n.right_hi, n.right)];
+    Walked { nodes: tree.nodes.iter().map(pair).collect(), order: tree.triangle_order.clone() }
+}
+
+/// User and system time of this process, where the system tells (0 elsewhere).
+fn cpu_seconds() -> f64 {
+    let stat = fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let ticks = |i| stat.split(' ').nth(i).and_then(|s: &str| s.parse().ok()).unwrap_or(0.0);
+    (ticks(13) + ticks(14)) / 100.0
+}
+
+/// Most resident bytes since `fresh_resident`.
+fn peak_resident() -> f64 {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let peak = status.lines().find_map(|l| l.strip_prefix("VmHWM:"));
+    1024.0 * peak.and_then(|s| s.trim().trim_end_matches(" kB").parse().ok()).unwrap_or(0.0)
+}
+
+/// Resident bytes now; starts a new peak where the system can.
+fn fresh_resident() -> f64 {
+    // Refused without harm on systems that cannot.
+    let _ = fs::write("/proc/self/clear_refs", "5");
+    let pages = fs::read_to_string("/proc/self/statm").unwrap_or_default();
+    4096.0 * pages.split(' ').nth(1).and_then(|s| s.parse().ok()).unwrap_or(0.0)
+}

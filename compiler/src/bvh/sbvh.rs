@@ -1,0 +1,293 @@
+//! The recursion with spatial splits: fragments and room for more in, nodes and pieces out.
+//!
+//! Every range owns a slice of the fragments that ends in free places, as many as references may be
+//! added below it. A spatial split turns fragments that cross its plane into two pieces: the left one
+//! keeps its number, the right one takes the next free place, whose position is its number. So numbers
+//! and bytes are the same for any number of threads. [`Split`]s tell how pieces came to be; replayed in
+//! order (`pieces`) they give the same boxes again.
+//!
+//! What decides is relative to the node and never to the scene: a few giant triangles do not switch
+//! splits off elsewhere.
+
+use pack::abi::{CHILD_INNER, MAX_LEAF, Node};
+
+use super::Corners;
+use super::binned::{self, Bins, Mapping};
+use super::build::{self, MAX_INNER_LEVELS, NODE_COST, PARALLEL_BINS_MIN, PARALLEL_MIN, Part};
+use super::cut::Cut;
+use super::fragment::{Bounds, Fragment};
+use super::pieces::Split;
+use super::preset::{Fineness, SpatialRules};
+use super::spatial::{Slabs, SpatialBins, SpatialSplit};
+use super::sweep::{self, SWEEP_MAX};
+use super::words::leaf_word;
+
+/// A spatial split must cost at most this part of the best object split: pieces take memory.
+const MAX_COST: f32 = 0.985;
+/// No range is given room for more than this many references for each that it has.
+const MOST_PER_REFERENCE: usize = 4;
+/// Steps of a fragment's length, by the length of its node.
+const SIZE_STEPS: f32 = 1_073_741_824.0; // 2^30
+
+/// A range of fragments to turn into a subtree.
+pub(super) struct Range<'a> {
+    /// The fragments, then free places.
+    pub(super) frags: &'a mut [Fragment],
+    /// How many fragments there are.
+    pub(super) n: usize,
+    /// What becomes of the free places; as many as there are.
+    pub(super) splits: &'a mut [Split],
+    /// Number of the piece that takes the first free place.
+    pub(super) next: u32,
+    /// Inner levels that may still be used.
+    levels: u32,
+    bounds: Bounds,
+    /// Bounds of the doubled centroids.
+    centroids: Bounds,
+}
+
+/// What does not change during a build.
+#[derive(Clone, Copy)]
+struct Context<'a> {
+    corners: Corners<'a>,
+    rules: SpatialRules,
+}
+
+/// The two sides of a split: how many go where, and their bounds.
+pub(super) struct Sides {
+    pub(super) counts: [usize; 2],
+    pub(super) bounds: [Bounds; 2],
+    pub(super) centroids: [Bounds; 2],
+}
+
+/// Builds the nodes over `n` fragments, which are followed by free places. Returns the tree in pieces
+/// and what happened at the free places; those not used keep `Split::UNUSED`.
+pub(super) fn build(
+    frags: &mut [Fragment],
+    n: usize,
+    splits: &mut [Split],
+    corners: Corners,
+    rules: SpatialRules,
+) -> (Bounds, Part) {
+    let [bounds, centroids] = build::measure(&frags[..n]);
+    let next = u32::try_from(n).expect("at most 2^27 primitives");
+    let levels = MAX_INNER_LEVELS;
+    let range = Range { frags, n, splits, next, levels, bounds, centroids };
+    (bounds, fork(range, Context { corners, rules }))
+}
+
+fn fork(range: Range, context: Context) -> Part {
+    if range.n <= PARALLEL_MIN {
+        let mut chunk = Chunk {
+            nodes: Vec::with_capacity(range.n / 2),
+            order: Vec::with_capacity(range.n + range.splits.len()),
+        };
+        let root = chunk.grow(range, context);
+        let Chunk { nodes, order } = chunk;
+        return Part::Chunk { nodes, root, order };
+    }
+    let [left, right] = divide(range, context);
+    let node = build::node_of(&left.bounds, &right.bounds);
+    let (left, right) = rayon::join(|| fork(left, context), || fork(right, context));
+    Part::Fork { node, sides: Box::new([left, right]) }
+}
+
+/// A subtree that is built on one thread.
+struct Chunk {
+    nodes: Vec<Node>,
+    /// Numbers of pieces in leaf order.
+    order: Vec<u32>,
+}
+
+impl Chunk {
+    /// Appends the subtree's nodes and returns the word of its root.
+    fn grow(&mut self, mut range: Range, context: Context) -> u32 {
+        let sides = if range.n <= SWEEP_MAX {
+            match small(&mut range, context) {
+                Some(sides) => range.part(&sides),
+                None => return self.leaf(&range),
+            }
+        } else {
+            divide(range, context)
+        };
+        let [left, right] = sides;
+        let at = self.nodes.len();
+        self.nodes.push(build::node_of(&left.bounds, &right.bounds));
+        let left = self.grow(left, context);
+        let right = self.grow(right, context);
+        (self.nodes[at].left, self.nodes[at].right) = (left, right);
+        CHILD_INNER | u32::try_from(at).expect("a tree has few enough nodes")
+    }
+
+    fn leaf(&mut self, range: &Range) -> u32 {
+        let first = u32::try_from(self.order.len()).expect("a chunk is small");
+        self.order.extend(range.frags[..range.n].iter().map(Fragment::piece));
+        leaf_word(first, range.n)
+    }
+}
+
+/// Divides a range of more than `SWEEP_MAX` fragments in two.
+fn divide<'a>(mut range: Range<'a>, context: Context) -> [Range<'a>; 2] {
+    let frags = &range.frags[..range.n];
+    let parallel = range.n >= PARALLEL_BINS_MIN && rayon::current_num_threads() > 1;
+    let mapping = Mapping::new(&range.centroids);
+    let bins =
+        if parallel { Bins::fill_parallel(frags, &mapping) } else { Bins::fill(frags, &mapping) };
+    let object = bins.best().filter(|s| range.fits([s.n_left, range.n - s.n_left]));
+    let limit = match &object {
+        Some(s) if range.overlaps(&s.left, &s.right, context.rules.min_overlap) => {
+            let n_right = range.n - s.n_left;
+            s.left.half_area() * s.n_left as f32 + s.right.half_area() * n_right as f32
+        }
+        Some(_) => 0.0,
+        None => range.bounds.half_area() * range.n as f32,
+    };
+    if let Some(sides) = spatial(&mut range, context, limit, parallel) {
+        return range.part(&sides);
+    }
+    let frags = &mut range.frags[..range.n];
+    let (n_left, bounds, centroids) = match object {
+        Some(s) => (s.n_left, [s.left, s.right], binned::partition(frags, &mapping, &s)),
+        None => build::median(frags, range.centroids.widest_axis()),
+    };
+    let counts = [n_left, frags.len() - n_left];
+    range.part(&Sides { counts, bounds, centroids })
+}
+
+/// Divides a range of at most `SWEEP_MAX` fragments in two, or `None` if it is to be a leaf.
+fn small(range: &mut Range, context: Context) -> Option<Sides> {
+    let n = range.n;
+    let may_be_leaf = n <= MAX_LEAF as usize;
+    range.frags[..n].sort_unstable_by_key(Fragment::index);
+    if n == 1 || (may_be_leaf && range.levels == 0) {
+        return None;
+    }
+    let best = sweep::best(&range.frags[..n]);
+    let cost = best.map_or(f32::INFINITY, |s| s.cost);
+    let as_leaf =
+        if may_be_leaf { range.bounds.half_area() * (n as f32 - NODE_COST) } else { f32::INFINITY };
+    let fitting = best.filter(|s| range.fits([s.n_left, n - s.n_left]));
+    let looks = match &fitting {
+        Some(s) => range.overlaps(&s.left, &s.right, context.rules.min_overlap),
+        None => true,
+    };
+    let limit = if looks { cost.min(as_leaf) } else { 0.0 };
+    if let Some(sides) = spatial(range, context, limit, false) {
+        return Some(sides);
+    }
+    if may_be_leaf && cost >= as_leaf {
+        return None;
+    }
+    let frags = &mut range.frags[..n];
+    let s = fitting.unwrap_or_else(|| sweep::median(frags));
+    sweep::partition(frags, &s);
+    let (left, right) = frags.split_at(s.n_left);
+    let centroids = [left, right]
+        .map(|part| part.iter().fold(Bounds::EMPTY, |b, f| b.with_point(f.centroid2())));
+    Some(Sides { counts: [s.n_left, n - s.n_left], bounds: [s.left, s.right], centroids })
+}
+
+/// Makes the best spatial split if it costs less than `MAX_COST * limit` and there is room for its
+/// pieces.
+fn spatial(range: &mut Range, context: Context, limit: f32, parallel: bool) -> Option<Sides> {
+    if range.splits.is_empty() || !(limit > 0.0 && limit.is_finite()) {
+        return None;
+    }
+    let limit = limit * MAX_COST;
+    let best = match context.rules.bins {
+        Fineness::Coarse if range.n <= SWEEP_MAX => candidate::<8>(range, context, parallel),
+        Fineness::Fine if range.n > SWEEP_MAX => candidate::<32>(range, context, parallel),
+        Fineness::Coarse | Fineness::Fine => candidate::<16>(range, context, parallel),
+    };
+    let best = best.filter(|s| s.cost < limit)?;
+    let mut cut = Cut::new(&range.frags[..range.n], context.corners, best.plane);
+    cut.limit_pieces(&range.frags[..range.n], range.splits.len());
+    let [n_left, n_right] = cut.counts;
+    let sound = n_left > 0
+        && n_right > 0
+        && cut.n_pieces() <= range.splits.len()
+        && cut.cost() < limit
+        && range.fits(cut.counts);
+    sound.then(|| cut.make(range))
+}
+
+/// The best plane between `N` slabs.
+fn candidate<const N: usize>(
+    range: &Range,
+    context: Context,
+    parallel: bool,
+) -> Option<SpatialSplit> {
+    let slabs = Slabs::<N>::new(&range.bounds);
+    let frags = &range.frags[..range.n];
+    let bins = if parallel {
+        SpatialBins::fill_parallel(frags, context.corners, &slabs)
+    } else {
+        SpatialBins::fill(frags, context.corners, &slabs)
+    };
+    bins.best(&slabs)
+}
+
+impl<'a> Range<'a> {
+    /// Whether median splits would get both sides into leaves within the levels below this one.
+    fn fits(&self, counts: [usize; 2]) -> bool {
+        self.levels > 0 && build::levels_needed(counts[0].max(counts[1])) < self.levels
+    }
+
+    /// Whether two children share so much of this node that a spatial split may be better.
+    fn overlaps(&self, left: &Bounds, right: &Bounds, min_overlap: f32) -> bool {
+        left.overlap(*right) > min_overlap * self.bounds.half_area()
+    }
+
+    /// The two sides as ranges of their own; free places go with them.
+    fn part(self, sides: &Sides) -> [Range<'a>; 2] {
+        let Range { frags, n, splits, next, levels, bounds, .. } = self;
+        let [n_left, n_right] = sides.counts;
+        debug_assert_eq!(n, n_left + n_right);
+        let free = splits.len();
+        let unit = bounds.half_area().sqrt();
+        let for_left = share(free, [&frags[..n_left], &frags[n_left..n]], unit);
+        // The first of the right side make room for the left side's free places.
+        let moved = for_left.min(n_right);
+        frags.copy_within(n_left..n_left + moved, n + for_left - moved);
+        let (left, right) = frags.split_at_mut(n_left + for_left);
+        let (left_splits, right_splits) = splits.split_at_mut(for_left);
+        let right_next = next + u32::try_from(for_left).expect("at most 2^27 pieces");
+        let side = |frags, splits, next, k: usize| Range {
+            frags,
+            n: sides.counts[k],
+            splits,
+            next,
+            levels: levels - 1,
+            bounds: sides.bounds[k],
+            centroids: sides.centroids[k],
+        };
+        [side(left, left_splits, next, 0), side(right, right_splits, right_next, 1)]
+    }
+}
+
+/// How many of the free places the left side gets: its part of the sum of the fragments' sizes, in
+/// units of the size `unit`. Long fragments among short ones are what is split.
+fn share(free: usize, sides: [&[Fragment]; 2], unit: f32) -> usize {
+    if free == 0 {
+        return 0;
+    }
+    let wants = |part: &[Fragment]| part.iter().map(|f| size(f, unit)).sum::<u64>();
+    let [l, r] = sides.map(|part| u128::from(wants(part)) + part.len() as u128);
+    let for_left = free as u128 * l / (l + r);
+    let for_left = usize::try_from(for_left).expect("at most `free`");
+    let most = sides.map(|part| part.len() * MOST_PER_REFERENCE);
+    // What the right side could not use is better off on the left.
+    for_left.min(most[0]).max(free.saturating_sub(most[1]))
+}
+
+/// The length of a fragment as a whole number, so that sums do not depend on their order.
+fn size(f: &Fragment, unit: f32) -> u64 {
+    let parts = f.bounds().half_area().sqrt() / unit * SIZE_STEPS;
+    if f.is_whole() || !parts.is_finite() {
+        return 0;
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 2^30")]
+    {
+        parts as u64
+    }
+}
