@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::generate::{Extent, Generated, generate};
+
 /// An example scene: `scenes/NAME/NAME.rts`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Example {
@@ -13,8 +15,14 @@ pub struct Example {
     pub assets: &'static [&'static str],
 }
 
-/// Every example, in the order in which a newcomer should try them.
+/// Every example: first what `cargo demo` renders without a name, then in the order in which a
+/// newcomer should try them.
 pub const EXAMPLES: &[Example] = &[
+    Example {
+        name: "shrine",
+        about: "a shrine at dusk: 1,500,000 triangles, cherry blossom, a pond, lanterns",
+        assets: &["shrine"],
+    },
     Example {
         name: "weekend",
         about: "many spheres in the three classic materials, under a gradient sky",
@@ -61,12 +69,12 @@ impl Example {
         scenes.join(self.name).join(format!("{}.rts", self.name))
     }
 
-    /// Writes what the scene needs and does not have yet; returns the files written.
+    /// Writes the files that the scene needs; returns what was written.
     ///
     /// # Errors
     /// Any failure to write a file.
-    pub fn generate(&self, scenes: &Path) -> std::io::Result<Vec<PathBuf>> {
+    pub fn generate(&self, scenes: &Path, extent: Extent) -> std::io::Result<Vec<Generated>> {
         let dir = scenes.join(self.name).join("generated");
-        self.assets.iter().map(|asset| crate::generate::generate(asset, &dir)).collect()
+        self.assets.iter().map(|asset| generate(asset, &dir, extent)).collect()
     }
 }

@@ -9,6 +9,8 @@ use compiler::pipeline::{self, Compiled, Options};
 use lang::scene::Scene;
 use lang::source::{LoadError, Loader};
 use pack::{Checked, Pack};
+use scenes::catalog::Example;
+use scenes::generate::Extent;
 
 /// A loader for texts without imports.
 struct NoImports;
@@ -16,6 +18,56 @@ struct NoImports;
 impl Loader for NoImports {
     fn load(&mut self, _: &str, _: &str) -> Result<(String, String), LoadError> {
         Err(LoadError::NotFound)
+    }
+}
+
+/// Finds imports beside the file that imports them.
+struct Beside;
+
+impl Loader for Beside {
+    fn load(&mut self, importing: &str, path: &str) -> Result<(String, String), LoadError> {
+        let file = Path::new(importing).with_file_name(path);
+        let text = std::fs::read_to_string(&file).map_err(|_| LoadError::NotFound)?;
+        Ok((file.display().to_string(), text))
+    }
+}
+
+/// Compiles an example, its texts copied and its assets generated (reduced) into a temporary
+/// folder, so that tests never write into the checkout.
+///
+/// # Panics
+/// When it is not a scene, or when it warns: examples are to be followed.
+#[must_use]
+pub fn example(example: &Example, defines: &[(&str, &str)]) -> Compiled {
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+    let copy = tempfile::tempdir().expect("a temporary directory can be made");
+    let source = example.source(copy.path());
+    let root = source.parent().expect("a scene has a folder").to_owned();
+    copy_texts(&scenes.join(example.name), &root);
+    example.generate(copy.path(), Extent::Reduced).expect("assets can be generated");
+    let text = std::fs::read_to_string(&source).expect("an example has a text");
+    let defines = defines.iter().map(|(name, value)| ((*name).into(), (*value).into()));
+    let options = lang::Options { defines: defines.collect() };
+    let name = source.display().to_string();
+    let analysis = lang::analyze(&name, &text, &mut Beside, &options);
+    let trees = (Preset::default(), &Cache::disabled());
+    let compiled = finish(&root, trees, analysis, &options.defines, |_| {});
+    let (compiled, diagnostics) = compiled;
+    assert!(diagnostics.is_empty(), "{diagnostics}");
+    compiled
+}
+
+/// Copies the `.rts` files of a folder and of the folders in it.
+fn copy_texts(from: &Path, to: &Path) {
+    std::fs::create_dir_all(to).expect("writable");
+    for entry in std::fs::read_dir(from).expect("an example has a folder") {
+        let path = entry.expect("readable").path();
+        let name = path.file_name().expect("entries have names");
+        if path.is_dir() && name != "generated" {
+            copy_texts(&path, &to.join(name));
+        } else if path.extension().is_some_and(|e| e == "rts") {
+            std::fs::copy(&path, to.join(name)).expect("writable");
+        }
     }
 }
 
@@ -64,6 +116,17 @@ fn compile_as(
 ) -> Compiled {
     let name = root.join("test.rts").display().to_string();
     let analysis = lang::analyze(&name, text, &mut NoImports, &lang::Options::default());
+    finish(root, (preset, cache), analysis, &[], change).0
+}
+
+/// The pack of a checked text, and what was said about it, a line a diagnostic.
+fn finish(
+    root: &Path,
+    (preset, cache): (Preset, &Cache),
+    analysis: lang::Analysis,
+    defines: &[(String, String)],
+    change: impl FnOnce(&mut Scene),
+) -> (Compiled, String) {
     let mut diagnostics = analysis.diagnostics;
     let shown = |list: &[lang::diagnostic::Diagnostic]| {
         let lines = list.iter().map(|d| lang::diagnostic::short(&analysis.sources, d));
@@ -71,9 +134,9 @@ fn compile_as(
     };
     let Some(mut scene) = analysis.scene else { panic!("{}", shown(&diagnostics)) };
     change(&mut scene);
-    let options = Options { root, preset, cache, limits: Limits::default(), defines: &[] };
+    let options = Options { root, preset, cache, limits: Limits::default(), defines };
     match pipeline::compile(&scene, &analysis.sources, &options, &mut diagnostics) {
-        Ok(compiled) => compiled,
+        Ok(compiled) => (compiled, shown(&diagnostics)),
         Err(error) => panic!("{error}\n{}", shown(&diagnostics)),
     }
 }

@@ -19,14 +19,9 @@ fn goldens() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("goldens")
 }
 
-/// The example compiled with its assets generated into a temporary copy of its folder, so that
-/// tests never write into the checkout.
+/// The example compiled as `scene::example` does, the largest one with less in it.
 fn example_pack(example: &Example) -> Pack<pack::Checked> {
-    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
-    let text = std::fs::read_to_string(example.source(&scenes)).expect("an example has a text");
-    let dir = tempfile::tempdir().expect("a temporary directory can be made");
-    example.generate(dir.path()).expect("assets can be generated");
-    let compiled = scene::compile_in(&dir.path().join(example.name), &text);
+    let compiled = scene::example(example, &[]);
     Pack::from_bytes(scene::bytes(&compiled)).expect("what was written can be read")
 }
 

@@ -1,5 +1,7 @@
 //! Does the grain of wood run along the things made of it?
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 use lang::diagnostic::{Code, Diagnostic};
 use lang::scene::{Instance, MaterialModel, Scene};
@@ -18,7 +20,7 @@ pub(super) fn check(
 ) -> Option<Diagnostic> {
     let material = &scene.materials[instance.material?];
     let MaterialModel::Wood { grain, grain_span, .. } = &material.model else { return None };
-    let size = extent(thing, corners);
+    let size = extent(thing, &longest_piece(thing, corners));
     let long = longest(size)?;
     if long == *grain {
         return None;
@@ -44,6 +46,53 @@ pub(super) fn check(
             .with_note("timber is cut along the grain; end grain would show on the long faces")
             .with_help(help),
     )
+}
+
+/// The triangles of the longest piece: a mesh of many planks is not one beam. Triangles with a corner
+/// in common hang together. Only where the whole looks like a beam: else there is nothing to find.
+fn longest_piece(thing: &Thing, corners: &[[DVec3; 3]]) -> Vec<[DVec3; 3]> {
+    if longest(extent(thing, corners)).is_none() {
+        return corners.to_vec();
+    }
+    let mut pieces = BTreeMap::<u32, Vec<[DVec3; 3]>>::new();
+    for (piece, triangle) in pieces_of(corners).into_iter().zip(corners) {
+        pieces.entry(piece).or_default().push(*triangle);
+    }
+    let length = |piece: &Vec<[DVec3; 3]>| extent(thing, piece).max_element();
+    let longer = |a: &Vec<[DVec3; 3]>, b: &Vec<[DVec3; 3]>| length(a).total_cmp(&length(b));
+    pieces.into_values().max_by(longer).unwrap_or_default()
+}
+
+/// The piece of each triangle.
+fn pieces_of(corners: &[[DVec3; 3]]) -> Vec<u32> {
+    let mut ids = BTreeMap::new();
+    let mut parent: Vec<u32> = Vec::new();
+    let mut first = Vec::with_capacity(corners.len());
+    for triangle in corners {
+        let vertices = triangle.map(|p| {
+            // Equal up to rounding of where the thing stands: micrometres.
+            *ids.entry((p * 1e6).round().as_i64vec3().to_array()).or_insert_with(|| {
+                parent.push(parent.len() as u32);
+                parent.len() as u32 - 1
+            })
+        });
+        for vertex in vertices {
+            let (a, b) = (root(&mut parent, vertices[0]), root(&mut parent, vertex));
+            parent[a.max(b) as usize] = a.min(b);
+        }
+        first.push(vertices[0]);
+    }
+    first.into_iter().map(|vertex| root(&mut parent, vertex)).collect()
+}
+
+/// The representative of `id`; halves the path to it.
+fn root(parent: &mut [u32], mut id: u32) -> u32 {
+    while parent[id as usize] != id {
+        let up = parent[parent[id as usize] as usize];
+        parent[id as usize] = up;
+        id = up;
+    }
+    id
 }
 
 /// Sizes of the smallest box around the corners whose sides are the thing's axes, metres.
@@ -91,5 +140,23 @@ mod tests {
         let at = |x, y, z| thing.origin + rotation * DVec3::new(x, y, z);
         let size = extent(&thing, &[[at(0.0, 0.0, 0.0), at(4.0, 0.2, 0.0), at(0.0, 0.0, 0.3)]]);
         assert!((size - DVec3::new(4.0, 0.2, 0.3)).abs().max_element() < 1e-12, "{size}");
+    }
+
+    #[test]
+    fn planks_side_by_side_are_not_one_beam() {
+        let thing = Thing {
+            name: "deck".to_owned(),
+            origin: DVec3::ZERO,
+            rotation: glam::DMat3::IDENTITY,
+            motion: DVec3::ZERO,
+        };
+        let plank = |k: f64| {
+            let at = |x: f64, z: f64| DVec3::new(x, 0.0, z + 0.3 * k);
+            let (a, b, c, d) = (at(0.0, 0.0), at(1.0, 0.0), at(1.0, 0.2), at(0.0, 0.2));
+            [[a, b, c], [a, c, d]]
+        };
+        let deck: Vec<_> = (0..20).flat_map(|k| plank(f64::from(k))).collect();
+        assert_eq!(longest(extent(&thing, &deck)), Some(2));
+        assert_eq!(longest(extent(&thing, &longest_piece(&thing, &deck))), Some(0));
     }
 }

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use scenes::catalog::{self, EXAMPLES, Example};
 use scenes::console;
+use scenes::generate::{Extent, Generated};
 
 const EXAMPLES_HELP: &str = "\
 Examples:
@@ -63,8 +64,11 @@ fn main() -> ExitCode {
 fn run(example: &Example, args: &Args) -> std::io::Result<ExitCode> {
     let scenes = scenes_dir();
     std::fs::create_dir_all(&args.out)?;
-    for file in example.generate(&scenes)? {
-        console::line(&format!("generated {}", file.display()));
+    for Generated { path, holds } in example.generate(&scenes, Extent::Full)? {
+        let what = holds.map(|w| {
+            format!(": {} triangles in four GLB files, {} textures", w.triangles, w.textures)
+        });
+        console::line(&format!("generated {}{}", path.display(), what.unwrap_or_default()));
     }
     let pack = args.out.join(example.name).with_extension("pack");
     let source = example.source(&scenes);

@@ -18,7 +18,8 @@ fn triangles_trace(first: u32, count: u32, ray: Ray, shear: TriangleShear, best:
         if (i == end) { break; }
         let tri = load_triangle(i);
         let h = triangle_intersect(tri, dispatch_triangle_origin(i, tri.id0, ray.origin, ray.time), shear);
-        if (triangles_accept(hit, h.x, i) && !triangles_same(i, ray.skip) && candidate_triangle(i, h.yz, ray.light)) {
+        let accepted = triangles_accept(hit, h.x, i) && !triangles_same(i, ray.skip);
+        if (accepted && candidate_triangle(i, h.yz, ray.light)) {
             hit = Hit(h.x, i, h.yz);
         }
         i += 1u;
@@ -30,7 +31,10 @@ fn triangles_trace(first: u32, count: u32, ray: Ray, shear: TriangleShear, best:
 // before a sphere, and the first of two triangles in the order of what they are: never in the order of
 // their places, of which one that was split has several.
 fn triangles_accept(best: Hit, t: f32, i: u32) -> bool {
-    return t > 0.0 && (t < best.t || (t == best.t && ((best.prim & PRIM_OTHER) != 0u || triangles_before(i, best.prim))));
+    if (t != best.t) {
+        return t > 0.0 && t < best.t;
+    }
+    return t > 0.0 && ((best.prim & PRIM_OTHER) != 0u || triangles_before(i, best.prim));
 }
 
 // Whether `j`, as in `Hit::prim`, is the triangle `i` itself, which may have several places.

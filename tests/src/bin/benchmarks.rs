@@ -58,7 +58,7 @@ fn processor() -> String {
 fn mesh_pack(root: &Path) -> Result<PathBuf, Box<dyn std::error::Error>> {
     let example = scenes::catalog::find("mesh").ok_or("the mesh example exists")?;
     let dir = root.join("scenes");
-    example.generate(&dir)?;
+    example.generate(&dir, scenes::generate::Extent::Full)?;
     let source = example.source(&dir);
     let folder = source.parent().ok_or("a scene lies in a folder")?;
     let compiled = scene::compile_in(folder, &std::fs::read_to_string(&source)?);
