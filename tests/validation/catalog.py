@@ -2,7 +2,7 @@
 
 import math
 
-from model import (Box, Camera, Diffuse, Glass, Lamp, Medium, Mesh, Metal, Rectangle, Scene,
+from model import (Box, Camera, Conductor, Diffuse, Glass, Lamp, Medium, Mesh, Metal, Rectangle, Scene,
                    Sphere, SphereLight, Textured, Thing, grey)
 
 
@@ -77,6 +77,22 @@ SMOOTH_GLASS = Scene(
         *checkers(8, 4),
         Thing(Sphere(0.4), "glass", at=(-0.6, 0.45, 0.2)),
         Thing(Box(0.5, 0.7, 0.4), "glass", at=(0.55, 0.36, 0.3), rotate=(0, 25, 0)),
+        Thing(Sphere(0.35), "dense", at=(0.1, 0.4, -0.7)),
+    ],
+    lights=[SphereLight((1.5, 2.6, -0.5), 0.6, (6, 5, 4))],
+    sky=(0.35, 0.45, 0.6),
+    depth=16,
+)
+
+ROUGH_GLASS = Scene(
+    name="rough_glass",
+    tests="light through and off GGX glass of roughness 0.3, 0.5 and 0.8, without compensation",
+    camera=Camera((0, 1.6, 4), (0, 0.35, 0), 30),
+    materials={**CHECKERS, "frosted": Glass(1.5, 0.3), "dull": Glass(1.5, 0.5), "dense": Glass(2, 0.8)},
+    things=[
+        *checkers(8, 4),
+        Thing(Sphere(0.4), "frosted", at=(-0.6, 0.45, 0.2)),
+        Thing(Box(0.5, 0.7, 0.4), "dull", at=(0.55, 0.36, 0.3), rotate=(0, 25, 0)),
         Thing(Sphere(0.35), "dense", at=(0.1, 0.4, -0.7)),
     ],
     lights=[SphereLight((1.5, 2.6, -0.5), 0.6, (6, 5, 4))],
@@ -175,10 +191,10 @@ METALS = Scene(
     camera=Camera((0, 1.5, 4), (0, 0.42, 0), 30),
     materials={
         **CHECKERS,
-        "metal0": Metal((0.95, 0.75, 0.4), 0.2),
-        "metal1": Metal((0.95, 0.75, 0.4), 0.4),
-        "metal2": Metal((0.95, 0.75, 0.4), 0.7),
-        "metal3": Metal((0.95, 0.75, 0.4), 1),
+        "metal0": Conductor((0.95, 0.75, 0.4), 0.2),
+        "metal1": Conductor((0.95, 0.75, 0.4), 0.4),
+        "metal2": Conductor((0.95, 0.75, 0.4), 0.7),
+        "metal3": Conductor((0.95, 0.75, 0.4), 1),
     },
     things=[
         *checkers(8, 4),
@@ -239,5 +255,5 @@ MESH = Scene(
     depth=8,
 )
 
-ALL = [DIFFUSE, SPHERE_LIGHT, MESH, SMOOTH_GLASS, WATER, SLAB, MILK, METALS,
+ALL = [DIFFUSE, SPHERE_LIGHT, MESH, SMOOTH_GLASS, ROUGH_GLASS, WATER, SLAB, MILK, METALS,
        VEACH]

@@ -172,8 +172,9 @@ fn globe() -> String {
 
 /// Ten thousand triangles that glow, chosen by the table and by the tree.
 fn many(text: &mut String) -> Result<(), Box<dyn std::error::Error>> {
+    // The camera looks down: lights smaller than a pixel would be most of what it sees of noise.
     let spread = "instance glow { shape = mesh, material = lamp }
-camera eye: perspective { from = (0, 1.6, 8)m, to = (0, 1.2, 0)m, fov.vertical = 50deg }";
+camera eye: perspective { from = (0, 2.8, 5)m, to = (0, 0, 0)m, fov.vertical = 40deg }";
     let compact = "instance glow { shape = mesh, material = lamp, at = (0, 1.5, 0)m, scale = 0.4 }
 instance back { shape = rectangle(size: (60, 60)m), material = grey, rotate = (90, 0, 0)deg, at = (0, 0, -4)m }
 camera eye: perspective { from = (0, 2, 6)m, to = (0, 1.2, 0)m, fov.vertical = 50deg }";
