@@ -1,0 +1,85 @@
+//! Files that a scene uses: meshes and images.
+
+use super::Name;
+use crate::source::Span;
+
+/// A mesh file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asset {
+    /// Declared name.
+    pub name: Name,
+    /// Path relative to the directory of the `.rts` file that declares it, as written.
+    pub path: String,
+    /// The path literal.
+    pub path_span: Span,
+    /// Which importer reads it.
+    pub format: AssetFormat,
+}
+
+/// What a mesh file needs to be told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AssetFormat {
+    /// Wavefront OBJ: metres per unit of the file, and which axis points up.
+    Obj {
+        /// Metres per unit.
+        metres_per_unit: f64,
+        /// Up axis of the file.
+        up: Axis,
+    },
+    /// glTF 2.0, text or binary: metres and +Y up by its specification.
+    Gltf,
+}
+
+/// A signed coordinate axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// +x.
+    PlusX,
+    /// −x.
+    MinusX,
+    /// +y.
+    PlusY,
+    /// −y.
+    MinusY,
+    /// +z.
+    PlusZ,
+    /// −z.
+    MinusZ,
+}
+
+/// An image file used by materials.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Texture {
+    /// Declared name.
+    pub name: Name,
+    /// Path relative to the declaring `.rts` file, as written.
+    pub path: String,
+    /// The path literal.
+    pub path_span: Span,
+    /// How its numbers are to be read.
+    pub space: ColorSpace,
+    /// Outside 0..1 along u and v.
+    pub wrap: [Wrap; 2],
+}
+
+/// Encoding of an image's colour channels; alpha is always linear.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ColorSpace {
+    /// sRGB transfer curve.
+    Srgb,
+    /// Linear colour.
+    Linear,
+    /// Linear numbers that are not colours: roughness, normals.
+    Data,
+}
+
+/// What lies outside 0..1 of a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wrap {
+    /// The image repeats.
+    Repeat,
+    /// The edge texel goes on.
+    Clamp,
+    /// The image repeats mirrored.
+    Mirror,
+}

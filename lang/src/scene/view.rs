@@ -1,0 +1,80 @@
+//! Who looks, and what becomes of it.
+
+use super::Name;
+
+/// A perspective camera.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Camera {
+    /// Declared name.
+    pub name: Name,
+    /// Eye, metres.
+    pub from: [f64; 3],
+    /// Point in the middle of the image, metres.
+    pub to: [f64; 3],
+    /// Which way is up in the image; not parallel to the view.
+    pub up: [f64; 3],
+    /// Horizontal field of view at the film's aspect ratio, radians.
+    pub fov_horizontal: f64,
+    /// Vertical field of view at the film's aspect ratio, radians.
+    pub fov_vertical: f64,
+    /// Radius of the lens, metres; 0 is a pinhole.
+    pub lens_radius: f64,
+    /// Distance to the plane of focus, metres, > 0.
+    pub focus_distance: f64,
+    /// Shutter opens and closes, seconds relative to the frame.
+    pub shutter: [f64; 2],
+}
+
+/// What the picture is written to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    /// Declared name.
+    pub name: Name,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Stops; the PNG is multiplied by `2^exposure`.
+    pub exposure: f64,
+    /// Response of the PNG.
+    pub tone_map: ToneMap,
+}
+
+/// Film response of the PNG; the EXR is always linear.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ToneMap {
+    /// sRGB encoding only.
+    None,
+    /// `x / (1 + x)`.
+    Reinhard,
+    /// Filmic.
+    Aces,
+}
+
+/// Where random numbers come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sampler {
+    /// Owen-scrambled Sobol pairs.
+    Sobol,
+    /// Independent numbers.
+    Pcg,
+}
+
+/// How the picture is made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Render {
+    /// Declared name.
+    pub name: Name,
+    /// What is between things: index into `Scene::media`.
+    pub atmosphere: Option<usize>,
+    /// Samples per pixel.
+    pub samples: u32,
+    /// Longest path in segments.
+    pub max_depth: u32,
+    /// Bounce from which Russian roulette may end a path.
+    pub roulette_depth: u32,
+    /// Seed of the image.
+    pub seed: u32,
+    /// Where random numbers come from.
+    pub sampler: Sampler,
+    /// Where the picture goes, as written; relative to the working directory of `rtr`.
+    pub output: Option<String>,
+}
