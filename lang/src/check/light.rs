@@ -8,8 +8,11 @@ use crate::scene::{Light, Name, Rgb, Sky, SkyModel, Tint};
 
 /// Checks how the fields of a light go together.
 pub(super) fn check_light(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
-    let both = |a: &str, b: &str| Some((fields.span(a)?, fields.span(b)?));
-    let both = |a, b| both(a, b).filter(|_| fields.has(a) && fields.has(b));
+    let both = |a: &str, b: &str| {
+        let written = fields.has(a) && fields.has(b);
+        written.then_some(())?;
+        Some((fields.span(a)?, fields.span(b)?))
+    };
     for (a, b, what) in [
         ("strength", "power", "how bright the light is"),
         ("center", "direction", "where the light is"),
@@ -24,6 +27,17 @@ pub(super) fn check_light(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
             ev.fault(error);
             return;
         }
+    }
+    if let (Some(center), Some(span)) =
+        (fields.vector::<3>("center"), fields.span("angular_radius"))
+        && fields.has("angular_radius")
+        && length(center) == 0.0
+    {
+        let text = "a light at the origin of the world has no `angular_radius`";
+        let error = Diagnostic::error(Code("E0401"), text)
+            .at(span, "seen from the origin, it is all around")
+            .with_help("write its `radius`");
+        ev.fault(error);
     }
     if let Some(lacks) = lacking(fields) {
         let text = format!("`{}` lacks `{lacks}`", ev.program.name(id));

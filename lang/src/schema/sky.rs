@@ -68,7 +68,7 @@ const GRADIENT: TypeSchema = TypeSchema {
             FieldType::Number(Bounds::new(Dim::NONE, "", 0.01, 0.99)),
             Default::Number(0.38),
             "Where the middle band lies, as a share of the height between `blend.low` and the zenith: \
-             0.38 is height 0.287 above the default horizon.",
+             with the default `blend.low`, 0.38 is height 0.287.",
         ),
         Field::new(
             "blend.low",
