@@ -23,6 +23,7 @@ mod medium;
 mod motion;
 mod object;
 mod order;
+mod pieces;
 mod power;
 mod principled;
 mod sheet;

@@ -140,7 +140,7 @@ pub fn lower(
 
     let start = Instant::now();
     let balls = normalised_spheres(&placement, &frame);
-    let motions = motion::displacements(&placement, &frame).unwrap_or_default();
+    let motions = motion::displacements(&placement, &frame);
     let (joined, trees) = build_tree(&placement, &corners, &balls, &motions, preset, cache)?;
     times.bvh = start.elapsed();
 
@@ -166,7 +166,7 @@ pub fn lower(
     let media = medium::records(scene, materials.waters(), &frame);
     let (mut materials, textures) = materials.into_records();
     medium::mark(scene, &mut materials);
-    let objects = objects(&placement, &materials, &frame);
+    let objects = objects(&placement, &materials, &frame, !motions.is_empty());
     forget_objects(&objects, &mut ordered);
     motion::mark(&objects, &mut ordered);
     let (textures, texels) = textures.into_records();
@@ -252,14 +252,15 @@ fn motions_of(placement: &Placement, of_thing: &[[f32; 3]]) -> (Vec<[f32; 3]>, V
     (placement.mesh_motions(of_thing), spheres)
 }
 
-/// The things of the scene, if one moves or any material asks about them.
+/// The things of the scene, if one of them `moves` or any material asks about them.
 fn objects(
     placement: &Placement,
     materials: &[abi::Material],
     frame: &Normalization,
+    moves: bool,
 ) -> Vec<abi::Object> {
     let asked = materials.iter().any(|material| material.flags & material_flag::OBJECT != 0);
-    if !asked && motion::displacements(placement, frame).is_none() {
+    if !asked && !moves {
         return Vec::new();
     }
     placement.things.iter().map(|thing| thing.record(frame)).collect()

@@ -13,7 +13,7 @@ use super::light::{Emitter, luminance};
 use super::material::{MaterialRef, MaterialTable};
 use super::motion::Shutter;
 use super::object::Thing;
-use super::sheet::{Sheets, pieces};
+use super::sheet::{Sheets, pieces_of};
 use crate::import::{Attribute, MeshFile, Part};
 
 /// Geometry of the whole scene when the shutter opens, before normalisation, in order of declaration.
@@ -307,7 +307,7 @@ impl Placer<'_, '_> {
 
     fn part(&mut self, part: &Part, material: u32) {
         let emits = emits(material, self.materials);
-        let pieces = if self.sheets.is_some() { pieces(part) } else { Vec::new() };
+        let pieces = if self.sheets.is_some() { pieces_of(part) } else { Vec::new() };
         for tri_idx in 0..part.triangles.len() {
             let piece = pieces.get(tri_idx).copied().unwrap_or(0);
             if !self.exists(piece) {

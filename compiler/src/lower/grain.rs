@@ -7,6 +7,7 @@ use lang::diagnostic::{Code, Diagnostic};
 use lang::scene::{Instance, MaterialModel, Scene};
 
 use super::object::Thing;
+use super::pieces::pieces;
 
 /// A thing is a beam when it is this many times as long as it is wide.
 const BEAM: f64 = 3.0;
@@ -54,45 +55,16 @@ fn longest_piece(thing: &Thing, corners: &[[DVec3; 3]]) -> Vec<[DVec3; 3]> {
     if longest(extent(thing, corners)).is_none() {
         return corners.to_vec();
     }
-    let mut pieces = BTreeMap::<u32, Vec<[DVec3; 3]>>::new();
-    for (piece, triangle) in pieces_of(corners).into_iter().zip(corners) {
-        pieces.entry(piece).or_default().push(*triangle);
+    // Equal up to rounding of where the thing stands: micrometres.
+    let key = |p: DVec3| (p * 1e6).round().as_i64vec3().to_array();
+    let numbers = pieces(corners.iter().map(|triangle| triangle.map(key)));
+    let mut members = BTreeMap::<u32, Vec<[DVec3; 3]>>::new();
+    for (piece, triangle) in numbers.into_iter().zip(corners) {
+        members.entry(piece).or_default().push(*triangle);
     }
     let length = |piece: &Vec<[DVec3; 3]>| extent(thing, piece).max_element();
     let longer = |a: &Vec<[DVec3; 3]>, b: &Vec<[DVec3; 3]>| length(a).total_cmp(&length(b));
-    pieces.into_values().max_by(longer).unwrap_or_default()
-}
-
-/// The piece of each triangle.
-fn pieces_of(corners: &[[DVec3; 3]]) -> Vec<u32> {
-    let mut ids = BTreeMap::new();
-    let mut parent: Vec<u32> = Vec::new();
-    let mut first = Vec::with_capacity(corners.len());
-    for triangle in corners {
-        let vertices = triangle.map(|p| {
-            // Equal up to rounding of where the thing stands: micrometres.
-            *ids.entry((p * 1e6).round().as_i64vec3().to_array()).or_insert_with(|| {
-                parent.push(parent.len() as u32);
-                parent.len() as u32 - 1
-            })
-        });
-        for vertex in vertices {
-            let (a, b) = (root(&mut parent, vertices[0]), root(&mut parent, vertex));
-            parent[a.max(b) as usize] = a.min(b);
-        }
-        first.push(vertices[0]);
-    }
-    first.into_iter().map(|vertex| root(&mut parent, vertex)).collect()
-}
-
-/// The representative of `id`; halves the path to it.
-fn root(parent: &mut [u32], mut id: u32) -> u32 {
-    while parent[id as usize] != id {
-        let up = parent[parent[id as usize] as usize];
-        parent[id as usize] = up;
-        id = up;
-    }
-    id
+    members.into_values().max_by(longer).unwrap_or_default()
 }
 
 /// Sizes of the smallest box around the corners whose sides are the thing's axes, metres.

@@ -33,11 +33,11 @@ impl Shutter {
     }
 }
 
-/// How far each thing comes, normalised frame; `None` where nothing moves.
-pub(super) fn displacements(placement: &Placement, frame: &Normalization) -> Option<Vec<[f32; 3]>> {
+/// How far each thing comes, normalised frame; empty where nothing moves.
+pub(super) fn displacements(placement: &Placement, frame: &Normalization) -> Vec<[f32; 3]> {
     let all: Vec<[f32; 3]> =
         placement.things.iter().map(|thing| thing.displacement(frame)).collect();
-    all.iter().flatten().any(|component| *component != 0.0).then_some(all)
+    if all.iter().flatten().all(|component| *component == 0.0) { Vec::new() } else { all }
 }
 
 /// Where the corners of moving triangles and the ends of moving spheres are when the shutter closes,

@@ -7,6 +7,7 @@
 use glam::{DVec2, DVec3};
 use lang::scene::{Instance, MaterialModel, Scene};
 
+use super::pieces::pieces;
 use crate::import::Part;
 
 /// The sheets of one instance.
@@ -65,43 +66,10 @@ impl Sheets {
     }
 }
 
-/// The piece of each triangle of `part`, numbered as they come: triangles that share a position hang
-/// together.
-pub(super) fn pieces(part: &Part) -> Vec<u32> {
-    let mut ids = std::collections::BTreeMap::new();
-    let mut parent: Vec<u32> = Vec::new();
-    let mut first = Vec::with_capacity(part.triangles.len());
-    for triangle in 0..part.triangles.len() {
-        let corners = part.corners(triangle).map(|p| {
-            *ids.entry(p.map(f32::to_bits)).or_insert_with(|| {
-                parent.push(parent.len() as u32);
-                parent.len() as u32 - 1
-            })
-        });
-        for corner in corners {
-            let (a, b) = (root(&mut parent, corners[0]), root(&mut parent, corner));
-            parent[a.max(b) as usize] = a.min(b);
-        }
-        first.push(corners[0]);
-    }
-    let mut numbers = std::collections::BTreeMap::new();
-    first
-        .into_iter()
-        .map(|corner| {
-            let next = numbers.len() as u32;
-            *numbers.entry(root(&mut parent, corner)).or_insert(next)
-        })
-        .collect()
-}
-
-/// The representative of `id`; halves the path to it.
-fn root(parent: &mut [u32], mut id: u32) -> u32 {
-    while parent[id as usize] != id {
-        let up = parent[parent[id as usize] as usize];
-        parent[id as usize] = up;
-        id = up;
-    }
-    id
+/// The piece of each triangle of `part`: triangles that share a position hang together.
+pub(super) fn pieces_of(part: &Part) -> Vec<u32> {
+    let keys = |triangle: usize| part.corners(triangle).map(|p| p.map(f32::to_bits));
+    pieces((0..part.triangles.len()).map(keys))
 }
 
 #[cfg(test)]
