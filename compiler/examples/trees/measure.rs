@@ -21,8 +21,6 @@ pub(crate) struct Row {
     pub(crate) name: String,
     /// Median of CPU seconds.
     pub(crate) cpu: f64,
-    /// Bytes a triangle, where it is known.
-    pub(crate) peak: Option<f64>,
     pub(crate) references: usize,
     pub(crate) shape: Shape,
     pub(crate) cost: Cost,
@@ -42,17 +40,16 @@ impl Row {
 }
 
 /// What one build took: CPU seconds, and bytes a triangle where known.
-type Took = (f64, Option<f64>);
 
 /// Builds and walks every tree.
 pub(crate) fn all(triangles: &[Tri], yardstick: Option<&Path>) -> Result<Rows, Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let other =
         yardstick.map(|p| other::Yardstick::new(p, folder.path(), triangles)).transpose()?;
-    let mut took: Vec<(String, Vec<Took>)> = Vec::new();
+    let mut took: Vec<(String, Vec<f64>)> = Vec::new();
     let mut trees: Vec<Walked> = Vec::new();
     for round in 0..ROUNDS {
-        let mut note = |name: String, time: Took, tree: &mut dyn FnMut() -> Walked| match round {
+        let mut note = |name: String, time: f64, tree: &mut dyn FnMut() -> Walked| match round {
             0 => {
                 took.push((name, vec![time]));
                 trees.push(tree());
@@ -66,14 +63,13 @@ pub(crate) fn all(triangles: &[Tri], yardstick: Option<&Path>) -> Result<Rows, B
         for (mode, name) in other::MODES {
             let Some(other) = &other else { continue };
             let (cpu, tree) = other.build(mode)?;
-            note(name.to_owned(), (cpu, None), &mut || other::read(&tree));
+            note(name.to_owned(), cpu, &mut || other::read(&tree));
         }
     }
     let rays = trees[1].rays(triangles);
     let rows = took.into_iter().zip(&trees).map(|((name, mut times), tree)| {
-        times.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let (cpu, peak) = times[ROUNDS / 2];
-        row(name, (cpu, peak), tree, triangles, &rays)
+        times.sort_by(f64::total_cmp);
+        row(name, times[ROUNDS / 2], tree, triangles, &rays)
     });
     let rows: Vec<Row> = rows.collect();
     for row in &rows {
@@ -82,16 +78,16 @@ pub(crate) fn all(triangles: &[Tri], yardstick: Option<&Path>) -> Result<Rows, B
     Ok(Rows { n_triangles: triangles.len(), rows })
 }
 
-fn row(name: String, (cpu, peak): Took, tree: &Walked, triangles: &[Tri], rays: &[Ray]) -> Row {
+fn row(name: String, cpu: f64, tree: &Walked, triangles: &[Tri], rays: &[Ray]) -> Row {
     let mut seen = vec![false; triangles.len()];
     tree.order.iter().for_each(|&i| seen[i as usize] = true);
     assert!(seen.iter().all(|s| *s), "{name} has lost triangles");
     let references = tree.order.len();
     let (shape, cost) = (tree.shape(), tree.cost(rays, triangles));
-    Row { name, cpu, peak, references, shape, cost, n_rays: rays.len() }
+    Row { name, cpu, references, shape, cost, n_rays: rays.len() }
 }
 
-fn build(preset: Preset, triangles: &[Tri]) -> Result<(Joined, Took), Box<dyn Error>> {
+fn build(preset: Preset, triangles: &[Tri]) -> Result<(Joined, f64), Box<dyn Error>> {
     let primitives = Primitives {
         triangles,
         mesh_sizes: &[triangles.len()],
@@ -99,11 +95,9 @@ fn build(preset: Preset, triangles: &[Tri]) -> Result<(Joined, Took), Box<dyn Er
         spheres: &[],
         sphere_motions: &[],
     };
-    let (cpu, resident) = (cpu_seconds(), fresh_resident());
+    let cpu = cpu_seconds();
     let (tree, _) = bvh::build_scene(&primitives, preset, &Cache::disabled())?;
-    let cpu = cpu_seconds() - cpu;
-    let peak = (peak_resident() - resident) / triangles.len() as f64;
-    Ok((tree, (cpu, (peak > 0.0).then_some(peak))))
+    Ok((tree, cpu_seconds() - cpu))
 }
 
 fn walked(tree: &Joined) -> Walked {
@@ -126,19 +120,4 @@ fn cpu_seconds() -> f64 {
     let stat = fs::read_to_string("/proc/self/stat").unwrap_or_default();
     let ticks = |i| stat.split(' ').nth(i).and_then(|s: &str| s.parse().ok()).unwrap_or(0.0);
     (ticks(13) + ticks(14)) / 100.0
-}
-
-/// Most resident bytes since `fresh_resident`.
-fn peak_resident() -> f64 {
-    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let peak = status.lines().find_map(|l| l.strip_prefix("VmHWM:"));
-    1024.0 * peak.and_then(|s| s.trim().trim_end_matches(" kB").parse().ok()).unwrap_or(0.0)
-}
-
-/// Resident bytes now; starts a new peak where the system can.
-fn fresh_resident() -> f64 {
-    // Refused without harm on systems that cannot.
-    let _ = fs::write("/proc/self/clear_refs", "5");
-    let pages = fs::read_to_string("/proc/self/statm").unwrap_or_default();
-    4096.0 * pages.split(' ').nth(1).and_then(|s| s.parse().ok()).unwrap_or(0.0)
 }

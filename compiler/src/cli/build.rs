@@ -31,7 +31,7 @@ pub(super) struct BuildArgs {
     timings: bool,
     /// How trees over the geometry are built: `fast` takes least time; `default` splits long triangles
     /// between leaves; `extreme` tries harder. For comparison only: `object-median`,
-    /// `spatial-median`. Pictures are the same with all of them.
+    /// `spatial-median`. All show the same surfaces.
     #[arg(long, default_value_t, value_name = "BUILDER")]
     bvh: Preset,
     /// Build every tree anew and store none.
