@@ -66,7 +66,10 @@ fn run(example: &Example, args: &Args) -> std::io::Result<ExitCode> {
     std::fs::create_dir_all(&args.out)?;
     for Generated { path, holds } in example.generate(&scenes, Extent::Full)? {
         let what = holds.map(|w| {
-            format!(": {} triangles in four GLB files, {} textures", w.triangles, w.textures)
+            format!(
+                ": {} image files, and parts of {} triangles, some of which are placed more than once",
+                w.textures, w.triangles
+            )
         });
         console::line(&format!("generated {}{}", path.display(), what.unwrap_or_default()));
     }

@@ -246,3 +246,25 @@ fn trees(detail: &Detail) -> Parts {
         ("cedar_crown", cedar_crown),
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::vector::{add, cross, dot, sub};
+    use super::*;
+
+    /// Bumps and normal maps are dents on a face whose winding and normals disagree.
+    #[test]
+    fn faces_and_their_normals_look_the_same_way() {
+        let detail = Detail::REDUCED;
+        for (name, mesh) in [gate(), hall(), garden(&detail), trees(&detail)].into_iter().flatten()
+        {
+            let p = |i: u32| mesh.0.positions[i as usize].map(f64::from);
+            let n = |i: u32| mesh.0.normals[i as usize].map(f64::from);
+            for t in mesh.0.indices.chunks(3) {
+                let face = cross(sub(p(t[1]), p(t[0])), sub(p(t[2]), p(t[0])));
+                let along = dot(face, add(n(t[0]), add(n(t[1]), n(t[2]))));
+                assert!(along >= -1e-9, "{name}: {t:?} at {:?}, {along:e}", p(t[0]));
+            }
+        }
+    }
+}

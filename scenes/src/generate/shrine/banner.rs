@@ -1,4 +1,4 @@
-//! Cloth: tall banners on poles, the curtain in the door of the hall, cushions of the bell rope.
+//! Cloth: tall banners on poles, the curtain in the door of the hall.
 
 use super::kit::{Mesh, Place, V3};
 

@@ -147,7 +147,7 @@ fn blade(mesh: &mut Mesh, foot: V3, tall: f64, half: f64, rng: &mut Rng) {
         }
     }
     ids.push(mesh.vertex(at(1.0), face(1.0), [0.5, 0.0]));
-    mesh.0.indices.extend([0, 2, 1, 1, 2, 3, 2, 4, 3, 3, 4, 5, 4, 6, 5].map(|k: usize| ids[k]));
+    mesh.0.indices.extend([0, 1, 2, 1, 3, 2, 2, 3, 4, 3, 5, 4, 4, 5, 6].map(|k: usize| ids[k]));
 }
 
 /// The highest thing at a point that petals can lie on, and its normal.

@@ -126,7 +126,7 @@ impl Mesh {
                 };
                 let (f, g) = if i * j > 0.0 { (a, b) } else { (b, a) };
                 let p = [at(-1.0, f), at(-1.0, g), at(1.0, g), at(1.0, f)];
-                self.quad([p[3], p[2], p[1], p[0]], [2.0 * c, 2.0 * half[axis]]);
+                self.quad(p, [2.0 * c, 2.0 * half[axis]]);
             }
         }
         for octant in 0..8_u32 {
@@ -147,16 +147,15 @@ impl Mesh {
     pub(super) fn beam(&mut self, a: V3, b: V3, [width, height]: [f64; 2], chamfer: f64) {
         let along = sub(b, a);
         let side = normalize(cross([0.0, 1.0, 0.0], along));
-        let side =
-            if dot(side, side) < 0.5 || libm::fabs(side[1]) > 0.9 { [1.0, 0.0, 0.0] } else { side };
+        let side = if libm::fabs(side[1]) > 0.9 { [1.0, 0.0, 0.0] } else { side };
         let z = normalize(along);
         let place = Place { axes: [side, cross(z, side), z], at: scale(add(a, b), 0.5) };
         let length = 0.5 * libm::sqrt(dot(along, along));
         self.block(&place, [0.5 * width, 0.5 * height, length], chamfer);
     }
 
-    /// A surface over the unit square with smooth normals; `flip` turns it over. `size`: what
-    /// texture coordinates reach.
+    /// A surface over the unit square with smooth normals, towards the cross product of its sides.
+    /// `size`: what texture coordinates reach.
     pub(super) fn grid(&mut self, n: [usize; 2], size: [f64; 2], surface: impl Fn(f64, f64) -> V3) {
         let at = |i: usize, j: usize| (i as f64 / n[0] as f64, j as f64 / n[1] as f64);
         let first = self.0.positions.len() as u32;
@@ -319,9 +318,13 @@ mod tests {
     #[test]
     fn a_block_is_closed_and_its_outside_is_outside() {
         let mut mesh = Mesh::default();
-        mesh.block(&Place::turned([1.0, 2.0, 3.0], 0.7), [1.0, 2.0, 0.5], 1e-6);
+        let (half, c) = ([1.0, 2.0, 0.5], 0.1);
+        mesh.block(&Place::turned([1.0, 2.0, 3.0], 0.7), half, c);
         assert_eq!(mesh.triangles(), 44);
-        assert!((volume(&mesh) - 8.0).abs() < 1e-3, "{}", volume(&mesh));
+        // A prism of c^2 / 2 is cut off along each edge, and five sixths of c^3 more at each corner.
+        let edges: f64 = half.iter().map(|h| 4.0 * 2.0 * (h - c)).sum();
+        let expected = 8.0 - 0.5 * c * c * edges - 8.0 * 5.0 / 6.0 * c * c * c;
+        assert!((volume(&mesh) - expected).abs() < 1e-5, "{}, not {expected}", volume(&mesh));
     }
 
     #[test]

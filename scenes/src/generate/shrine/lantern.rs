@@ -107,7 +107,7 @@ fn roof(stone: &mut Mesh) {
         let x = (u * n as f64).min(n as f64 - 1e-9);
         let (k, t) = (x as usize, x - libm::floor(x));
         let [r, y] = [0, 1].map(|i| rows[k][i] + (rows[k + 1][i] - rows[k][i]) * t);
-        let a = TAU * (1.0 - v);
+        let a = TAU * v;
         let (up, wide) = corner(a);
         let rim = (r / 0.53) * (r / 0.53);
         let r = r * wide * (1.0 + 0.10 * up * rim);
@@ -180,6 +180,17 @@ mod tests {
             assert!(p[0] * n[0] + p[2] * n[2] > 0.0, "{p:?} {n:?}");
         }
         assert!(paper.uvs.iter().flatten().all(|x| (0.0..=1.0).contains(x)));
+    }
+
+    #[test]
+    fn the_roof_of_a_stone_lantern_faces_outward() {
+        let mut stone = Mesh::default();
+        roof(&mut stone);
+        let around = stone.0.positions.iter().zip(&stone.0.normals);
+        // The top, whose rows are above the rim.
+        for (p, n) in around.filter(|(p, _)| p[1] > 1.9) {
+            assert!(n[1] > 0.0, "{p:?} {n:?}");
+        }
     }
 
     #[test]

@@ -167,7 +167,7 @@ fn pendant(roof: &mut Roof, side: f64) {
         let (a, b) = (at(k), at(k + 1));
         let out = |p: V3| [0.03, p[1], p[2]];
         plate.flat_triangle([[0.05, -0.12, 0.0], out(b), out(a)], [[0.5; 2]; 3]);
-        plate.quad([a, b, out(b), out(a)].map(|p: V3| p), [0.1, 0.1]);
+        plate.quad([b, a, out(a), out(b)], [0.1, 0.1]);
     }
     let place = if side > 0.0 {
         Place::at([x, y, 0.0])

@@ -86,7 +86,7 @@ pub(super) fn cord() -> Mesh {
 /// Where the cord ends, from where it begins; it sags by 0.55 m.
 const CORD: V3 = [-5.8, -0.3, 2.1];
 
-/// The paper streamers: four, each of four folded panels, uv 0..1 a panel.
+/// The paper streamers: five, each of four folded panels, uv 0..1 a panel.
 pub(super) fn streamers() -> Mesh {
     let mut mesh = Mesh::default();
     for (k, t) in [-0.82, -0.415, 0.0, 0.415, 0.82].into_iter().enumerate() {
