@@ -1,9 +1,9 @@
 //! Checks what the sections mean, after `table` has proven where they are.
 //!
 //! Turns typed slices into the first broken rule, always the same one whatever the number of
-//! threads: relations between sections, then every field of every record (`rules`), textures and
-//! light table, then the tree (`tree`), then the feature bits. Linear time, no allocation beyond a
-//! bit a primitive and a word a node.
+//! threads: relations between sections, then every field of every record (`rules`), textures, lights, sky and
+//! motion, then the trees, then the feature bits. Linear time, no allocation beyond a bit a primitive, a byte
+//! a light and a word a node.
 
 mod light_tree;
 mod motion;

@@ -171,8 +171,12 @@ pub(crate) fn shadow(features: &FeatureSet) -> String {
 /// What a shadow ray keeps at a surface.
 pub(crate) fn through(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: the see-through surfaces of this scene.\n\n");
-    text += &imports(["kernel/state.wgsl", "scene/constants.wgsl", "surface/surface.wgsl"]);
-    text += &imports(["bsdf/scatter.wgsl", "trace/ray.wgsl"]);
+    text += &imports([
+        "kernel/state.wgsl",
+        "scene/constants.wgsl",
+        "surface/surface.wgsl",
+        "trace/ray.wgsl",
+    ]);
     let mut body = String::new();
     if features.media {
         text += &imports(["kernel/crossing.wgsl"]);

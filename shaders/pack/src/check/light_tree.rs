@@ -11,6 +11,14 @@ use crate::fault::ElementFault;
 /// Checks the shape of the tree; fields of nodes have been checked. Scenes without a tree have no nodes.
 pub(super) fn check(contents: &Contents<'_>) -> Result<(), PackError> {
     let (nodes, lights) = (contents.light_nodes, contents.lights);
+    // Without a tree there are no ways, and the sky is in none.
+    let astray = |light: &Light| {
+        light.trail != 0 && (nodes.is_empty() || light.kind == LightKind::Sky as u32)
+    };
+    if let Some(index) = lights.iter().position(astray) {
+        let fault = ElementFault::Trail { found: lights[index].trail, expected: 0 };
+        return Err(super::element::<Light>(index, ("trail", fault)));
+    }
     if nodes.is_empty() {
         return Ok(());
     }
