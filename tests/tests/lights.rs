@@ -111,10 +111,10 @@ fn a_tint_over_all_directions_is_a_factor() {
     // The sun itself has a radius of 5.7 degrees.
     check("tinted within 18 degrees", with("18deg"), 256, 0.0065);
     check(
-        "tinted in 0.1 degrees",
-        with("0.1deg"),
+        "tinted in 3 degrees",
+        with("3deg"),
         1024,
-        0.01 - 0.35 * 0.1_f64.to_radians().sin().powi(2),
+        0.01 - 0.35 * 3_f64.to_radians().sin().powi(2),
     );
 }
 

@@ -7,7 +7,8 @@ use pack::abi::SamplerKind;
 use runtime::Film;
 use tests::{picture, scene};
 
-/// A ball and a mirror on a floor below the sky, which has no sun and is no light. `more` are declarations, `color` is that of all.
+/// A ball and a mirror on a floor below the sky, which has no sun and is no light. `more` are declarations,
+/// `color` is that of all.
 fn text(sampler: SamplerKind, color: f64, more: &str) -> String {
     let sampler = match sampler {
         SamplerKind::Sobol => "sobol",

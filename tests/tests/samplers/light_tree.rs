@@ -86,7 +86,7 @@ fn lights_are_chosen_by_the_tree_with_the_probability_it_says() {
     }
 }
 
-/// A light that faces away is never chosen, one that can be seen always may be.
+/// Many lights that face away have no probability; one that can be seen always has one.
 #[test]
 fn lights_that_face_the_point_have_a_probability() {
     let (lights, nodes) = scattered(200, "front");
