@@ -39,8 +39,6 @@ impl Row {
     }
 }
 
-/// What one build took: CPU seconds, and bytes a triangle where known.
-
 /// Builds and walks every tree.
 pub(crate) fn all(triangles: &[Tri], yardstick: Option<&Path>) -> Result<Rows, Box<dyn Error>> {
     let folder = tempfile::tempdir()?;

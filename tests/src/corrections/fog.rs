@@ -18,27 +18,27 @@ pub fn room(rho: f32, density: f32, n: u64) -> [Mean; 2] {
     let fog = Medium { sigma_a: Vec3::splat(density), color: Vec3::ONE, ..Medium::ZERO };
     let bench = Bench::new();
     let mut kernel = bench.single();
-    let mut pass: [&mut dyn FnMut(&mut Path, f32); 2] =
-        [&mut |path, length| path.throughput *= (-density * length).exp(), &mut |path, length| {
-            kernel.veil_add(path, fog, length)
-        }];
-    pass.each_mut().map(|pass| {
-        let mut mean = Mean::default();
-        for i in 0..n {
-            let mut stream = Stream::new(193, i);
-            let mut path = Path { throughput: Vec3::ONE, ..Path::ZERO };
-            while path.throughput.x > 0.0 {
-                pass(&mut path, stream.between(50.0, 150.0) as f32);
-                path.radiance += path.throughput * (1.0 - rho);
-                path.throughput *= rho;
-                let q = path.throughput.x.min(1.0);
-                path.throughput =
-                    if stream.unit24() < q { path.throughput / q } else { Vec3::ZERO };
-            }
-            mean.add(f64::from(path.radiance.x));
+    let guide = |path: &mut Path, length: f32| path.throughput *= (-density * length).exp();
+    let ours = |path: &mut Path, length: f32| kernel.veil_add(path, fog, length);
+    [bounced(rho, n, guide), bounced(rho, n, ours)]
+}
+
+/// Radiance in the room if `pass` is what a segment of so many metres does to a path.
+fn bounced(rho: f32, n: u64, mut pass: impl FnMut(&mut Path, f32)) -> Mean {
+    let mut mean = Mean::default();
+    for i in 0..n {
+        let mut stream = Stream::new(193, i);
+        let mut path = Path { throughput: Vec3::ONE, ..Path::ZERO };
+        while path.throughput.x > 0.0 {
+            pass(&mut path, stream.between(50.0, 150.0) as f32);
+            path.radiance += path.throughput * (1.0 - rho);
+            path.throughput *= rho;
+            let q = path.throughput.x.min(1.0);
+            path.throughput = if stream.unit24() < q { path.throughput / q } else { Vec3::ZERO };
         }
-        mean
-    })
+        mean.add(f64::from(path.radiance.x));
+    }
+    mean
 }
 
 /// The guide's share of fog after an optical distance.

@@ -2,6 +2,8 @@
 //!
 //! Isotropic scattering, no interface, light at normal incidence, as in `slab`.
 
+#![expect(clippy::cast_possible_truncation, reason = "the kernel computes in f32")]
+
 use glam::{DVec3, Vec2};
 use runtime::kernel::f32::{Kernel, Medium as Record};
 
