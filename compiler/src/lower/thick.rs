@@ -86,9 +86,9 @@ fn filling(
     model: &MaterialModel,
     size: DVec3,
 ) -> Option<Diagnostic> {
-    let inside = match model {
-        MaterialModel::Dielectric { inside, .. } | MaterialModel::Water { inside, .. } => inside,
-        _ => return None,
+    let (MaterialModel::Dielectric { inside, .. } | MaterialModel::Water { inside, .. }) = model
+    else {
+        return None;
     };
     let medium = &scene.media[inside.medium?];
     let MediumModel::Homogeneous { sigma_s, .. } = medium.model else { return None };
