@@ -161,8 +161,11 @@ fn row(point: &Point) -> String {
     )
 }
 
+/// One of the costs.
+type Cost = fn(&Point) -> f64;
+
 /// The slope of ln y over ln n.
-fn exponent(points: &[Point], y: fn(&Point) -> f64) -> f64 {
+fn exponent(points: &[Point], y: Cost) -> f64 {
     let logs: Vec<(f64, f64)> =
         points.iter().map(|p| (p.triangles.ln(), y(p).max(1e-9).ln())).collect();
     let n = logs.len() as f64;
@@ -188,7 +191,7 @@ fn page(points: &[Point]) -> String {
     for point in points {
         let _ = writeln!(text, "{}", row(point));
     }
-    let fits: [(&str, fn(&Point) -> f64); 5] = [
+    let fits: [(&str, Cost); 5] = [
         ("compiling", |p| p.compile),
         ("tree", |p| p.tree),
         ("pack", |p| p.pack),
