@@ -31,7 +31,7 @@ mod sky;
 mod sky_table;
 mod texture;
 
-pub use assemble::{Counters, LowerError, Lowered, Times, lower};
+pub use assemble::{Counters, LowerError, Lowered, Times, Trees, lower};
 pub use geometry::Placement;
 pub use texture::{TextureTable, srgb_table};
 

@@ -1,12 +1,12 @@
-//! The builder of the tree changes how long a picture takes, and not one bit of the picture where nothing lets
-//! shadow rays through: triangles that are in several leaves are one triangle to paths, lights and shadow rays.
+//! The builder of the tree and the layout of its nodes change how long a picture takes, and not one bit of the
+//! picture where nothing lets shadow rays through: triangles that are in several leaves are one triangle to paths,
+//! lights and shadow rays.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use compiler::bvh::Preset;
-use compiler::cache::Cache;
+use compiler::bvh::{Layout, Preset};
 use compiler::pipeline::Compiled;
 use glam::Vec3;
 use pack::Pack;
@@ -62,14 +62,16 @@ render main: path {{ camera = eye, film = tiny, samples = 16, depth = 6, seed = 
     )
 }
 
-/// Renders with every builder; returns how many places in leaves a triangle has by default.
+/// Renders with every builder and layout; returns how many places in leaves a triangle has by default.
 fn check(material: &str) -> f64 {
     let dir = tempfile::tempdir().expect("dir");
     let text = thicket(dir.path(), material);
     let mut expected = None;
     let mut places = 0.0;
-    for preset in Preset::ALL {
-        let compiled = compile_built(dir.path(), &text, preset, &Cache::disabled());
+    let both = |preset| Layout::ALL.map(|layout| (preset, layout));
+    for (preset, layout) in Preset::ALL.into_iter().flat_map(both) {
+        let compiled = compile_built(dir.path(), &text, preset, layout);
+        assert_eq!(compiled.lowered.nodes.is_empty(), layout == Layout::Wide);
         let counters = compiled.lowered.counters;
         assert_eq!(counters.references > counters.triangles, preset.splits_triangles(), "{preset}");
         if preset == Preset::Default {
@@ -81,7 +83,10 @@ fn check(material: &str) -> f64 {
         match &expected {
             None => expected = Some(picture),
             Some(expected) => {
-                assert!(*expected == picture, "{material}: `{preset}` shows another picture");
+                assert!(
+                    *expected == picture,
+                    "{material}: `{preset}`, `{layout}` shows another picture"
+                );
             }
         }
     }
@@ -89,7 +94,7 @@ fn check(material: &str) -> f64 {
 }
 
 #[test]
-fn every_builder_gives_the_same_picture() {
+fn every_builder_and_layout_gives_the_same_picture() {
     for material in [
         "diffuse { color = linear(0.7) }",
         // Paths go on behind what they hit, and shadow rays too.
@@ -106,7 +111,7 @@ fn every_builder_gives_the_same_picture() {
 fn split_thicket() -> (Compiled, Vec<Vec<u32>>) {
     let dir = tempfile::tempdir().expect("dir");
     let text = thicket(dir.path(), "diffuse { color = linear(0.7) }");
-    let compiled = compile_built(dir.path(), &text, Preset::Default, &Cache::disabled());
+    let compiled = compile_built(dir.path(), &text, Preset::Default, Layout::Wide);
     let mut places: BTreeMap<[u32; 4], Vec<u32>> = BTreeMap::new();
     for ((i, t), shade) in (0..).zip(&compiled.lowered.triangles).zip(&compiled.lowered.shades) {
         places.entry([t.id0, t.id1, t.id2, shade.material]).or_default().push(i);
