@@ -10,10 +10,12 @@ use compiler::bvh::{Layout, Preset};
 use compiler::pipeline::Compiled;
 use glam::Vec3;
 use pack::Pack;
+use pack::abi::Triangle;
 use runtime::kernel::f32 as single;
 use tests::kernel::Bench;
 use tests::picture;
 use tests::scene::{bytes, compile_built};
+use tests::statistics::stream::Stream;
 
 /// Long boards and blades through one another, among small triangles: what is split.
 fn thicket_obj() -> String {
@@ -174,4 +176,53 @@ fn all_places_of_a_triangle_have_the_same_rank() {
         }
         assert!(!kernel.triangles_same(pair[0][0], single::NONE));
     }
+}
+
+/// Both layouts of one tree, over the same triangles in the same order.
+fn both_layouts(text: &str, dir: &Path) -> [Compiled; 2] {
+    let both = Layout::ALL.map(|layout| compile_built(dir, text, Preset::Default, layout));
+    let [wide, binary] = both.each_ref().map(|compiled| &compiled.lowered.triangles);
+    assert_eq!(wide, binary);
+    both
+}
+
+/// A ray from anywhere to a corner, along an edge, or along an axis through a corner: where boxes are tight.
+fn tight_ray(stream: &mut Stream, triangles: &[Triangle]) -> (Vec3, Vec3) {
+    let t = &triangles[stream.index(triangles.len())];
+    let [a, b] = [t.v0, t.v1].map(Vec3::from);
+    let far = Vec3::from([0; 3].map(|_| stream.unit24() * 3.0 - 1.5));
+    match stream.index(4) {
+        0 => (far, a - far),
+        1 => (far, a.lerp(b, stream.unit24()) - far),
+        2 => (a - (b - a) * 3.0, b - a),
+        _ => {
+            let axis = [Vec3::X, Vec3::Y, Vec3::Z][stream.index(3)];
+            (a - axis * 2.0, axis)
+        }
+    }
+}
+
+#[test]
+fn both_layouts_give_every_ray_the_same_hit() {
+    let dir = tempfile::tempdir().expect("dir");
+    let text = thicket(dir.path(), "diffuse { color = linear(0.7) }");
+    let both = both_layouts(&text, dir.path());
+    let benches = both.each_ref().map(|compiled| Bench::new().shapes(&compiled.lowered));
+    let [mut wide, mut binary] = benches.each_ref().map(Bench::single);
+    let triangles = &both[0].lowered.triangles;
+    let mut stream = Stream::new(61, 0);
+    let (mut met, n) = (0, 200_000);
+    for _ in 0..n {
+        let (origin, way) = tight_ray(&mut stream, triangles);
+        let (t_max, none) = (single::RAY_FAR, single::NONE);
+        let ray =
+            single::Ray { origin, t_max, dir: way.normalize(), skip: none, light: none, time: 0.0 };
+        let hits = [wide.trace(ray), binary.trace(ray)];
+        // Of a triangle in several leaves any place may be met first.
+        let what = |hit: single::Hit| triangles.get(hit.prim as usize).ok_or(hit.prim);
+        let bits = hits.map(|hit| (what(hit), hit.t.to_bits(), hit.b.to_array().map(f32::to_bits)));
+        assert_eq!(bits[0], bits[1], "from {origin} along {way}");
+        met += usize::from(hits[0].prim != none);
+    }
+    assert!(met > n / 2, "{met} of {n} rays meet anything");
 }
