@@ -30,6 +30,7 @@ mod sheet;
 mod sky;
 mod sky_table;
 mod texture;
+mod thick;
 
 pub use assemble::{Counters, LowerError, Lowered, Times, Trees, lower};
 pub use geometry::Placement;

@@ -18,7 +18,7 @@ use super::material::{MaterialRef, MaterialTable};
 use super::order::{Declared, Ordered, order};
 use super::sky::LoweredSky;
 use super::sky_table::SkyTable;
-use super::{Loaded, camera, closed, light_tree, medium, motion, power, sky};
+use super::{Loaded, camera, closed, light_tree, medium, motion, power, sky, thick};
 use crate::bvh::{self, BuildReport, BvhError, Joined, Layout, Preset, Primitives};
 use crate::cache::Cache;
 use crate::normalize::Normalization;
@@ -230,6 +230,7 @@ fn media(
     let around = medium::around(scene);
     let matters = medium::matters(scene, materials.records());
     closed::check(scene, loaded, matters, diagnostics);
+    thick::check(scene, loaded, diagnostics);
     if !matters {
         return ([NONE; 4], around);
     }
