@@ -152,7 +152,7 @@ fn absent_kinds_bring_no_section() {
         stack_need: render.stack_need,
         ..Scene::with_light_tree().render
     };
-    let wide = Scene { render, wide_nodes, nodes, ..Scene::with_light_tree() };
+    let wide = Scene { render, nodes, wide_nodes, ..Scene::with_light_tree() };
     assert_eq!(kinds(&wide), but(Kind::NODE));
 }
 
