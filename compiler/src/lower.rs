@@ -32,7 +32,7 @@ mod sky_table;
 mod texture;
 mod thick;
 
-pub use assemble::{Counters, LowerError, Lowered, Times, lower};
+pub use assemble::{Counters, LowerError, Lowered, Times, Trees, lower};
 pub use geometry::Placement;
 pub use texture::{TextureTable, srgb_table};
 

@@ -15,10 +15,8 @@ use lang::source::SourceSet;
 use pack::{PackError, PackWriter};
 use shaders::{FeatureSet, LayoutError, Linked, ShaderError};
 
-use crate::bvh::Preset;
-use crate::cache::Cache;
 use crate::import::Limits;
-use crate::lower::{self, LowerError, Lowered};
+use crate::lower::{self, LowerError, Lowered, Trees};
 
 pub use load::FileRead;
 
@@ -27,10 +25,8 @@ pub use load::FileRead;
 pub struct Options<'a> {
     /// Directory of the root `.rts` file; names in the pack are relative to it.
     pub root: &'a Path,
-    /// How trees are built.
-    pub preset: Preset,
-    /// Trees of earlier runs.
-    pub cache: &'a Cache,
+    /// How trees are made.
+    pub trees: Trees<'a>,
     /// How large inputs may be.
     pub limits: Limits,
     /// Overrides of parameters, for the manifest.
@@ -101,7 +97,7 @@ pub fn compile(
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(CompileError::Scene);
     }
-    let lowered = lower::lower(scene, &loaded, options.preset, options.cache, diagnostics)?;
+    let lowered = lower::lower(scene, &loaded, &options.trees, diagnostics)?;
     drop(loaded);
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(CompileError::Scene);
@@ -132,6 +128,7 @@ impl Compiled {
         }
         writer
             .records(&lowered.nodes)
+            .records(&lowered.wide_nodes)
             .records(&lowered.triangles)
             .records(&lowered.shades)
             .records(&lowered.spheres)

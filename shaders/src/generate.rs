@@ -37,6 +37,7 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/layers.wgsl", principled::layers(features)),
         ("scene/leaf.wgsl", traversal::leaf(features)),
         ("scene/motion.wgsl", motion::text(features)),
+        ("scene/nodes.wgsl", traversal::nodes(features)),
         ("scene/place.wgsl", dispatch::place(features)),
         ("scene/principled.wgsl", principled::outer(features)),
         ("scene/records.wgsl", records::text()),

@@ -135,6 +135,8 @@ impl Bench {
     pub fn shapes(self, lowered: &Lowered) -> Self {
         let mut bench = self.objects(&lowered.objects).materials(&lowered.materials);
         bench.nodes = words(&lowered.nodes);
+        bench.nodes.extend(words(&lowered.wide_nodes));
+        bench.frame.wide = u32::from(!lowered.wide_nodes.is_empty());
         bench.triangles = words(&lowered.triangles);
         bench.shades = words(&lowered.shades);
         bench.spheres = words(&lowered.spheres);

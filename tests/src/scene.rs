@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use compiler::bvh::Preset;
+use compiler::bvh::{Layout, Preset};
 use compiler::cache::Cache;
 use compiler::import::Limits;
+use compiler::lower::Trees;
 use compiler::pipeline::{self, Compiled, Options};
 use lang::scene::Scene;
 use lang::source::{LoadError, Loader};
@@ -50,7 +51,8 @@ pub fn example(example: &Example, defines: &[(&str, &str)]) -> Compiled {
     let options = lang::Options { defines: defines.collect() };
     let name = source.display().to_string();
     let analysis = lang::analyze(&name, &text, &mut Beside, &options);
-    let trees = (Preset::default(), &Cache::disabled());
+    let cache = Cache::disabled();
+    let trees = usual(&cache);
     let compiled = finish(&root, trees, analysis, &options.defines, |_| {});
     let (compiled, diagnostics) = compiled;
     assert!(diagnostics.is_empty(), "{diagnostics}");
@@ -86,16 +88,21 @@ pub fn compile_in(root: &Path, text: &str) -> Compiled {
 /// As `compile_in`.
 #[must_use]
 pub fn compile_with(root: &Path, text: &str, cache: &Cache) -> Compiled {
-    compile_as(root, text, Preset::default(), cache, |_| {})
+    compile_as(root, text, usual(cache), |_| {})
 }
 
-/// As `compile_with`, with trees by this builder.
+/// As `compile_in`, with trees by this builder in this layout.
 ///
 /// # Panics
 /// As `compile_in`.
 #[must_use]
-pub fn compile_built(root: &Path, text: &str, preset: Preset, cache: &Cache) -> Compiled {
-    compile_as(root, text, preset, cache, |_| {})
+pub fn compile_built(root: &Path, text: &str, preset: Preset, layout: Layout) -> Compiled {
+    compile_as(root, text, Trees { preset, layout, cache: &Cache::disabled() }, |_| {})
+}
+
+/// Trees as everybody gets them.
+fn usual(cache: &Cache) -> Trees<'_> {
+    Trees { preset: Preset::default(), layout: Layout::default(), cache }
 }
 
 /// As `compile_in`; `change` alters the checked scene before it is lowered.
@@ -104,25 +111,24 @@ pub fn compile_built(root: &Path, text: &str, preset: Preset, cache: &Cache) -> 
 /// As `compile_in`.
 #[must_use]
 pub fn compile_changed(root: &Path, text: &str, change: impl FnOnce(&mut Scene)) -> Compiled {
-    compile_as(root, text, Preset::default(), &Cache::disabled(), change)
+    compile_as(root, text, usual(&Cache::disabled()), change)
 }
 
 fn compile_as(
     root: &Path,
     text: &str,
-    preset: Preset,
-    cache: &Cache,
+    trees: Trees<'_>,
     change: impl FnOnce(&mut Scene),
 ) -> Compiled {
     let name = root.join("test.rts").display().to_string();
     let analysis = lang::analyze(&name, text, &mut NoImports, &lang::Options::default());
-    finish(root, (preset, cache), analysis, &[], change).0
+    finish(root, trees, analysis, &[], change).0
 }
 
 /// The pack of a checked text, and what was said about it, a line a diagnostic.
 fn finish(
     root: &Path,
-    (preset, cache): (Preset, &Cache),
+    trees: Trees<'_>,
     analysis: lang::Analysis,
     defines: &[(String, String)],
     change: impl FnOnce(&mut Scene),
@@ -134,7 +140,7 @@ fn finish(
     };
     let Some(mut scene) = analysis.scene else { panic!("{}", shown(&diagnostics)) };
     change(&mut scene);
-    let options = Options { root, preset, cache, limits: Limits::default(), defines };
+    let options = Options { root, trees, limits: Limits::default(), defines };
     match pipeline::compile(&scene, &analysis.sources, &options, &mut diagnostics) {
         Ok(compiled) => (compiled, shown(&diagnostics)),
         Err(error) => panic!("{error}\n{}", shown(&diagnostics)),

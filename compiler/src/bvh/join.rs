@@ -13,7 +13,7 @@ use pack::abi::{CHILD_INNER, ChildRef, NONE, Node};
 use super::fragment::{Bounds, MAX_PRIMITIVES};
 use super::top::{self, MAX_TOP_LEVELS, Top};
 use super::words::{as_spheres, shift_word};
-use super::{BvhError, Tree};
+use super::{BvhError, Tree, word_of};
 
 /// What a group holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,10 +127,6 @@ fn scene_order(group: &Group) -> Vec<u32> {
         }
     }
     order
-}
-
-fn word_of(len: usize) -> u32 {
-    u32::try_from(len).expect("at most 2^28 primitives have fewer than 2^31 nodes")
 }
 
 /// Widens a box downwards, so that no face of it contains a vertex.

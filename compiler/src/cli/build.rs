@@ -9,10 +9,10 @@ use lang::Analysis;
 
 use super::files::{DiskLoader, TextError, read_text};
 use super::{BUG, IO, OK, ReportArgs, SCENE, SceneArgs};
-use crate::bvh::Preset;
+use crate::bvh::{Layout, Preset};
 use crate::cache::Cache;
 use crate::import::Limits;
-use crate::lower::srgb_table;
+use crate::lower::{Trees, srgb_table};
 use crate::pipeline::{self, CompileError, Compiled, Options, Phase};
 use crate::report::Reporter;
 use shaders::ShaderError;
@@ -35,6 +35,10 @@ pub(super) struct BuildArgs {
     /// `spatial-median`. All show the same surfaces.
     #[arg(long, default_value_t, value_name = "BUILDER")]
     bvh: Preset,
+    /// How inner nodes are stored: `wide` with up to four children, their boxes rounded outwards to 8
+    /// bits; `binary`, which is larger, for comparison. Both show the same picture.
+    #[arg(long, default_value_t, value_name = "LAYOUT")]
+    nodes: Layout,
     /// Build every tree anew and store none.
     #[arg(long)]
     no_cache: bool,
@@ -71,7 +75,8 @@ fn build_here(args: &BuildArgs, reporter: &Reporter) -> u8 {
     let start = Instant::now();
     let cache = if args.no_cache { Cache::disabled() } else { Cache::from_env() };
     let output = args.output.clone().unwrap_or_else(|| default_output(&args.scene.scene));
-    let (compiled, mut phases) = match compile(&args.scene, args.bvh, &cache, reporter) {
+    let trees = Trees { preset: args.bvh, layout: args.nodes, cache: &cache };
+    let (compiled, mut phases) = match compile(&args.scene, trees, reporter) {
         Ok(done) => done,
         Err(code) => return code,
     };
@@ -102,7 +107,8 @@ fn build_here(args: &BuildArgs, reporter: &Reporter) -> u8 {
 pub(super) fn check(args: &CheckArgs) -> u8 {
     let reporter = args.report.reporter();
     let cache = Cache::from_env();
-    match compile(&args.scene, Preset::default(), &cache, &reporter) {
+    let trees = Trees { preset: Preset::default(), layout: Layout::default(), cache: &cache };
+    match compile(&args.scene, trees, &reporter) {
         Ok(_) => OK,
         Err(code) => code,
     }
@@ -127,8 +133,7 @@ pub(super) fn analyze(scene: &SceneArgs, reporter: &Reporter) -> Result<Analysis
 
 fn compile(
     args: &SceneArgs,
-    preset: Preset,
-    cache: &Cache,
+    trees: Trees<'_>,
     reporter: &Reporter,
 ) -> Result<(Compiled, Vec<Phase>), u8> {
     let start = Instant::now();
@@ -140,8 +145,7 @@ fn compile(
     let mut phases = vec![Phase { name: "read and check the text", time: start.elapsed() }];
     let options = Options {
         root: args.scene.parent().unwrap_or(Path::new("")),
-        preset,
-        cache,
+        trees,
         limits: Limits::default(),
         defines: &args.define,
     };

@@ -19,10 +19,21 @@ use super::order::{Declared, Ordered, order};
 use super::sky::LoweredSky;
 use super::sky_table::SkyTable;
 use super::{Loaded, camera, closed, light_tree, medium, motion, power, sky, thick};
-use crate::bvh::{self, BuildReport, BvhError, Joined, Preset, Primitives};
+use crate::bvh::{self, BuildReport, BvhError, Joined, Layout, Preset, Primitives};
 use crate::cache::Cache;
 use crate::normalize::Normalization;
 use crate::weld::weld;
+
+/// How trees over the geometry are made.
+#[derive(Clone, Copy, Debug)]
+pub struct Trees<'a> {
+    /// Which builder.
+    pub preset: Preset,
+    /// How their nodes are stored.
+    pub layout: Layout,
+    /// Trees of earlier runs.
+    pub cache: &'a Cache,
+}
 
 /// What was counted while lowering.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -63,8 +74,10 @@ pub struct Lowered {
     pub sky: Option<abi::Sky>,
     /// By which the sky is sampled; empty if it is no light.
     pub sky_table: Vec<[f32; 4]>,
-    /// Nodes of the joined tree.
+    /// Nodes of the joined tree; empty if they are wide.
     pub nodes: Vec<abi::Node>,
+    /// Nodes of the joined tree; empty if they are binary.
+    pub wide_nodes: Vec<abi::WideNode>,
     /// Triangles in leaf order.
     pub triangles: Vec<abi::Triangle>,
     /// Shading data in leaf order.
@@ -116,8 +129,7 @@ pub enum LowerError {
 pub fn lower(
     scene: &Scene,
     loaded: &Loaded,
-    preset: Preset,
-    cache: &Cache,
+    trees: &Trees<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Lowered, LowerError> {
     let start = Instant::now();
@@ -141,7 +153,8 @@ pub fn lower(
     let start = Instant::now();
     let balls = normalised_spheres(&placement, &frame);
     let motions = motion::displacements(&placement, &frame);
-    let (joined, trees) = build_tree(&placement, &corners, &balls, &motions, preset, cache)?;
+    let (mut joined, report) = build_tree(&placement, &corners, &balls, &motions, trees)?;
+    let wide_nodes = widened(&mut joined, trees.layout)?;
     times.bvh = start.elapsed();
 
     let start = Instant::now();
@@ -176,6 +189,7 @@ pub fn lower(
         sky,
         sky_table,
         nodes: joined.nodes,
+        wide_nodes,
         triangles: ordered.triangles,
         shades: ordered.shades,
         spheres: ordered.spheres,
@@ -189,8 +203,20 @@ pub fn lower(
         texels,
         counters,
         times,
-        trees,
+        trees: report,
     })
+}
+
+/// The nodes in the layout of the pack: wide ones are returned, and `joined` is left with their root, the
+/// stack that they need, and no nodes.
+fn widened(joined: &mut Joined, layout: Layout) -> Result<Vec<abi::WideNode>, BvhError> {
+    let mut wide = Vec::new();
+    if layout == Layout::Wide && !joined.nodes.is_empty() {
+        joined.root = bvh::widen(&joined.nodes, joined.root, &mut wide)?;
+        joined.stack_need = pack::bvh::stack_need(&wide, joined.root);
+        joined.nodes = Vec::new();
+    }
+    Ok(wide)
 }
 
 /// What the camera is inside of, and what is around everything, as `RenderSettings` holds it.
@@ -228,8 +254,7 @@ fn build_tree(
     corners: &[[[f32; 3]; 3]],
     balls: &[([f32; 3], f32)],
     motions: &[[f32; 3]],
-    preset: Preset,
-    cache: &Cache,
+    trees: &Trees<'_>,
 ) -> Result<(Joined, BuildReport), BvhError> {
     let sizes = placement.mesh_sizes();
     let (mesh_motions, sphere_motions) = motions_of(placement, motions);
@@ -240,7 +265,7 @@ fn build_tree(
         spheres: balls,
         sphere_motions: &sphere_motions,
     };
-    bvh::build_scene(&primitives, preset, cache)
+    bvh::build_scene(&primitives, trees.preset, trees.cache)
 }
 
 /// How far each mesh and each sphere comes, from the displacements of things; empty where those are.

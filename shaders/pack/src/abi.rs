@@ -26,8 +26,8 @@ pub use field::{AbiRecord, Field, FieldType};
 pub use film::FilmPixel;
 pub use frame::Frame;
 pub use geometry::{
-    CHILD_INNER, CHILD_SPHERES, ChildRef, MAX_DEPTH, MAX_LEAF, MOVES, Node, Sphere, TRI_SMOOTH,
-    TriShade, Triangle,
+    CHILD_INNER, CHILD_SPHERES, ChildRef, EMPTY_BOX, MAX_DEPTH, MAX_LEAF, MOVES, Node, Sphere,
+    TRI_SMOOTH, TriShade, Triangle, WIDTH, WideNode,
 };
 pub use light::{Light, LightKind};
 pub use light_node::{LIGHT_LEAF, LightNode, MAX_LIGHT_DEPTH};
@@ -61,6 +61,7 @@ pub fn records() -> Vec<(&'static str, &'static [Field], usize)> {
         row::<Camera>(),
         row::<Sky>(),
         row::<Node>(),
+        row::<WideNode>(),
         row::<Triangle>(),
         row::<TriShade>(),
         row::<Sphere>(),

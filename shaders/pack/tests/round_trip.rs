@@ -112,14 +112,18 @@ fn the_render_id_names_the_picture_and_not_its_history() {
 #[test]
 fn features_are_those_of_the_contents() {
     let pack = Pack::from_bytes(Scene::full().bytes()).unwrap();
-    // A pack has one sky, and this one is no light; few lights need no tree; none is tinted.
+    // A pack has one sky, and this one is no light; few lights need no tree; none is tinted. The nodes are
+    // binary.
     let absent = features::SKY_CONSTANT
         | features::SKY_IMAGE
         | features::LIGHT_SKY
         | features::LIGHT_TREE
         | features::TINT
+        | features::WIDE_NODES
         | features::SAMPLER_PCG;
     assert_eq!(pack.features(), features::KNOWN & !absent);
+    let wide = Pack::from_bytes(Scene::wide().bytes()).unwrap();
+    assert_eq!(wide.features(), pack.features() | features::WIDE_NODES);
     let mut scene = Scene::empty();
     assert_eq!(Pack::from_bytes(scene.bytes()).unwrap().features(), features::LENS);
     scene.camera.lens_radius = 0.0;
@@ -137,8 +141,19 @@ fn absent_kinds_bring_no_section() {
         describe(&pack).into_iter().map(|row| row.kind).collect()
     };
     assert_eq!(kinds(&Scene::empty()), ["RENDER", "CAMERA", "KERNEL"]);
-    let all: Vec<String> = pack::SECTIONS.iter().map(|spec| spec.kind.to_string()).collect();
-    assert_eq!(kinds(&Scene::with_light_tree()), all);
+    // Nodes are of one layout.
+    let but = |absent: Kind| -> Vec<String> {
+        let there = pack::SECTIONS.iter().filter(|spec| spec.kind != absent);
+        there.map(|spec| spec.kind.to_string()).collect()
+    };
+    assert_eq!(kinds(&Scene::with_light_tree()), but(Kind::WIDENODE));
+    let Scene { render, wide_nodes, nodes, .. } = Scene::wide();
+    let render = pack::abi::RenderSettings {
+        stack_need: render.stack_need,
+        ..Scene::with_light_tree().render
+    };
+    let wide = Scene { render, nodes, wide_nodes, ..Scene::with_light_tree() };
+    assert_eq!(kinds(&wide), but(Kind::NODE));
 }
 
 #[test]
