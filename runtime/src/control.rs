@@ -7,6 +7,7 @@ pub struct Control {
     cancel: AtomicBool,
     total: AtomicU64,
     done: AtomicU64,
+    before: AtomicU64,
     rays: AtomicU64,
     /// See `break_block`; 0 is never.
     broken_block: AtomicU64,
@@ -23,7 +24,9 @@ pub struct Progress {
     pub total: u64,
     /// Pixel samples that were rendered.
     pub done: u64,
-    /// Rays that were traced.
+    /// Pixel samples that an earlier run had done already; part of `done`.
+    pub before: u64,
+    /// Rays that this run traced.
     pub rays: u64,
 }
 
@@ -41,6 +44,7 @@ impl Control {
             cancel: AtomicBool::new(false),
             total: AtomicU64::new(0),
             done: AtomicU64::new(0),
+            before: AtomicU64::new(0),
             rays: AtomicU64::new(0),
             broken_block: AtomicU64::new(0),
             lost_after: AtomicU64::new(0),
@@ -64,7 +68,12 @@ impl Control {
     #[must_use]
     pub fn progress(&self) -> Progress {
         let load = |counter: &AtomicU64| counter.load(Ordering::Relaxed);
-        Progress { total: load(&self.total), done: load(&self.done), rays: load(&self.rays) }
+        Progress {
+            total: load(&self.total),
+            done: load(&self.done),
+            before: load(&self.before),
+            rays: load(&self.rays),
+        }
     }
 
     /// For tests: the CPU kernel panics in its `n`th block from now, counted from 1.
@@ -98,8 +107,11 @@ impl Control {
         (self.note)(text);
     }
 
-    pub(crate) fn begin(&self, total: u64) {
+    /// A run of `total` pixel samples begins, of which `before` were done by an earlier one.
+    pub(crate) fn begin(&self, total: u64, before: u64) {
         self.total.store(total, Ordering::Relaxed);
+        self.before.store(before, Ordering::Relaxed);
+        self.done.store(before, Ordering::Relaxed);
     }
 
     pub(crate) fn advance(&self, samples: u64, rays: u64) {

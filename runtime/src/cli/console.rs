@@ -119,7 +119,10 @@ fn progress_text(progress: Progress, watched: &Watched, elapsed: Duration) -> St
     let spp = share * f64::from(watched.spp);
     let rate = mrays(progress.rays, elapsed);
     let mut text = format!("{spp:.1} of {} spp, {rate:.2} Mrays/s", watched.spp);
-    let mut left = (share > 0.0).then(|| elapsed.as_secs_f64() * (1.0 - share) / share);
+    // What an earlier run did says nothing about the speed of this one.
+    let done = progress.done.saturating_sub(progress.before) as f64;
+    let to_do = progress.total.saturating_sub(progress.done) as f64;
+    let mut left = (done > 0.0).then(|| elapsed.as_secs_f64() * to_do / done);
     if let Some(limit) = watched.limit {
         let until = limit.saturating_sub(elapsed).as_secs_f64();
         left = Some(left.map_or(until, |left| left.min(until)));
@@ -193,13 +196,17 @@ mod tests {
 
     #[test]
     fn progress_names_samples_rate_and_time_left() {
-        let progress = Progress { total: 6400, done: 1600, rays: 30_000_000 };
+        let progress = Progress { total: 6400, done: 1600, before: 0, rays: 30_000_000 };
         let watched = Watched { spp: 64, limit: None };
         let text = progress_text(progress, &watched, Duration::from_secs(10));
         assert_eq!(text, "16.0 of 64 spp, 3.00 Mrays/s, 30.0s left");
         let watched = Watched { spp: 64, limit: Some(Duration::from_secs(15)) };
         let text = progress_text(progress, &watched, Duration::from_secs(10));
         assert_eq!(text, "16.0 of 64 spp, 3.00 Mrays/s, 5.00s left");
+        let (progress, watched) =
+            (Progress { before: 1200, ..progress }, Watched { limit: None, ..watched });
+        let text = progress_text(progress, &watched, Duration::from_secs(10));
+        assert_eq!(text, "16.0 of 64 spp, 3.00 Mrays/s, 2m00s left");
     }
 
     #[test]

@@ -1,13 +1,15 @@
 //! `rtr scene.pack`: opens, renders, writes, and says what happened.
 
 use super::Exit;
-use super::args::{PrecisionArg, RenderArgs};
+use super::args::{Every, PrecisionArg, RenderArgs};
 use super::console::{Console, Watched, duration_text, mrays, reset_interrupts};
+use crate::checkpoint::{Checkpoint, CheckpointError};
 use crate::control::Control;
 use crate::job::{Job, Precision};
 use crate::output::{self, Format};
 use crate::region::SampleRange;
-use crate::render::{DeviceChoice, Outcome, render};
+use crate::render::{DeviceChoice, Outcome, render_session};
+use crate::saver::{Keep, Session};
 use crate::scene::Scene;
 use crate::schedule::Stop;
 use pack::{MapMode, Pack};
@@ -46,8 +48,25 @@ pub(super) fn command(args: &RenderArgs) -> Exit {
         console.warn(&format!("error: {text}"));
         return Exit::World;
     }
+    let checkpoint = checkpoint_path(&outputs);
+    let from = match earlier(args, &console, &checkpoint, &scene, &job) {
+        Ok(from) => from,
+        Err(error) => return console.fail(&error, Exit::World),
+    };
     console.note(&headline(path, &scene, &job));
-    run(args, &console, &scene, &job, &outputs)
+    if let Some(from) = &from {
+        let done = from.film.samples().1;
+        console.note(&format!(
+            "going on from {}: {done} of {} spp are there",
+            checkpoint.display(),
+            job.samples.count()
+        ));
+    }
+    let keep = match args.checkpoint_every {
+        Every::Never => None,
+        Every::After(every) => Some(Keep { path: checkpoint, every }),
+    };
+    run(args, &console, &scene, &job, &outputs, Session { from, keep })
 }
 
 fn job(args: &RenderArgs, scene: &Scene) -> Job {
@@ -79,6 +98,7 @@ fn run(
     scene: &Scene,
     job: &Job,
     outputs: &[PathBuf],
+    session: Session,
 ) -> Exit {
     reset_interrupts();
     let notes = console.clone();
@@ -87,7 +107,8 @@ fn run(
     let over = AtomicBool::new(false);
     let outcome = std::thread::scope(|scope| {
         let watcher = scope.spawn(|| console.watch(&control, &watched, &over));
-        let outcome = render(scene, job, &DeviceChoice::parse(&args.device), &control);
+        let choice = DeviceChoice::parse(&args.device);
+        let outcome = render_session(scene, job, &choice, &control, session);
         over.store(true, Ordering::Relaxed);
         watcher.thread().unpark();
         outcome
@@ -111,7 +132,51 @@ fn run(
             Err(error) => failed = Some(console.fail(&error, Exit::World)),
         }
     }
-    failed.or_else(|| exit(&outcome)).unwrap_or(Exit::Done)
+    let exit = failed.or_else(|| exit(&outcome)).unwrap_or(Exit::Done);
+    settle(&checkpoint_path(outputs), args, console, &outcome, exit);
+    exit
+}
+
+/// Removes the checkpoint of a picture that is done, or says how to go on.
+fn settle(path: &Path, args: &RenderArgs, console: &Console, outcome: &Outcome, exit: Exit) {
+    let ours = outcome.saved || args.resume;
+    if exit == Exit::Done && ours {
+        if let Err(error) = std::fs::remove_file(path)
+            && error.kind() != std::io::ErrorKind::NotFound
+        {
+            console.warn(&format!("warning: cannot remove {}: {error}", path.display()));
+        }
+    } else if ours && path.is_file() {
+        console.note(&format!("to go on, run the same with --resume ({})", path.display()));
+    }
+}
+
+/// Beside the first output: `a.png.checkpoint`.
+fn checkpoint_path(outputs: &[PathBuf]) -> PathBuf {
+    with_extension(outputs.first().map_or(Path::new("picture"), PathBuf::as_path), "checkpoint")
+}
+
+/// What an earlier run left to go on from, when that is wanted.
+fn earlier(
+    args: &RenderArgs,
+    console: &Console,
+    path: &Path,
+    scene: &Scene,
+    job: &Job,
+) -> Result<Option<Checkpoint>, CheckpointError> {
+    if !args.resume {
+        if path.is_file() {
+            let path = path.display();
+            console.note(&format!("{path} is of an unfinished run; --resume would go on with it"));
+        }
+        return Ok(None);
+    }
+    let from = Checkpoint::read(path)?;
+    match &from {
+        Some(from) => from.check(path, scene, job)?,
+        None => console.note(&format!("there is no {}, so this run begins", path.display())),
+    }
+    Ok(from)
 }
 
 /// `None` when all is well.
