@@ -114,7 +114,13 @@ pub fn render_session(
         from.film
     });
     let run = Run::new(job, control, film, saver.as_ref());
-    let backends = Backends { scene, job, choice, saver: saver.as_ref() };
+    let backends = Backends {
+        scene,
+        job,
+        #[cfg(feature = "gpu")]
+        choice,
+        saver: saver.as_ref(),
+    };
     let note = |text: &str| control.note(text);
     let device_error = std::thread::scope(|scope| {
         if let Some(saver) = &saver {
@@ -157,6 +163,7 @@ pub fn render_session(
 struct Backends<'a> {
     scene: &'a Scene,
     job: &'a Job,
+    #[cfg(feature = "gpu")]
     choice: &'a DeviceChoice,
     saver: Option<&'a Saver<'a>>,
 }

@@ -46,9 +46,7 @@ struct State {
     next: Instant,
     /// Last sample of the newest checkpoint, plus one.
     end: u32,
-    /// To be written; `writing` while it is.
-    pending: Option<Checkpoint>,
-    writing: bool,
+    task: Task,
     over: bool,
     device: String,
     /// Seconds of the runs before this one.
@@ -57,13 +55,20 @@ struct State {
     failed: bool,
 }
 
+/// What the thread has to do.
+enum Task {
+    Nothing,
+    Write(Box<Checkpoint>),
+    /// It is at it.
+    UnderWay,
+}
+
 impl<'a> Saver<'a> {
     pub(crate) fn new(keep: &'a Keep, scene: &Scene, job: &Job, from: Option<&Checkpoint>) -> Self {
         let state = State {
             next: Instant::now() + keep.every,
             end: from.and_then(|from| from.film.ranges.last()).map_or(0, |range| range.end),
-            pending: None,
-            writing: false,
+            task: Task::Nothing,
             over: false,
             device: String::new(),
             before: from.map_or(0.0, |from| from.seconds),
@@ -91,11 +96,12 @@ impl<'a> Saver<'a> {
     /// Takes a copy of the film if it is time to, `elapsed` into the run.
     pub(crate) fn offer(&self, film: &Film, elapsed: Duration) {
         let mut state = self.lock();
-        if state.pending.is_some() || state.writing || Instant::now() < state.next {
+        if !matches!(state.task, Task::Nothing) || Instant::now() < state.next {
             return;
         }
         if self.is_news(&state, film) {
-            state.pending = Some(self.checkpoint(&state, film.clone(), elapsed));
+            let checkpoint = self.checkpoint(&state, film.clone(), elapsed);
+            state.task = Task::Write(Box::new(checkpoint));
             drop(state);
             self.wake.notify_all();
         }
@@ -135,17 +141,17 @@ impl<'a> Saver<'a> {
     pub(crate) fn work(&self, note: &dyn Fn(&str)) {
         let mut state = self.lock();
         loop {
-            if let Some(checkpoint) = state.pending.take() {
-                state.writing = true;
-                drop(state);
-                self.write(&checkpoint, note);
-                state = self.lock();
-                state.writing = false;
-                state.next = Instant::now() + self.keep.every;
-            } else if state.over {
-                return;
-            } else {
-                state = self.wake.wait(state).unwrap_or_else(PoisonError::into_inner);
+            match std::mem::replace(&mut state.task, Task::Nothing) {
+                Task::Write(checkpoint) => {
+                    state.task = Task::UnderWay;
+                    drop(state);
+                    self.write(&checkpoint, note);
+                    state = self.lock();
+                    state.task = Task::Nothing;
+                    state.next = Instant::now() + self.keep.every;
+                }
+                _ if state.over => return,
+                _ => state = self.wake.wait(state).unwrap_or_else(PoisonError::into_inner),
             }
         }
     }
