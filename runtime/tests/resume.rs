@@ -69,7 +69,7 @@ fn a_killed_run_goes_on_to_the_same_picture() {
     let checkpoint = killed(folder.path(), &["--spp", SPP]);
     let read = Checkpoint::read(&checkpoint).expect("it is sound").expect("it is there");
     let done = read.film.samples().0;
-    assert!(done >= 16 && done < 320 && done.is_multiple_of(16), "{done}");
+    assert!((16..320).contains(&done) && done.is_multiple_of(16), "{done}");
     let resumed = ["--spp", SPP, "-o", "a.exr", "-o", "a.png", "--resume"];
     let (code, log) = rtr(folder.path(), &resumed);
     assert_eq!(code, Some(0), "{log}");
