@@ -14,6 +14,8 @@ pub struct Control {
     /// See `lose_device`.
     lost_after: AtomicU64,
     losses: AtomicU64,
+    /// See `ignore_timestamps`.
+    untimed: AtomicBool,
     note: Box<dyn Fn(&str) + Send + Sync>,
 }
 
@@ -49,6 +51,7 @@ impl Control {
             broken_block: AtomicU64::new(0),
             lost_after: AtomicU64::new(0),
             losses: AtomicU64::new(0),
+            untimed: AtomicBool::new(false),
             note: Box::new(note),
         }
     }
@@ -87,6 +90,17 @@ impl Control {
     pub fn lose_device(&self, n: u64, times: u64) {
         self.lost_after.store(n, Ordering::Relaxed);
         self.losses.store(times, Ordering::Relaxed);
+    }
+
+    /// For tests: GPU devices are opened as if they had no timestamps.
+    #[doc(hidden)]
+    pub fn ignore_timestamps(&self) {
+        self.untimed.store(true, Ordering::Relaxed);
+    }
+
+    #[cfg(feature = "gpu")]
+    pub(crate) fn ignores_timestamps(&self) -> bool {
+        self.untimed.load(Ordering::Relaxed)
     }
 
     /// Whether the block that begins now is to break.
