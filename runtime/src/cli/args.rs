@@ -14,6 +14,7 @@ Examples:
   rtr scene.pack --samples 32..64 -o b.exr   ... the other half there,
   rtr merge a.exr b.exr -o c.exr -o c.png    and both together
   rtr scene.pack -o a.png --resume        go on after Ctrl-C, a crash or a power cut
+  rtr scene.pack --watch --time 10s       render again whenever the pack changes
   rtr --list-devices                      what --device can choose from
 
 Exit codes: 0 done; 1 too many samples were not finite; 2 usage; 3 input, output or device;
@@ -83,6 +84,10 @@ pub(super) struct RenderArgs {
     /// picture is the same, bit for bit, as if nothing had happened.
     #[arg(long)]
     pub(super) resume: bool,
+    /// Render again whenever the pack changes, until Ctrl-C: an unfinished picture is dropped, a
+    /// broken pack is reported and waited out.
+    #[arg(long, conflicts_with = "resume")]
+    pub(super) watch: bool,
     /// Time between two checkpoints, such as 60s or 5m, or `never`. They lie beside the first
     /// output, as NAME.checkpoint, also after Ctrl-C, and are removed when the picture is complete.
     #[arg(long, default_value = "60s", value_name = "TIME", value_parser = parse_every)]

@@ -3,6 +3,7 @@
 use super::Exit;
 use super::args::{Every, PrecisionArg, RenderArgs};
 use super::console::{Console, Watched, duration_text, mrays, reset_interrupts};
+use super::watch::Change;
 use crate::checkpoint::{Checkpoint, CheckpointError};
 use crate::control::Control;
 use crate::job::{Job, Precision};
@@ -17,7 +18,8 @@ use std::ffi::OsStr;
 use std::path::{Component, Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-pub(super) fn command(args: &RenderArgs) -> Exit {
+/// `change`: what makes the picture pointless while it is rendered; then nothing is written.
+pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
     let console = Console::with_progress(args.quiet);
     let Some(path) = &args.pack else {
         console.warn("error: no pack was named");
@@ -32,7 +34,8 @@ pub(super) fn command(args: &RenderArgs) -> Exit {
         ));
         return Exit::World;
     }
-    let mode = if args.no_mmap { MapMode::Read } else { MapMode::Map };
+    // A mapped file must not change; one that is watched is going to.
+    let mode = if args.no_mmap || args.watch { MapMode::Read } else { MapMode::Map };
     let scene = match Pack::open(path, mode) {
         Ok(pack) => Scene::new(pack),
         Err(error) => {
@@ -63,10 +66,11 @@ pub(super) fn command(args: &RenderArgs) -> Exit {
         ));
     }
     let keep = match args.checkpoint_every {
-        Every::Never => None,
-        Every::After(every) => Some(Keep { path: checkpoint, every }),
+        Every::After(every) if !args.watch => Some(Keep { path: checkpoint, every }),
+        _ => None,
     };
-    run(args, &console, &scene, &job, &outputs, Session { from, keep })
+    let plan = Plan { scene: &scene, job: &job, outputs: &outputs, change };
+    run(args, &console, &plan, Session { from, keep })
 }
 
 fn job(args: &RenderArgs, scene: &Scene) -> Job {
@@ -92,18 +96,22 @@ fn job(args: &RenderArgs, scene: &Scene) -> Job {
     job
 }
 
-fn run(
-    args: &RenderArgs,
-    console: &Console,
-    scene: &Scene,
-    job: &Job,
-    outputs: &[PathBuf],
-    session: Session,
-) -> Exit {
-    reset_interrupts();
+/// What is rendered, and where it goes.
+struct Plan<'a> {
+    scene: &'a Scene,
+    job: &'a Job,
+    outputs: &'a [PathBuf],
+    change: Option<&'a Change>,
+}
+
+fn run(args: &RenderArgs, console: &Console, plan: &Plan<'_>, session: Session) -> Exit {
+    let Plan { scene, job, outputs, change } = *plan;
+    if change.is_none() {
+        reset_interrupts();
+    }
     let notes = console.clone();
     let control = Control::new(move |text| notes.note(text));
-    let watched = Watched { spp: job.samples.count(), limit: job.time_limit };
+    let watched = Watched { spp: job.samples.count(), limit: job.time_limit, change };
     let over = AtomicBool::new(false);
     let outcome = std::thread::scope(|scope| {
         let watcher = scope.spawn(|| console.watch(&control, &watched, &over));
@@ -117,6 +125,9 @@ fn run(
         Ok(outcome) => outcome,
         Err(error) => return console.fail(&error, Exit::World),
     };
+    if outcome.stop == Stop::Cancelled && change.is_some_and(Change::has_come) {
+        return Exit::Done;
+    }
     report(console, &outcome, job);
     if outcome.film().samples().1 == 0 {
         console.warn("error: no sample was complete, nothing is written");
@@ -165,7 +176,7 @@ fn earlier(
     job: &Job,
 ) -> Result<Option<Checkpoint>, CheckpointError> {
     if !args.resume {
-        if path.is_file() {
+        if path.is_file() && !args.watch {
             let path = path.display();
             console.note(&format!("{path} is of an unfinished run; --resume would go on with it"));
         }
