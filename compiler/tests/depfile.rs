@@ -117,7 +117,7 @@ fn make_runs_again_when_a_file_of_the_scene_changes_and_only_then() {
     };
     assert!(!first, "the pack is newer than everything");
     let later = std::time::SystemTime::now() + std::time::Duration::from_secs(5);
-    let earlier = later - std::time::Duration::from_secs(60);
+    let earlier = later - std::time::Duration::from_mins(1);
     let touch = |name: &str, time| {
         let file = std::fs::File::options().append(true).open(folder.path().join(name));
         file.and_then(|file| file.set_modified(time)).expect("the file is there");
