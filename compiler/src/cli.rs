@@ -9,6 +9,7 @@ mod explain;
 mod files;
 mod fmt;
 mod inspect;
+mod record;
 mod show;
 mod watch;
 

@@ -8,6 +8,7 @@ use clap::Args;
 use lang::Analysis;
 
 use super::files::{DiskLoader, TextError, read_text};
+use super::record::{Job, Record};
 use super::watch::watch;
 use super::{BUG, IO, OK, ReportArgs, SCENE, SceneArgs};
 use crate::bvh::Preset;
@@ -87,10 +88,24 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
     let start = Instant::now();
     let cache = if args.no_cache { Cache::disabled() } else { Cache::from_env() };
     let output = args.output.clone().unwrap_or_else(|| default_output(&args.scene.scene));
-    let (compiled, mut phases) = match compile(&args.scene, args.bvh, &cache, reuse, reporter) {
-        Ok(done) => done,
-        Err(code) => return code,
+    let job = Job {
+        scene: &args.scene.scene,
+        output: &output,
+        defines: &args.scene.define,
+        preset: args.bvh,
     };
+    // Who asks for the kernel or the times wants to see a compilation.
+    if args.emit_wgsl.is_none()
+        && !args.timings
+        && let Some(record) = job.up_to_date(&cache)
+    {
+        return up_to_date(args, &record, &output, reuse, reporter);
+    }
+    let (compiled, mut phases, silent) =
+        match compile(&args.scene, args.bvh, &cache, reuse, reporter) {
+            Ok(done) => done,
+            Err(code) => return code,
+        };
     if let Some(path) = &args.emit_wgsl
         && let Err(code) = write_text(path, &compiled.kernel.text, reporter)
     {
@@ -118,6 +133,31 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
     if let Some(line) = reused_text(&compiled.reused) {
         reporter.status(&line);
     }
+    if silent && compiled.lowered.trees.warnings.is_empty() {
+        job.keep(&cache, reuse);
+    }
+    OK
+}
+
+/// Nothing changed since the pack was made.
+fn up_to_date(
+    args: &BuildArgs,
+    record: &Record,
+    output: &Path,
+    reuse: &Reuse,
+    reporter: &Reporter,
+) -> u8 {
+    for file in &record.files {
+        reuse.read(file);
+    }
+    if let Some(path) = &args.depfile
+        && let Err(code) = write_depfile(path, output, reuse, reporter)
+    {
+        return code;
+    }
+    let (n, output) = (record.files.len(), output.display());
+    let plural = if n == 1 { "" } else { "s" };
+    reporter.status(&format!("{output} is up to date: nothing changed in {n} file{plural}"));
     OK
 }
 
@@ -169,13 +209,14 @@ fn analyze_reading(scene: &SceneArgs, reuse: &Reuse, reporter: &Reporter) -> Res
     Ok(lang::analyze(&shown, &text, &mut DiskLoader { reuse: Some(reuse) }, &options))
 }
 
+/// Also gives the phases, and whether there was nothing to say.
 fn compile(
     args: &SceneArgs,
     preset: Preset,
     cache: &Cache,
     reuse: &Reuse,
     reporter: &Reporter,
-) -> Result<(Compiled, Vec<Phase>), u8> {
+) -> Result<(Compiled, Vec<Phase>, bool), u8> {
     let start = Instant::now();
     let Analysis { sources, scene, mut diagnostics, .. } = analyze_reading(args, reuse, reporter)?;
     let Some(scene) = scene else {
@@ -195,7 +236,7 @@ fn compile(
     match result {
         Ok(mut compiled) => {
             phases.append(&mut compiled.phases);
-            Ok((compiled, phases))
+            Ok((compiled, phases, diagnostics.is_empty()))
         }
         Err(error) => Err(failed(&error, reporter)),
     }
