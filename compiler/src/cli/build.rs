@@ -133,7 +133,9 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
     if let Some(line) = reused_text(&compiled.reused) {
         reporter.status(&line);
     }
-    if silent && compiled.lowered.trees.warnings.is_empty() {
+    let silent = silent && compiled.lowered.trees.warnings.is_empty();
+    drop(compiled);
+    if silent {
         job.keep(&cache, reuse);
     }
     OK
