@@ -123,9 +123,9 @@ impl Control {
 
     /// A run of `total` pixel samples begins, of which `before` were done by an earlier one.
     pub(crate) fn begin(&self, total: u64, before: u64) {
-        self.total.store(total, Ordering::Relaxed);
         self.before.store(before, Ordering::Relaxed);
         self.done.store(before, Ordering::Relaxed);
+        self.total.store(total, Ordering::Relaxed);
     }
 
     pub(crate) fn advance(&self, samples: u64, rays: u64) {

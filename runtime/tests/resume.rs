@@ -146,27 +146,26 @@ fn many_interruptions_do_not_change_a_bit() {
     let folder = tempfile::tempdir().expect("a folder for tests");
     let path = folder.path().join("a.exr.checkpoint");
     // The range begins and ends inside of a batch.
-    let samples = SampleRange { start: 5, end: 90 };
-    let job = Job { samples, ..Job::of_scene(&scene) };
+    let samples = SampleRange { start: 5, end: 170 };
+    // One thread, so that a busy machine has time to interrupt it.
+    let job = Job { samples, threads: Some(1), ..Job::of_scene(&scene) };
     let keep = Some(Keep { path: path.clone(), every: Duration::from_hours(1) });
-    let mut interruptions = 0;
+    let (mut interruptions, mut rounds) = (0, 0);
     let outcome = loop {
         let from = Checkpoint::read(&path).expect("it is sound");
         if let Some(from) = &from {
             from.check(&path, &scene, &job).expect("it is of this run");
         }
         let control = Arc::new(Control::default());
+        let batch = job.crop.pixels() * 16;
+        let before = from.as_ref().map_or(0, |from| from.film.total_samples());
+        let end = before + batch + batch / 3;
         let session = Session { from, keep: keep.clone() };
         let outcome = std::thread::scope(|scope| {
             scope.spawn(|| {
-                let batch = job.crop.pixels() * 16;
-                while control.progress().total == 0 {
-                    std::thread::yield_now();
-                }
-                let end = control.progress().done + batch + batch / 3;
-                let all = control.progress().total;
+                let all = job.crop.pixels() * u64::from(job.samples.count());
                 while control.progress().done < end.min(all) {
-                    std::thread::yield_now();
+                    std::thread::sleep(Duration::from_millis(1));
                 }
                 control.cancel();
             });
@@ -176,9 +175,10 @@ fn many_interruptions_do_not_change_a_bit() {
         if outcome.stop == Stop::Complete {
             break outcome;
         }
-        assert!(outcome.saved, "a batch was complete");
-        interruptions += 1;
-        assert!(interruptions < 20, "it does not come to an end");
+        // A thread that was held up may have kept the only batch from being complete.
+        interruptions += usize::from(outcome.saved);
+        rounds += 1;
+        assert!(rounds < 200, "it does not come to an end");
     };
     assert!(interruptions >= 2, "{interruptions}");
     let whole = render(&scene, &job, &DeviceChoice::Cpu, &Control::default());
