@@ -13,7 +13,7 @@
 mod dir;
 mod entry;
 
-use std::io;
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -27,6 +27,8 @@ pub use entry::EntryFault;
 pub const MIN_PRIMITIVES: usize = 20_000;
 /// Default limit of all files together, bytes.
 const CAP: u64 = 4 << 30;
+/// Bytes of a record: thousands of file names.
+const MAX_RECORD: u64 = 16 << 20;
 
 /// Where trees are kept, if anywhere.
 #[derive(Clone, Debug)]
@@ -194,11 +196,29 @@ impl Cache {
         Ok(Cached { tree, source, warning })
     }
 
+    /// What `store_record` was given for this key; nothing if it is longer than any record.
+    pub(crate) fn record(&self, key: &blake3::Hash) -> Option<Vec<u8>> {
+        let path = self.root.as_ref()?.join(dir::record_path(key));
+        let file = std::fs::File::open(&path).ok()?;
+        let mut bytes = Vec::new();
+        file.take(MAX_RECORD + 1).read_to_end(&mut bytes).ok()?;
+        dir::touch(&path);
+        (bytes.len() as u64 <= MAX_RECORD).then_some(bytes)
+    }
+
+    /// Keeps a few bytes under a key. A cache that cannot be written harms nobody.
+    pub(crate) fn store_record(&self, key: &blake3::Hash, bytes: &[u8]) {
+        if let Some(root) = &self.root {
+            let _ = dir::store(&root.join(dir::record_path(key)), bytes);
+        }
+    }
+
     /// How much there is.
     pub fn stats(&self) -> Result<CacheStats, CacheError> {
         let files = self.files()?;
         let bytes = files.iter().map(|f| f.bytes).sum();
-        Ok(CacheStats { entries: files.len() as u64, bytes })
+        let entries = files.iter().filter(|file| file.is_tree).count() as u64;
+        Ok(CacheStats { entries, bytes })
     }
 
     /// Deletes every tree, and nothing else; returns what there was.
@@ -224,7 +244,7 @@ impl Cache {
             }
             dir::remove(&file.path).map_err(|e| io_error(&file.path, e))?;
             left -= file.bytes;
-            deleted.entries += 1;
+            deleted.entries += u64::from(file.is_tree);
             deleted.bytes += file.bytes;
         }
         Ok(deleted)

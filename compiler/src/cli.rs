@@ -9,7 +9,9 @@ mod explain;
 mod files;
 mod fmt;
 mod inspect;
+mod record;
 mod show;
+mod watch;
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -32,6 +34,8 @@ pub const BUG: u8 = 70;
 const EXAMPLES: &str = "\
 Examples:
   rtc scene.rts -o scene.pack        compile a scene; then: rtr scene.pack
+  rtc scene.rts --watch              compile again whenever a file of the scene changes
+  rtc scene.rts --depfile scene.d    also write what the pack depends on, for make or ninja
   rtc check scene.rts                only look for errors
   rtc scene.rts -D hour=7h           override a `param` of the scene
   rtc fmt scene.rts                  tidy the text

@@ -7,9 +7,11 @@
 pub mod bvh;
 pub mod cache;
 pub mod cli;
+pub mod depfile;
 pub mod import;
 pub mod lower;
 pub mod normalize;
 pub mod pipeline;
 pub mod report;
+pub mod reuse;
 pub mod weld;

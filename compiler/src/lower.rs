@@ -36,6 +36,8 @@ pub use assemble::{Counters, LowerError, Lowered, Times, Trees, lower};
 pub use geometry::Placement;
 pub use texture::{TextureTable, srgb_table};
 
+use std::sync::Arc;
+
 use crate::import::{Environment, Image, MeshFile};
 
 /// What the files of a scene turned out to contain, in the order of `Scene::assets` and
@@ -43,9 +45,9 @@ use crate::import::{Environment, Image, MeshFile};
 #[derive(Debug, Default)]
 pub struct Loaded {
     /// Mesh files.
-    pub assets: Vec<Option<MeshFile>>,
+    pub assets: Vec<Option<Arc<MeshFile>>>,
     /// Images.
-    pub textures: Vec<Option<Image>>,
+    pub textures: Vec<Option<Arc<Image>>>,
     /// The image of the sky, if it has one.
     pub environment: Option<Environment>,
 }

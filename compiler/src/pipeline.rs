@@ -17,6 +17,7 @@ use shaders::{FeatureSet, LayoutError, Linked, ShaderError};
 
 use crate::import::Limits;
 use crate::lower::{self, LowerError, Lowered, Trees};
+use crate::reuse::{Reuse, Reused, Share};
 
 pub use load::FileRead;
 
@@ -57,6 +58,8 @@ pub struct Compiled {
     pub recipe_id: [u8; 32],
     /// Files that were read besides the scene texts.
     pub files: Vec<FileRead>,
+    /// What was taken over from earlier compilations.
+    pub reused: Reused,
     /// What took how long.
     pub phases: Vec<Phase>,
 }
@@ -91,8 +94,22 @@ pub fn compile(
     options: &Options<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Compiled, CompileError> {
+    compile_reusing(scene, sources, options, &Reuse::once(), diagnostics)
+}
+
+/// As `compile`, with what earlier compilations left in `reuse`. The pack has the same bytes.
+///
+/// # Errors
+/// As those of `compile`.
+pub fn compile_reusing(
+    scene: &Scene,
+    sources: &SourceSet,
+    options: &Options<'_>,
+    reuse: &Reuse,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<Compiled, CompileError> {
     let mut clock = Clock::start();
-    let (loaded, files) = load::load(scene, sources, options, diagnostics);
+    let (loaded, files) = load::load(scene, sources, options, reuse, diagnostics);
     clock.phase("read files");
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(CompileError::Scene);
@@ -105,13 +122,18 @@ pub fn compile(
     clock.times(&lowered.times);
     let features = features::of(&lowered);
     let kernel = shaders::link(&features)?;
-    let (module, _) = shaders::validate(&kernel)?;
-    shaders::check_layouts(&module)?;
+    reuse.kernel(&kernel.text, || {
+        let (module, _) = shaders::validate(&kernel)?;
+        shaders::check_layouts(&module).map_err(CompileError::from)
+    })?;
     clock.phase("link and prove the kernel");
     let context = manifest::Context { scene, sources, options, files: &files };
     let manifest = context.manifest(&lowered, &features);
     let recipe_id = context.recipe_id();
-    Ok(Compiled { lowered, features, kernel, manifest, recipe_id, files, phases: clock.phases })
+    let trees = Share { reused: lowered.trees.loaded, all: lowered.trees.groups };
+    let reused = Reused { texts: sources.ids().count(), trees, ..reuse.counts() };
+    let phases = clock.phases;
+    Ok(Compiled { lowered, features, kernel, manifest, recipe_id, files, reused, phases })
 }
 
 impl Compiled {

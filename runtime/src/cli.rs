@@ -7,6 +7,7 @@
 mod args;
 mod console;
 mod render;
+mod watch;
 
 use self::args::{Args, Command, MergeArgs};
 use self::console::Console;
@@ -41,7 +42,8 @@ pub fn run(args: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> ExitC
     code(match &args.command {
         Some(Command::Merge(merge)) => merge_command(merge),
         None if args.render.list_devices => list_devices(),
-        None => render::command(&args.render),
+        None if args.render.watch => watch::command(&args.render),
+        None => render::command(&args.render, None),
     })
 }
 

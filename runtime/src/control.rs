@@ -7,12 +7,15 @@ pub struct Control {
     cancel: AtomicBool,
     total: AtomicU64,
     done: AtomicU64,
+    before: AtomicU64,
     rays: AtomicU64,
     /// See `break_block`; 0 is never.
     broken_block: AtomicU64,
     /// See `lose_device`.
     lost_after: AtomicU64,
     losses: AtomicU64,
+    /// See `ignore_timestamps`.
+    untimed: AtomicBool,
     note: Box<dyn Fn(&str) + Send + Sync>,
 }
 
@@ -23,7 +26,9 @@ pub struct Progress {
     pub total: u64,
     /// Pixel samples that were rendered.
     pub done: u64,
-    /// Rays that were traced.
+    /// Pixel samples that an earlier run had done already; part of `done`.
+    pub before: u64,
+    /// Rays that this run traced.
     pub rays: u64,
 }
 
@@ -41,10 +46,12 @@ impl Control {
             cancel: AtomicBool::new(false),
             total: AtomicU64::new(0),
             done: AtomicU64::new(0),
+            before: AtomicU64::new(0),
             rays: AtomicU64::new(0),
             broken_block: AtomicU64::new(0),
             lost_after: AtomicU64::new(0),
             losses: AtomicU64::new(0),
+            untimed: AtomicBool::new(false),
             note: Box::new(note),
         }
     }
@@ -64,7 +71,12 @@ impl Control {
     #[must_use]
     pub fn progress(&self) -> Progress {
         let load = |counter: &AtomicU64| counter.load(Ordering::Relaxed);
-        Progress { total: load(&self.total), done: load(&self.done), rays: load(&self.rays) }
+        Progress {
+            total: load(&self.total),
+            done: load(&self.done),
+            before: load(&self.before),
+            rays: load(&self.rays),
+        }
     }
 
     /// For tests: the CPU kernel panics in its `n`th block from now, counted from 1.
@@ -78,6 +90,17 @@ impl Control {
     pub fn lose_device(&self, n: u64, times: u64) {
         self.lost_after.store(n, Ordering::Relaxed);
         self.losses.store(times, Ordering::Relaxed);
+    }
+
+    /// For tests: GPU devices are opened as if they had no timestamps.
+    #[doc(hidden)]
+    pub fn ignore_timestamps(&self) {
+        self.untimed.store(true, Ordering::Relaxed);
+    }
+
+    #[cfg(feature = "gpu")]
+    pub(crate) fn ignores_timestamps(&self) -> bool {
+        self.untimed.load(Ordering::Relaxed)
     }
 
     /// Whether the block that begins now is to break.
@@ -98,7 +121,10 @@ impl Control {
         (self.note)(text);
     }
 
-    pub(crate) fn begin(&self, total: u64) {
+    /// A run of `total` pixel samples begins, of which `before` were done by an earlier one.
+    pub(crate) fn begin(&self, total: u64, before: u64) {
+        self.before.store(before, Ordering::Relaxed);
+        self.done.store(before, Ordering::Relaxed);
         self.total.store(total, Ordering::Relaxed);
     }
 

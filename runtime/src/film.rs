@@ -20,6 +20,12 @@ pub struct BadSample {
     pub sample: u32,
 }
 
+impl fmt::Display for BadSample {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{},{},{}", self.x, self.y, self.sample)
+    }
+}
+
 /// What was counted beside the radiance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
@@ -157,8 +163,8 @@ impl Accumulator {
         Self { film, open: BTreeMap::new(), spare: None }
     }
 
-    #[cfg(test)]
-    fn film(&self) -> &Film {
+    /// What is complete so far.
+    pub(crate) fn film(&self) -> &Film {
         &self.film
     }
 

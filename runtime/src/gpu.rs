@@ -7,6 +7,7 @@ mod adapter;
 mod device;
 mod pace;
 mod queue;
+mod stopwatch;
 mod upload;
 
 pub use self::adapter::{Adapter, adapters, describe};
@@ -78,7 +79,8 @@ pub(crate) fn render(
     let mut losses = 0;
     loop {
         let before = run.done();
-        let error = match Device::open(adapter, setup, module) {
+        let error = match Device::open(adapter, setup, module, !run.control().ignores_timestamps())
+        {
             Ok(mut device) => match device.render(setup, run, &mut pace) {
                 Ok(()) => return Ok(()),
                 Err(error) => error,

@@ -17,6 +17,7 @@
 //! # }
 //! ```
 
+mod checkpoint;
 pub mod cli;
 mod control;
 mod cpu;
@@ -29,16 +30,19 @@ pub mod output;
 mod region;
 mod render;
 mod run;
+mod saver;
 mod scene;
 mod schedule;
 #[cfg(feature = "gpu")]
 mod trust;
 
+pub use checkpoint::{Checkpoint, CheckpointError};
 pub use control::{Control, Progress};
 pub use film::{BadSample, Counters, Film};
 pub use job::{Job, JobError, MAX_PIXELS, MAX_SIDE, Precision};
 pub use region::{Rect, SampleRange};
-pub use render::{DeviceChoice, Outcome, RenderError, render};
+pub use render::{DeviceChoice, Outcome, RenderError, render, render_session};
 pub use run::TileFailure;
+pub use saver::{Keep, Session};
 pub use scene::Scene;
 pub use schedule::Stop;

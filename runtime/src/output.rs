@@ -7,8 +7,9 @@ mod exr;
 mod merge;
 mod png;
 
+pub(crate) use self::exr::parse_bad;
 pub use self::exr::{read_exr, write_exr};
-pub use self::merge::{MergeError, merge};
+pub use self::merge::{Identity, MergeError, merge};
 pub use self::png::{encode_png, tone_map, write_png};
 
 use crate::film::Film;
@@ -122,12 +123,12 @@ fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
 }
 
 /// `0..32,64..96`.
-fn ranges_text(ranges: &[SampleRange]) -> String {
+pub(crate) fn ranges_text(ranges: &[SampleRange]) -> String {
     ranges.iter().map(SampleRange::to_string).collect::<Vec<_>>().join(",")
 }
 
 /// The inverse of `ranges_text`; `None` when malformed, overlapping or empty ranges occur.
-fn parse_ranges(text: &str) -> Option<Vec<SampleRange>> {
+pub(crate) fn parse_ranges(text: &str) -> Option<Vec<SampleRange>> {
     let mut ranges = Vec::new();
     for part in text.split(',').filter(|part| !part.is_empty()) {
         let (start, end) = part.split_once("..")?;

@@ -6,6 +6,7 @@ use crate::film::Film;
 use crate::job::{Job, JobError};
 use crate::output::{Meta, Picture};
 use crate::run::{Run, TileFailure};
+use crate::saver::{Saver, Session};
 use crate::scene::Scene;
 use crate::schedule::Stop;
 use std::time::Duration;
@@ -62,8 +63,10 @@ pub struct Outcome {
     pub failures: Vec<TileFailure>,
     /// What became of the device, when it could not finish.
     pub device_error: Option<String>,
-    /// Time from the first claim to the last deposit.
+    /// Time from the first claim to the last deposit, with that of the runs it went on from.
     pub elapsed: Duration,
+    /// Whether a checkpoint was written.
+    pub saved: bool,
 }
 
 impl Outcome {
@@ -87,44 +90,61 @@ pub fn render(
     choice: &DeviceChoice,
     control: &Control,
 ) -> Result<Outcome, RenderError> {
+    render_session(scene, job, choice, control, Session::default())
+}
+
+/// As `render`, from where an earlier run was, and saving where this one is. The film is the same to
+/// the last bit, however often it was interrupted.
+pub fn render_session(
+    scene: &Scene,
+    job: &Job,
+    choice: &DeviceChoice,
+    control: &Control,
+    session: Session,
+) -> Result<Outcome, RenderError> {
     job.check()?;
     let device = select(choice, job)?;
-    let setup = scene.setup(job);
-    let run = Run::new(job, control);
+    let Session { from, keep } = session;
+    let saver = keep.as_ref().map(|keep| Saver::new(keep, scene, job, from.as_ref()));
     let mut names: Vec<String> = Vec::new();
-    let mut device_error = None;
-    let mut on_cpu = matches!(device, Selected::Cpu);
-    #[cfg(feature = "gpu")]
-    if let Selected::Gpu(adapter) = device {
-        run.note(&format!("device: {}", adapter.describe()));
-        names.push(adapter.describe());
-        if let Err(error) = gpu::render(&adapter, &setup, job, &run) {
-            if *choice == DeviceChoice::Auto {
-                run.note(&format!("{error}; the CPU goes on"));
-                on_cpu = true;
-            } else {
-                device_error = Some(error.to_string());
-                run.abort();
-            }
+    let mut before = Duration::ZERO;
+    let film = from.map(|from| {
+        before = Duration::try_from_secs_f64(from.seconds).unwrap_or_default();
+        names = from.device.split(" + ").map(str::to_owned).collect();
+        from.film
+    });
+    let run = Run::new(job, control, film, saver.as_ref());
+    let backends = Backends {
+        scene,
+        job,
+        #[cfg(feature = "gpu")]
+        choice,
+        saver: saver.as_ref(),
+    };
+    let note = |text: &str| control.note(text);
+    let device_error = std::thread::scope(|scope| {
+        if let Some(saver) = &saver {
+            scope.spawn(|| saver.work(&note));
         }
-    }
-    if std::mem::take(&mut on_cpu) {
-        let name = cpu::name(job);
-        run.note(&format!("device: {name}"));
-        names.push(name);
-        if let Err(error) = cpu::render(&setup, job, &run) {
-            device_error = Some(error.to_string());
-            run.abort();
+        let error = backends.render(device, &run, &mut names);
+        if let Some(saver) = &saver {
+            saver.close();
         }
-    }
+        error
+    });
     let finished = run.finish();
+    let well = matches!(finished.stop, Stop::Complete | Stop::TimeLimit);
+    if let (Some(saver), false) = (&saver, well) {
+        saver.last(&finished.film, finished.elapsed, &note);
+    }
+    let elapsed = before + finished.elapsed;
     let meta = Meta {
         render_id: scene.render_id(),
         seed: job.seed,
         estimator: job.estimator,
         precision: job.precision.name().to_owned(),
         device: names.join(" + "),
-        seconds: finished.elapsed.as_secs_f64(),
+        seconds: elapsed.as_secs_f64(),
         exposure: scene.settings().exposure,
         tone_map: scene.settings().tone_map,
         complete: finished.stop == Stop::Complete && finished.failures.is_empty(),
@@ -134,8 +154,53 @@ pub fn render(
         stop: finished.stop,
         failures: finished.failures,
         device_error,
-        elapsed: finished.elapsed,
+        elapsed,
+        saved: saver.is_some_and(|saver| saver.has_written()),
     })
+}
+
+/// What the backends are given.
+struct Backends<'a> {
+    scene: &'a Scene,
+    job: &'a Job,
+    #[cfg(feature = "gpu")]
+    choice: &'a DeviceChoice,
+    saver: Option<&'a Saver<'a>>,
+}
+
+impl Backends<'_> {
+    /// Renders on the device; with `auto`, the CPU finishes what a GPU could not. Gives what became
+    /// of the device when nothing went on.
+    fn render(&self, device: Selected, run: &Run<'_>, names: &mut Vec<String>) -> Option<String> {
+        let setup = self.scene.setup(self.job);
+        match device {
+            Selected::Cpu => {}
+            #[cfg(feature = "gpu")]
+            Selected::Gpu(adapter) => {
+                self.begin(adapter.describe(), run, names);
+                let error = gpu::render(&adapter, &setup, self.job, run).err()?;
+                if *self.choice != DeviceChoice::Auto {
+                    run.abort();
+                    return Some(error.to_string());
+                }
+                run.note(&format!("{error}; the CPU goes on"));
+            }
+        }
+        self.begin(cpu::name(self.job), run, names);
+        let error = cpu::render(&setup, self.job, run).err()?;
+        run.abort();
+        Some(error.to_string())
+    }
+
+    fn begin(&self, name: String, run: &Run<'_>, names: &mut Vec<String>) {
+        run.note(&format!("device: {name}"));
+        if names.last() != Some(&name) {
+            names.push(name);
+        }
+        if let Some(saver) = self.saver {
+            saver.device(names.join(" + "));
+        }
+    }
 }
 
 enum Selected {

@@ -6,7 +6,8 @@
 use crate::control::Control;
 use crate::film::{Accumulator, Film};
 use crate::job::Job;
-use crate::region::Rect;
+use crate::region::{Rect, SampleRange};
+use crate::saver::Saver;
 use crate::schedule::{Claim, Scheduler, Stop, WorkItem};
 use pack::abi::FilmPixel;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
@@ -31,6 +32,7 @@ pub(crate) struct Run<'a> {
     control: &'a Control,
     started: Instant,
     strict: bool,
+    saver: Option<&'a Saver<'a>>,
 }
 
 struct State {
@@ -48,11 +50,23 @@ pub(crate) struct Finished {
 }
 
 impl<'a> Run<'a> {
-    pub(crate) fn new(job: &Job, control: &'a Control) -> Self {
-        control.begin(job.crop.pixels() * u64::from(job.samples.count()));
+    /// A run that goes on from `film`, which `Checkpoint::can_hold`, or begins.
+    pub(crate) fn new(
+        job: &Job,
+        control: &'a Control,
+        film: Option<Film>,
+        saver: Option<&'a Saver<'a>>,
+    ) -> Self {
+        let film = film.unwrap_or_else(|| Film::new(job.image_size, job.crop));
+        let rest = match film.ranges.last() {
+            Some(done) => SampleRange::new(done.end, job.samples.end),
+            None => Some(job.samples),
+        };
+        let total = job.crop.pixels() * u64::from(job.samples.count());
+        control.begin(total, film.total_samples());
         let state = State {
-            scheduler: Scheduler::new(job.crop, job.samples, job.time_limit),
-            sum: Accumulator::new(Film::new(job.image_size, job.crop)),
+            scheduler: Scheduler::new(job.crop, rest, job.time_limit),
+            sum: Accumulator::new(film),
             failures: Vec::new(),
         };
         Self {
@@ -61,6 +75,7 @@ impl<'a> Run<'a> {
             control,
             started: Instant::now(),
             strict: job.strict,
+            saver,
         }
     }
 
@@ -113,6 +128,9 @@ impl<'a> Run<'a> {
             }
             let rays = pixels.iter().map(|pixel| u64::from(pixel.rays)).sum();
             self.control.advance(item.cost(), rays);
+            if let Some(saver) = self.saver {
+                saver.offer(state.sum.film(), self.started.elapsed());
+            }
         }
         drop(state);
         self.ended.notify_all();

@@ -77,11 +77,13 @@ pub(crate) struct Scheduler {
 }
 
 impl Scheduler {
-    pub(crate) fn new(region: Rect, samples: SampleRange, limit: Option<Duration>) -> Self {
-        let probes = if limit.is_some() { probes(region, samples) } else { Vec::new() };
+    /// Without `samples` there is nothing to do.
+    pub(crate) fn new(region: Rect, samples: Option<SampleRange>, limit: Option<Duration>) -> Self {
+        let probed = samples.filter(|_| limit.is_some());
+        let probes = probed.map_or_else(Vec::new, |samples| probes(region, samples));
         Self {
             region,
-            rest: Some(samples),
+            rest: samples,
             pass: None,
             returned: Vec::new(),
             limit,
@@ -114,7 +116,7 @@ impl Scheduler {
         if let Some(item) = self.returned.pop() {
             return Claim::Work(self.shrunk(item, pixels));
         }
-        if self.pass.is_none() {
+        if self.pass.is_none() && self.rest.is_some() {
             if self.probe_rate == 0.0 && self.limit.is_some() {
                 if self.under_way > 0 {
                     return Claim::Wait;
@@ -272,7 +274,7 @@ mod tests {
 
     #[test]
     fn without_a_limit_every_sample_is_handed_out_in_order() {
-        let mut scheduler = Scheduler::new(REGION, range(5, 40), None);
+        let mut scheduler = Scheduler::new(REGION, Some(range(5, 40)), None);
         let (items, _) = run(&mut scheduler, 1.0);
         let passes: Vec<_> = items.iter().map(|item| item.samples).collect();
         assert!(passes.is_sorted() && items.iter().all(|item| !item.probe));
@@ -282,7 +284,8 @@ mod tests {
 
     #[test]
     fn a_time_limit_ends_with_a_part_of_a_batch_in_time() {
-        let mut scheduler = Scheduler::new(REGION, range(0, 1000), Some(Duration::from_secs(1)));
+        let mut scheduler =
+            Scheduler::new(REGION, Some(range(0, 1000)), Some(Duration::from_secs(1)));
         // 2048 pixels at 10 us: a sample of all takes 20.48 ms, the probes 41 ms.
         let (items, end) = run(&mut scheduler, 1e-5);
         assert!((0.9..=1.0).contains(&end.as_secs_f64()), "{end:?}");
@@ -293,7 +296,8 @@ mod tests {
 
     #[test]
     fn the_shortest_limit_still_gives_one_sample() {
-        let mut scheduler = Scheduler::new(REGION, range(16, 64), Some(Duration::from_nanos(1)));
+        let mut scheduler =
+            Scheduler::new(REGION, Some(range(16, 64)), Some(Duration::from_nanos(1)));
         let (items, _) = run(&mut scheduler, 1e-5);
         let real: Vec<_> = items.iter().filter(|item| !item.probe).collect();
         assert!(real.iter().all(|item| item.samples == range(16, 17)));
@@ -302,7 +306,8 @@ mod tests {
 
     #[test]
     fn a_limit_that_is_not_reached_changes_nothing() {
-        let mut scheduler = Scheduler::new(REGION, range(0, 32), Some(Duration::from_mins(15)));
+        let mut scheduler =
+            Scheduler::new(REGION, Some(range(0, 32)), Some(Duration::from_mins(15)));
         let (items, _) = run(&mut scheduler, 1e-5);
         let cost: u64 = items.iter().filter(|item| !item.probe).map(WorkItem::cost).sum();
         assert_eq!((cost, scheduler.why()), (2048 * 32, Stop::Complete));
@@ -310,7 +315,7 @@ mod tests {
 
     #[test]
     fn what_comes_back_is_handed_out_again_in_smaller_tiles() {
-        let mut scheduler = Scheduler::new(REGION, range(0, 16), None);
+        let mut scheduler = Scheduler::new(REGION, Some(range(0, 16)), None);
         let Claim::FirstOf(item) = scheduler.claim(ZERO, 1 << 20) else { panic!("no work") };
         assert_eq!(item.tile, REGION);
         assert_eq!(scheduler.claim(ZERO, 1 << 20), Claim::Wait);
@@ -327,7 +332,7 @@ mod tests {
 
     #[test]
     fn a_failure_finishes_the_pass_and_a_cancel_ends_at_once() {
-        let mut scheduler = Scheduler::new(REGION, range(0, 64), None);
+        let mut scheduler = Scheduler::new(REGION, Some(range(0, 64)), None);
         let Claim::FirstOf(item) = scheduler.claim(ZERO, 1024) else { panic!("no work") };
         scheduler.stop(Stop::Failed);
         scheduler.finished(&item);

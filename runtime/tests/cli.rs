@@ -121,7 +121,9 @@ fn help_and_devices_are_printed() {
     let help = rtr(folder.path(), &["--help"]);
     assert_eq!(help.status.code(), Some(0));
     let help = text(&help.stdout);
-    for word in ["Examples:", "Exit codes:", "--time", "rtr merge a.exr b.exr", "--crop"] {
+    for word in
+        ["Examples:", "Exit codes:", "--time", "rtr merge a.exr b.exr", "--crop", "--resume"]
+    {
         assert!(help.contains(word), "{word}");
     }
     let devices = rtr(folder.path(), &["--list-devices"]);
@@ -162,7 +164,8 @@ fn an_interrupt_writes_what_is_complete() {
     let log = rest.join("\n");
     assert_eq!(child.wait().expect("it ends").code(), Some(130), "{log}");
     assert!(log.contains("interrupted: writing what is complete"), "{log}");
-    assert_eq!(files(folder.path()), ["marbles.exr", "marbles.pack", "marbles.png"]);
+    let expected = ["marbles.exr", "marbles.exr.checkpoint", "marbles.pack", "marbles.png"];
+    assert_eq!(files(folder.path()), expected);
 }
 
 #[test]

@@ -65,6 +65,22 @@ fn tiles_submissions_and_crops_do_not_change_a_bit() {
 }
 
 #[test]
+fn timestamps_change_the_pace_and_no_bit() {
+    let Some(device) = device() else { return };
+    let scene = scene();
+    let job = Job::of_scene(&scene);
+    let timed = run(&scene, &job, &device);
+    let control = Control::default();
+    control.ignore_timestamps();
+    let untimed = render(&scene, &job, &device, &control).expect("the device renders");
+    assert_same(timed.outcome.film(), untimed.film());
+    // Every submission is timed, in one way or the other.
+    assert!(timed.notes.contains("the GPU was busy for "), "{}", timed.notes);
+    let says = |text: &str| timed.notes.contains(text);
+    assert!(says("submissions, by its timestamps") || says("by wall time"), "{}", timed.notes);
+}
+
+#[test]
 fn a_foreign_kernel_runs_with_checks_and_gives_the_same_picture() {
     let Some(device) = device() else { return };
     let kernel = shaders::link(&common::features()).expect("it links").text;

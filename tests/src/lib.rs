@@ -6,6 +6,7 @@
 pub mod ball;
 pub mod console;
 pub mod corrections;
+pub mod edits;
 pub mod features;
 pub mod kernel;
 pub mod layers;

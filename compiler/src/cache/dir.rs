@@ -17,9 +17,10 @@ pub(super) enum System {
     Windows,
 }
 
-/// Folder of the trees within the cache.
-const FOLDER: &str = "bvh";
-const EXTENSION: &str = ".bvh";
+/// Folder of the trees within the cache; also the extension of their files.
+const TREES: &str = "bvh";
+/// The same for records of finished compilations.
+const RECORDS: &str = "done";
 const TEMPORARY: &str = ".rtc-";
 /// A temporary file this old belongs to no running program.
 const STALE: Duration = Duration::from_hours(24);
@@ -43,7 +44,14 @@ pub(super) fn locate(system: System, var: impl Fn(&str) -> Option<OsString>) -> 
 pub(super) fn entry_path(key: &blake3::Hash) -> PathBuf {
     let hex = key.to_hex();
     let (folder, name) = hex.split_at(2);
-    Path::new(FOLDER).join(folder).join(format!("{name}{EXTENSION}"))
+    Path::new(TREES).join(folder).join(format!("{name}.{TREES}"))
+}
+
+/// `done/ab/cdef….done`, relative to the cache directory.
+pub(super) fn record_path(key: &blake3::Hash) -> PathBuf {
+    let hex = key.to_hex();
+    let (folder, name) = hex.split_at(2);
+    Path::new(RECORDS).join(folder).join(format!("{name}.{RECORDS}"))
 }
 
 /// Writes a file under a temporary name in its own folder, then renames it.
@@ -83,29 +91,40 @@ pub(super) struct File {
     pub(super) bytes: u64,
     /// When it was used last.
     pub(super) used: SystemTime,
+    /// Whether it is a tree; a record or a temporary file otherwise.
+    pub(super) is_tree: bool,
 }
 
 /// All entries, and temporary files that were left behind.
 pub(super) fn files(root: &Path) -> io::Result<Vec<File>> {
     let mut found = Vec::new();
-    for folder in list(&root.join(FOLDER))? {
+    for kind in [TREES, RECORDS] {
+        files_of(root, kind, &mut found)?;
+    }
+    Ok(found)
+}
+
+fn files_of(root: &Path, kind: &str, found: &mut Vec<File>) -> io::Result<()> {
+    for folder in list(&root.join(kind))? {
         if !is_hex(&folder, 2) {
             continue;
         }
-        let folder = root.join(FOLDER).join(folder);
+        let folder = root.join(kind).join(folder);
         for name in list(&folder)? {
             let path = folder.join(&name);
-            let entry = name.strip_suffix(EXTENSION).is_some_and(|stem| is_hex(stem, 62));
+            let stem = name.strip_suffix(kind).and_then(|name| name.strip_suffix('.'));
+            let entry = stem.is_some_and(|stem| is_hex(stem, 62));
             // Another process may delete files meanwhile.
             let Ok(data) = fs::symlink_metadata(&path) else { continue };
             let used = data.modified().unwrap_or(SystemTime::UNIX_EPOCH);
             let stale = name.starts_with(TEMPORARY) && used.elapsed().is_ok_and(|age| age > STALE);
             if data.is_file() && (entry || stale) {
-                found.push(File { path, bytes: data.len(), used });
+                let is_tree = entry && kind == TREES;
+                found.push(File { path, bytes: data.len(), used, is_tree });
             }
         }
     }
-    Ok(found)
+    Ok(())
 }
 
 /// The names in a folder that are text, sorted. A folder that is not there is empty; so is a file.

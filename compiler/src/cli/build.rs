@@ -8,13 +8,17 @@ use clap::Args;
 use lang::Analysis;
 
 use super::files::{DiskLoader, TextError, read_text};
+use super::record::{Job, Record};
+use super::watch::watch;
 use super::{BUG, IO, OK, ReportArgs, SCENE, SceneArgs};
 use crate::bvh::{Layout, Preset};
 use crate::cache::Cache;
+use crate::depfile::depfile;
 use crate::import::Limits;
 use crate::lower::{Trees, srgb_table};
 use crate::pipeline::{self, CompileError, Compiled, Options, Phase};
 use crate::report::Reporter;
+use crate::reuse::{Reuse, Reused, Share};
 use shaders::ShaderError;
 
 #[derive(Debug, Args)]
@@ -27,7 +31,13 @@ pub(super) struct BuildArgs {
     /// Also write the linked kernel, for reading.
     #[arg(long, value_name = "FILE")]
     emit_wgsl: Option<PathBuf>,
-    /// Print what each phase cost and what the cache saved.
+    /// Compile again whenever a file that the scene depends on changes, until Ctrl-C.
+    #[arg(long)]
+    watch: bool,
+    /// Also write every file that the pack depends on, as a rule for make or ninja.
+    #[arg(long, value_name = "FILE")]
+    depfile: Option<PathBuf>,
+    /// Print what each phase cost, what was reused, and what the cache saved.
     #[arg(long)]
     timings: bool,
     /// How trees over the geometry are built: `fast` takes least time; `default` splits long triangles
@@ -60,9 +70,9 @@ pub(super) struct CheckArgs {
 pub(super) fn build(args: &BuildArgs) -> u8 {
     let reporter = args.report.reporter();
     match args.threads {
-        None => build_here(args, &reporter),
+        None => build_or_watch(args, &reporter),
         Some(threads) => match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
-            Ok(pool) => pool.install(|| build_here(args, &reporter)),
+            Ok(pool) => pool.install(|| build_or_watch(args, &reporter)),
             Err(error) => {
                 reporter.failure(&format!("cannot start {threads} threads: {error}"));
                 IO
@@ -71,27 +81,46 @@ pub(super) fn build(args: &BuildArgs) -> u8 {
     }
 }
 
-fn build_here(args: &BuildArgs, reporter: &Reporter) -> u8 {
+fn build_or_watch(args: &BuildArgs, reporter: &Reporter) -> u8 {
+    if args.watch {
+        watch(reporter, |reuse| build_here(args, reporter, reuse) == OK)
+    } else {
+        build_here(args, reporter, &Reuse::once())
+    }
+}
+
+fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
     let start = Instant::now();
     let cache = if args.no_cache { Cache::disabled() } else { Cache::from_env() };
     let output = args.output.clone().unwrap_or_else(|| default_output(&args.scene.scene));
     let trees = Trees { preset: args.bvh, layout: args.nodes, cache: &cache };
-    let (compiled, mut phases) = match compile(&args.scene, trees, reporter) {
+    let job = Job { scene: &args.scene.scene, output: &output, defines: &args.scene.define, trees };
+    // Who asks for the kernel or the times wants to see a compilation.
+    if args.emit_wgsl.is_none()
+        && !args.timings
+        && let Some(record) = job.up_to_date(&cache)
+    {
+        return up_to_date(args, &record, &output, reuse, reporter);
+    }
+    let (compiled, mut phases, silent) = match compile(&args.scene, trees, reuse, reporter) {
         Ok(done) => done,
         Err(code) => return code,
     };
     if let Some(path) = &args.emit_wgsl
-        && let Err(error) =
-            pack::write_atomic(path, |file| file.write_all(compiled.kernel.text.as_bytes()))
+        && let Err(code) = write_text(path, &compiled.kernel.text, reporter)
     {
-        reporter.failure(&error.to_string());
-        return IO;
+        return code;
     }
     let writing = Instant::now();
     let srgb = srgb_table();
     if let Err(error) = compiled.writer(&srgb).and_then(|writer| writer.write(&output)) {
         reporter.failure(&error.to_string());
         return IO;
+    }
+    if let Some(path) = &args.depfile
+        && let Err(code) = write_depfile(path, &output, reuse, reporter)
+    {
+        return code;
     }
     phases.push(Phase { name: "write the pack", time: writing.elapsed() });
     for warning in &compiled.lowered.trees.warnings {
@@ -101,14 +130,60 @@ fn build_here(args: &BuildArgs, reporter: &Reporter) -> u8 {
         reporter.status(&timings(&phases, &compiled));
     }
     reporter.status(&done(&output, &compiled, start.elapsed()));
+    if let Some(line) = reused_text(&compiled.reused) {
+        reporter.status(&line);
+    }
+    let silent = silent && compiled.lowered.trees.warnings.is_empty();
+    drop(compiled);
+    if silent {
+        job.keep(&cache, reuse);
+    }
     OK
+}
+
+/// Nothing changed since the pack was made.
+fn up_to_date(
+    args: &BuildArgs,
+    record: &Record,
+    output: &Path,
+    reuse: &Reuse,
+    reporter: &Reporter,
+) -> u8 {
+    for file in &record.files {
+        reuse.read(file);
+    }
+    if let Some(path) = &args.depfile
+        && let Err(code) = write_depfile(path, output, reuse, reporter)
+    {
+        return code;
+    }
+    let (n, output) = (record.files.len(), output.display());
+    let plural = if n == 1 { "" } else { "s" };
+    reporter.status(&format!("{output} is up to date: nothing changed in {n} file{plural}"));
+    OK
+}
+
+fn write_text(path: &Path, text: &str, reporter: &Reporter) -> Result<(), u8> {
+    pack::write_atomic(path, |file| file.write_all(text.as_bytes())).map_err(|error| {
+        reporter.failure(&error.to_string());
+        IO
+    })
+}
+
+fn write_depfile(path: &Path, output: &Path, reuse: &Reuse, reporter: &Reporter) -> Result<(), u8> {
+    let reads = reuse.reads();
+    let text = depfile(output, reads.keys().map(PathBuf::as_path)).map_err(|error| {
+        reporter.failure(&error.to_string());
+        IO
+    })?;
+    write_text(path, &text, reporter)
 }
 
 pub(super) fn check(args: &CheckArgs) -> u8 {
     let reporter = args.report.reporter();
     let cache = Cache::from_env();
     let trees = Trees { preset: Preset::default(), layout: Layout::default(), cache: &cache };
-    match compile(&args.scene, trees, &reporter) {
+    match compile(&args.scene, trees, &Reuse::once(), &reporter) {
         Ok(_) => OK,
         Err(code) => code,
     }
@@ -116,6 +191,12 @@ pub(super) fn check(args: &CheckArgs) -> u8 {
 
 /// Reads and checks the text; an unreadable file is reported and becomes an exit code.
 pub(super) fn analyze(scene: &SceneArgs, reporter: &Reporter) -> Result<Analysis, u8> {
+    analyze_reading(scene, &Reuse::once(), reporter)
+}
+
+/// As `analyze`; `reuse` is told which files are read.
+fn analyze_reading(scene: &SceneArgs, reuse: &Reuse, reporter: &Reporter) -> Result<Analysis, u8> {
+    reuse.read(&scene.scene);
     let shown = scene.scene.display().to_string();
     let text = read_text(&scene.scene).map_err(|error| {
         reporter.failure(&format!("cannot read {shown}: {error}"));
@@ -128,16 +209,18 @@ pub(super) fn analyze(scene: &SceneArgs, reporter: &Reporter) -> Result<Analysis
         }
     })?;
     let options = lang::Options { defines: scene.define.clone() };
-    Ok(lang::analyze(&shown, &text, &mut DiskLoader, &options))
+    Ok(lang::analyze(&shown, &text, &mut DiskLoader { reuse: Some(reuse) }, &options))
 }
 
+/// Also gives the phases, and whether there was nothing to say.
 fn compile(
     args: &SceneArgs,
     trees: Trees<'_>,
+    reuse: &Reuse,
     reporter: &Reporter,
-) -> Result<(Compiled, Vec<Phase>), u8> {
+) -> Result<(Compiled, Vec<Phase>, bool), u8> {
     let start = Instant::now();
-    let Analysis { sources, scene, mut diagnostics, .. } = analyze(args, reporter)?;
+    let Analysis { sources, scene, mut diagnostics, .. } = analyze_reading(args, reuse, reporter)?;
     let Some(scene) = scene else {
         reporter.diagnostics(&sources, &diagnostics);
         return Err(SCENE);
@@ -149,12 +232,12 @@ fn compile(
         limits: Limits::default(),
         defines: &args.define,
     };
-    let result = pipeline::compile(&scene, &sources, &options, &mut diagnostics);
+    let result = pipeline::compile_reusing(&scene, &sources, &options, reuse, &mut diagnostics);
     reporter.diagnostics(&sources, &diagnostics);
     match result {
         Ok(mut compiled) => {
             phases.append(&mut compiled.phases);
-            Ok((compiled, phases))
+            Ok((compiled, phases, diagnostics.is_empty()))
         }
         Err(error) => Err(failed(&error, reporter)),
     }
@@ -221,9 +304,14 @@ fn trees_text(compiled: &Compiled) -> String {
 }
 
 fn timings(phases: &[Phase], compiled: &Compiled) -> String {
-    let mut text = String::from("phase                               ms\n");
+    let mut text = String::from("phase                               ms  reused\n");
     for Phase { name, time } in phases {
-        let _ = writeln!(text, "{name:<30} {:>7.1}", time.as_secs_f64() * 1e3);
+        let line = format!(
+            "{name:<30} {:>7.1}  {}",
+            time.as_secs_f64() * 1e3,
+            phase_reuse(name, &compiled.reused)
+        );
+        let _ = writeln!(text, "{}", line.trim_end());
     }
     let trees = &compiled.lowered.trees;
     let ms = |time: Duration| time.as_secs_f64() * 1e3;
@@ -236,6 +324,30 @@ fn timings(phases: &[Phase], compiled: &Compiled) -> String {
         trees.stored,
         ms(trees.build_time),
     )
+}
+
+/// What a phase took over, for the table.
+fn phase_reuse(name: &str, reused: &Reused) -> String {
+    let Reused { texts, meshes, images, trees, kernel } = reused;
+    let share = |share: &Share, what: &str| format!("{} of {} {what}", share.reused, share.all);
+    match name {
+        "read and check the text" => format!("0 of {texts} texts"),
+        "read files" => format!("{}, {}", share(meshes, "meshes"), share(images, "images")),
+        "build or fetch trees" => share(trees, "trees"),
+        "link and prove the kernel" => share(kernel, "proofs"),
+        _ => String::new(),
+    }
+}
+
+/// One line about everything that was taken over, if anything was.
+fn reused_text(reused: &Reused) -> Option<String> {
+    let Reused { texts: _, meshes, images, trees, kernel } = reused;
+    let shares = [(meshes, "meshes"), (images, "images"), (trees, "trees")];
+    let some = shares.into_iter().filter(|(share, _)| share.reused > 0);
+    let mut parts: Vec<String> =
+        some.map(|(share, what)| format!("{} of {} {what}", share.reused, share.all)).collect();
+    parts.extend((kernel.reused > 0).then(|| "the proof of the kernel".to_owned()));
+    (!parts.is_empty()).then(|| format!("reused {}", parts.join(", ")))
 }
 
 /// 1234567 as 1,234,567.
@@ -260,6 +372,17 @@ mod tests {
         assert_eq!(grouped(0), "0");
         assert_eq!(grouped(999), "999");
         assert_eq!(grouped(1_234_567), "1,234,567");
+    }
+
+    #[test]
+    fn only_what_was_reused_is_told() {
+        assert_eq!(reused_text(&Reused::default()), None);
+        let share = |reused, all| Share { reused, all };
+        let reused = Reused { trees: share(14, 16), images: share(0, 3), ..Reused::default() };
+        assert_eq!(reused_text(&reused).as_deref(), Some("reused 14 of 16 trees"));
+        let reused = Reused { meshes: share(1, 2), kernel: share(1, 1), ..reused };
+        let expected = "reused 1 of 2 meshes, 14 of 16 trees, the proof of the kernel";
+        assert_eq!(reused_text(&reused).as_deref(), Some(expected));
     }
 
     #[test]

@@ -4,15 +4,23 @@ use std::path::{Path, PathBuf};
 
 use lang::source::{LoadError, Loader, MAX_FILE_BYTES};
 
+use crate::reuse::Reuse;
+
 /// Finds imports beside the file that imports them.
 #[derive(Debug, Default)]
-pub(crate) struct DiskLoader;
+pub(crate) struct DiskLoader<'a> {
+    /// Told every file that is asked for.
+    pub(crate) reuse: Option<&'a Reuse>,
+}
 
-impl Loader for DiskLoader {
+impl Loader for DiskLoader<'_> {
     fn load(&mut self, importing: &str, path: &str) -> Result<(String, String), LoadError> {
         let dir = Path::new(importing).parent().unwrap_or(Path::new(""));
         let file = tidy(&dir.join(path));
         let name = file.display().to_string();
+        if let Some(reuse) = self.reuse {
+            reuse.read(&file);
+        }
         match read_text(&file) {
             Ok(text) => Ok((name, text)),
             Err(TextError::NotText(byte)) => Err(LoadError::NotText(byte)),

@@ -35,6 +35,14 @@ pub struct Trees<'a> {
     pub cache: &'a Cache,
 }
 
+impl Trees<'_> {
+    /// All that changes what is made, for keys.
+    #[must_use]
+    pub fn recipe(&self) -> String {
+        format!("{} {:?}", self.preset.recipe(), self.layout)
+    }
+}
+
 /// What was counted while lowering.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {

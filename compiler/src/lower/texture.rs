@@ -159,7 +159,7 @@ impl<'a> TextureTable<'a> {
 
     fn image(&self, image: ImageRef) -> &'a Image {
         let found = match image {
-            ImageRef::Scene(texture) => self.loaded.textures[texture].as_ref(),
+            ImageRef::Scene(texture) => self.loaded.textures[texture].as_deref(),
             ImageRef::Asset { asset, image } => {
                 self.loaded.assets[asset].as_ref().map(|file| &file.images[image].image)
             }

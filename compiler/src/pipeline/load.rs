@@ -14,6 +14,7 @@ use crate::import::{
     load_gltf, load_image, load_obj,
 };
 use crate::lower::Loaded;
+use crate::reuse::Reuse;
 
 /// A file that went into the pack.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,19 +31,25 @@ pub(super) fn load(
     scene: &Scene,
     sources: &SourceSet,
     options: &Options<'_>,
+    reuse: &Reuse,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> (Loaded, Vec<FileRead>) {
     let assets: Vec<_> = scene
         .assets
         .par_iter()
-        .map(|asset| read_asset(asset, &beside(sources, asset.path_span, &asset.path), options))
+        .map(|asset| {
+            let path = beside(sources, asset.path_span, &asset.path);
+            let format = format!("{:?}", asset.format);
+            reuse.mesh(&path, &format, || read_asset(asset, &path, options))
+        })
         .collect();
     let textures: Vec<_> = scene
         .textures
         .par_iter()
         .map(|texture| {
             let path = beside(sources, texture.path_span, &texture.path);
-            load_image(&path, &options.limits).map(|image| (image, path))
+            let image = reuse.image(&path, || load_image(&path, &options.limits));
+            image.map(|image| (image, path))
         })
         .collect();
     let mut files = Vec::new();
@@ -67,7 +74,7 @@ pub(super) fn load(
             image
         }));
     }
-    loaded.environment = environment(scene, sources, options, &mut files, diagnostics);
+    loaded.environment = environment(scene, sources, options, reuse, &mut files, diagnostics);
     find_parts(scene, &loaded, diagnostics);
     files.sort_by(|a, b| a.name.cmp(&b.name));
     files.dedup();
@@ -79,6 +86,7 @@ fn environment(
     scene: &Scene,
     sources: &SourceSet,
     options: &Options<'_>,
+    reuse: &Reuse,
     files: &mut Vec<FileRead>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<Environment> {
@@ -86,6 +94,7 @@ fn environment(
         return None;
     };
     let path = beside(sources, *path_span, written);
+    reuse.read(&path);
     let found = match load_environment(&path, &options.limits) {
         Ok(found) => found,
         Err(error) => {

@@ -13,6 +13,8 @@ Examples:
   rtr scene.pack --samples 0..32 -o a.exr one half here ...
   rtr scene.pack --samples 32..64 -o b.exr   ... the other half there,
   rtr merge a.exr b.exr -o c.exr -o c.png    and both together
+  rtr scene.pack -o a.png --resume        go on after Ctrl-C, a crash or a power cut
+  rtr scene.pack --watch --time 10s       render again whenever the pack changes
   rtr --list-devices                      what --device can choose from
 
 Exit codes: 0 done; 1 too many samples were not finite; 2 usage; 3 input, output or device;
@@ -78,6 +80,18 @@ pub(super) struct RenderArgs {
     /// Where to write; .exr and .png may both be given.
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Vec<PathBuf>,
+    /// Go on from the checkpoint of an earlier run with the same arguments; without one, begin. The
+    /// picture is the same, bit for bit, as if nothing had happened.
+    #[arg(long)]
+    pub(super) resume: bool,
+    /// Render again whenever the pack changes, until Ctrl-C: an unfinished picture is dropped, a
+    /// broken pack is reported and waited out.
+    #[arg(long, conflicts_with = "resume")]
+    pub(super) watch: bool,
+    /// Time between two checkpoints, such as 60s or 5m, or `never`. They lie beside the first
+    /// output, as NAME.checkpoint, also after Ctrl-C, and are removed when the picture is complete.
+    #[arg(long, default_value = "60s", value_name = "TIME", value_parser = parse_every)]
+    pub(super) checkpoint_every: Every,
     /// Threads of the CPU kernel [default: one for each logical CPU].
     #[arg(long, value_name = "N", value_parser = parse_threads)]
     pub(super) threads: Option<usize>,
@@ -147,6 +161,22 @@ fn parse_threads(text: &str) -> Result<usize, String> {
     }
 }
 
+/// How often a run is saved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Every {
+    Never,
+    After(Duration),
+}
+
+fn parse_every(text: &str) -> Result<Every, String> {
+    match text {
+        "never" => Ok(Every::Never),
+        time => parse_duration(time)
+            .map(Every::After)
+            .map_err(|_| "write it as 60s, 5m or never".to_owned()),
+    }
+}
+
 /// `90`, `90s`, `1.5m`, `1m30s`, `500ms`, `2h`.
 fn parse_duration(text: &str) -> Result<Duration, String> {
     let wrong = || "write it as 60s, 1m30s, 500ms or 2h".to_owned();
@@ -193,6 +223,15 @@ mod tests {
         }
         for text in ["", "s", "60x", "-1s", "0s", "1..2s", "1e9s", "999999999999999999999h"] {
             assert!(parse_duration(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn checkpoints_are_made_after_a_time_or_never() {
+        assert_eq!(parse_every("never"), Ok(Every::Never));
+        assert_eq!(parse_every("5m"), Ok(Every::After(Duration::from_mins(5))));
+        for text in ["", "no", "0s", "soon"] {
+            assert!(parse_every(text).is_err(), "{text}");
         }
     }
 

@@ -3,6 +3,7 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "the one module that prints")]
 
 use super::Exit;
+use super::watch::Change;
 use crate::control::{Control, Progress};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::error::Error;
@@ -75,7 +76,7 @@ impl Console {
     }
 
     /// Shows progress and passes interrupts on until `over` is set.
-    pub(super) fn watch(&self, control: &Control, watched: &Watched, over: &AtomicBool) {
+    pub(super) fn watch(&self, control: &Control, watched: &Watched<'_>, over: &AtomicBool) {
         let started = Instant::now();
         let before = interrupts().load(Ordering::Relaxed);
         let mut last_line = started;
@@ -83,6 +84,12 @@ impl Console {
             if interrupts().load(Ordering::Relaxed) != before && !control.is_cancelled() {
                 control.cancel();
                 self.note("interrupted: writing what is complete (again to quit at once)");
+            }
+            if let Some(change) = watched.change
+                && !control.is_cancelled()
+                && change.has_come()
+            {
+                control.cancel();
             }
             let elapsed = started.elapsed();
             let progress = control.progress();
@@ -106,20 +113,25 @@ impl Console {
 
 /// What turns counters into text.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Watched {
+pub(super) struct Watched<'a> {
     /// Samples of every pixel of the whole job.
     pub(super) spp: u32,
     /// When the run is going to stop anyway.
     pub(super) limit: Option<Duration>,
+    /// A change that makes the run pointless.
+    pub(super) change: Option<&'a Change>,
 }
 
 /// `12.4 of 64 spp, 3.21 Mrays/s, 1m05s left`.
-fn progress_text(progress: Progress, watched: &Watched, elapsed: Duration) -> String {
+fn progress_text(progress: Progress, watched: &Watched<'_>, elapsed: Duration) -> String {
     let share = progress.done as f64 / progress.total.max(1) as f64;
     let spp = share * f64::from(watched.spp);
     let rate = mrays(progress.rays, elapsed);
     let mut text = format!("{spp:.1} of {} spp, {rate:.2} Mrays/s", watched.spp);
-    let mut left = (share > 0.0).then(|| elapsed.as_secs_f64() * (1.0 - share) / share);
+    // What an earlier run did says nothing about the speed of this one.
+    let done = progress.done.saturating_sub(progress.before) as f64;
+    let to_do = progress.total.saturating_sub(progress.done) as f64;
+    let mut left = (done > 0.0).then(|| elapsed.as_secs_f64() * to_do / done);
     if let Some(limit) = watched.limit {
         let until = limit.saturating_sub(elapsed).as_secs_f64();
         left = Some(left.map_or(until, |left| left.min(until)));
@@ -167,6 +179,11 @@ fn interrupts() -> &'static Arc<AtomicU32> {
     count
 }
 
+/// Whether there was a Ctrl-C since `reset_interrupts`.
+pub(super) fn is_interrupted() -> bool {
+    interrupts().load(Ordering::Relaxed) > 0
+}
+
 /// Makes the next Ctrl-C a first one again.
 pub(super) fn reset_interrupts() {
     interrupts().store(0, Ordering::Relaxed);
@@ -193,13 +210,17 @@ mod tests {
 
     #[test]
     fn progress_names_samples_rate_and_time_left() {
-        let progress = Progress { total: 6400, done: 1600, rays: 30_000_000 };
-        let watched = Watched { spp: 64, limit: None };
+        let progress = Progress { total: 6400, done: 1600, before: 0, rays: 30_000_000 };
+        let watched = Watched { spp: 64, limit: None, change: None };
         let text = progress_text(progress, &watched, Duration::from_secs(10));
         assert_eq!(text, "16.0 of 64 spp, 3.00 Mrays/s, 30.0s left");
-        let watched = Watched { spp: 64, limit: Some(Duration::from_secs(15)) };
+        let watched = Watched { limit: Some(Duration::from_secs(15)), ..watched };
         let text = progress_text(progress, &watched, Duration::from_secs(10));
         assert_eq!(text, "16.0 of 64 spp, 3.00 Mrays/s, 5.00s left");
+        let (progress, watched) =
+            (Progress { before: 1200, ..progress }, Watched { limit: None, ..watched });
+        let text = progress_text(progress, &watched, Duration::from_secs(10));
+        assert_eq!(text, "16.0 of 64 spp, 3.00 Mrays/s, 2m00s left");
     }
 
     #[test]

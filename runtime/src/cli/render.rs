@@ -1,13 +1,16 @@
 //! `rtr scene.pack`: opens, renders, writes, and says what happened.
 
 use super::Exit;
-use super::args::{PrecisionArg, RenderArgs};
+use super::args::{Every, PrecisionArg, RenderArgs};
 use super::console::{Console, Watched, duration_text, mrays, reset_interrupts};
+use super::watch::Change;
+use crate::checkpoint::{Checkpoint, CheckpointError};
 use crate::control::Control;
 use crate::job::{Job, Precision};
 use crate::output::{self, Format};
 use crate::region::SampleRange;
-use crate::render::{DeviceChoice, Outcome, render};
+use crate::render::{DeviceChoice, Outcome, render_session};
+use crate::saver::{Keep, Session};
 use crate::scene::Scene;
 use crate::schedule::Stop;
 use pack::{MapMode, Pack};
@@ -15,7 +18,8 @@ use std::ffi::OsStr;
 use std::path::{Component, Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-pub(super) fn command(args: &RenderArgs) -> Exit {
+/// `change`: what makes the picture pointless while it is rendered; then nothing is written.
+pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
     let console = Console::with_progress(args.quiet);
     let Some(path) = &args.pack else {
         console.warn("error: no pack was named");
@@ -30,7 +34,8 @@ pub(super) fn command(args: &RenderArgs) -> Exit {
         ));
         return Exit::World;
     }
-    let mode = if args.no_mmap { MapMode::Read } else { MapMode::Map };
+    // A mapped file must not change; one that is watched is going to.
+    let mode = if args.no_mmap || args.watch { MapMode::Read } else { MapMode::Map };
     let scene = match Pack::open(path, mode) {
         Ok(pack) => Scene::new(pack),
         Err(error) => {
@@ -46,8 +51,26 @@ pub(super) fn command(args: &RenderArgs) -> Exit {
         console.warn(&format!("error: {text}"));
         return Exit::World;
     }
+    let checkpoint = checkpoint_path(&outputs);
+    let from = match earlier(args, &console, &checkpoint, &scene, &job) {
+        Ok(from) => from,
+        Err(error) => return console.fail(&error, Exit::World),
+    };
     console.note(&headline(path, &scene, &job));
-    run(args, &console, &scene, &job, &outputs)
+    if let Some(from) = &from {
+        let done = from.film.samples().1;
+        console.note(&format!(
+            "going on from {}: {done} of {} spp are there",
+            checkpoint.display(),
+            job.samples.count()
+        ));
+    }
+    let keep = match args.checkpoint_every {
+        Every::After(every) if !args.watch => Some(Keep { path: checkpoint, every }),
+        _ => None,
+    };
+    let plan = Plan { scene: &scene, job: &job, outputs: &outputs, change };
+    run(args, &console, &plan, Session { from, keep })
 }
 
 fn job(args: &RenderArgs, scene: &Scene) -> Job {
@@ -73,21 +96,27 @@ fn job(args: &RenderArgs, scene: &Scene) -> Job {
     job
 }
 
-fn run(
-    args: &RenderArgs,
-    console: &Console,
-    scene: &Scene,
-    job: &Job,
-    outputs: &[PathBuf],
-) -> Exit {
-    reset_interrupts();
+/// What is rendered, and where it goes.
+struct Plan<'a> {
+    scene: &'a Scene,
+    job: &'a Job,
+    outputs: &'a [PathBuf],
+    change: Option<&'a Change>,
+}
+
+fn run(args: &RenderArgs, console: &Console, plan: &Plan<'_>, session: Session) -> Exit {
+    let Plan { scene, job, outputs, change } = *plan;
+    if change.is_none() {
+        reset_interrupts();
+    }
     let notes = console.clone();
     let control = Control::new(move |text| notes.note(text));
-    let watched = Watched { spp: job.samples.count(), limit: job.time_limit };
+    let watched = Watched { spp: job.samples.count(), limit: job.time_limit, change };
     let over = AtomicBool::new(false);
     let outcome = std::thread::scope(|scope| {
         let watcher = scope.spawn(|| console.watch(&control, &watched, &over));
-        let outcome = render(scene, job, &DeviceChoice::parse(&args.device), &control);
+        let choice = DeviceChoice::parse(&args.device);
+        let outcome = render_session(scene, job, &choice, &control, session);
         over.store(true, Ordering::Relaxed);
         watcher.thread().unpark();
         outcome
@@ -96,6 +125,9 @@ fn run(
         Ok(outcome) => outcome,
         Err(error) => return console.fail(&error, Exit::World),
     };
+    if outcome.stop == Stop::Cancelled && change.is_some_and(Change::has_come) {
+        return Exit::Done;
+    }
     report(console, &outcome, job);
     if outcome.film().samples().1 == 0 {
         console.warn("error: no sample was complete, nothing is written");
@@ -111,7 +143,51 @@ fn run(
             Err(error) => failed = Some(console.fail(&error, Exit::World)),
         }
     }
-    failed.or_else(|| exit(&outcome)).unwrap_or(Exit::Done)
+    let exit = failed.or_else(|| exit(&outcome)).unwrap_or(Exit::Done);
+    settle(&checkpoint_path(outputs), args, console, &outcome, exit);
+    exit
+}
+
+/// Removes the checkpoint of a picture that is done, or says how to go on.
+fn settle(path: &Path, args: &RenderArgs, console: &Console, outcome: &Outcome, exit: Exit) {
+    let ours = outcome.saved || args.resume;
+    if exit == Exit::Done && ours {
+        if let Err(error) = std::fs::remove_file(path)
+            && error.kind() != std::io::ErrorKind::NotFound
+        {
+            console.warn(&format!("warning: cannot remove {}: {error}", path.display()));
+        }
+    } else if ours && path.is_file() {
+        console.note(&format!("to go on, run the same with --resume ({})", path.display()));
+    }
+}
+
+/// Beside the first output: `a.png.checkpoint`.
+fn checkpoint_path(outputs: &[PathBuf]) -> PathBuf {
+    with_extension(outputs.first().map_or(Path::new("picture"), PathBuf::as_path), "checkpoint")
+}
+
+/// What an earlier run left to go on from, when that is wanted.
+fn earlier(
+    args: &RenderArgs,
+    console: &Console,
+    path: &Path,
+    scene: &Scene,
+    job: &Job,
+) -> Result<Option<Checkpoint>, CheckpointError> {
+    if !args.resume {
+        if path.is_file() && !args.watch {
+            let path = path.display();
+            console.note(&format!("{path} is of an unfinished run; --resume would go on with it"));
+        }
+        return Ok(None);
+    }
+    let from = Checkpoint::read(path)?;
+    match &from {
+        Some(from) => from.check(path, scene, job)?,
+        None => console.note(&format!("there is no {}, so this run begins", path.display())),
+    }
+    Ok(from)
 }
 
 /// `None` when all is well.

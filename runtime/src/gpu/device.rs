@@ -1,7 +1,8 @@
 //! Adapter + scene → a device with everything uploaded and the kernel compiled.
 
 use super::queue::{Slot, Slots};
-use super::upload::{upload, wait};
+use super::stopwatch;
+use super::upload::{Uploader, wait};
 use super::{Adapter, GpuError};
 use crate::cpu::panic_text;
 use crate::scene::{Setup, WINDOW_BYTES};
@@ -9,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use wgpu::{
     BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry, BindingType, Buffer,
     BufferBindingType, ComputePipeline, ComputePipelineDescriptor, DeviceDescriptor, ErrorFilter,
-    ErrorScopeGuard, Limits, PipelineCompilationOptions, PipelineLayoutDescriptor,
+    ErrorScopeGuard, Features, Limits, PipelineCompilationOptions, PipelineLayoutDescriptor,
     ShaderModuleDescriptor, ShaderRuntimeChecks, ShaderSource, ShaderStages,
 };
 
@@ -63,17 +64,22 @@ pub(super) struct Device {
 }
 
 impl Device {
+    /// `timed`: whether to use the timestamps of an adapter that has them.
     pub(super) fn open(
         adapter: &Adapter,
         setup: &Setup<'_>,
         module: Module,
+        timed: bool,
     ) -> Result<Self, GpuError> {
         let limits = adapter.adapter.limits();
         let buffers = setup.buffers();
         check_limits(&limits, &buffers)?;
+        let wanted = if timed { stopwatch::FEATURE } else { Features::empty() };
+        let features = adapter.adapter.features() & wanted;
         let request = adapter.adapter.request_device(&DeviceDescriptor {
             label: Some("rtr"),
             required_limits: limits,
+            required_features: features,
             ..DeviceDescriptor::default()
         });
         let (device, queue) =
@@ -152,9 +158,11 @@ fn upload_all(
     buffers: &[(u32, &[u8])],
 ) -> Result<Vec<Window>, GpuError> {
     let mut windows = Vec::new();
+    let largest = buffers.iter().map(|(_, bytes)| bytes.len()).max().unwrap_or(0);
+    let mut ring = Uploader::new(device, queue, largest);
     for &(binding, bytes) in buffers {
         let (memory, other) = scopes(device);
-        let buffer = upload(device, queue, &format!("binding {binding}"), bytes);
+        let buffer = ring.upload(&format!("binding {binding}"), bytes);
         let (other, memory) = (pop(other), pop(memory));
         if let Some(error) = memory {
             return Err(GpuError::Memory(error));

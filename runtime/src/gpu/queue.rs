@@ -6,7 +6,8 @@
 
 use super::GpuError;
 use super::device::Device;
-use super::pace::{MAX_TILES, Pace};
+use super::pace::{Busy, MAX_TILES, Pace};
+use super::stopwatch::Stopwatch;
 use super::upload::wait;
 use crate::region::{Rect, SampleRange};
 use crate::run::Run;
@@ -40,10 +41,11 @@ pub(super) struct Slot {
     mapped: Arc<AtomicBool>,
 }
 
-/// Slots that wait to be used again.
+/// Slots and stopwatches that wait to be used again.
 #[derive(Default)]
 pub(super) struct Slots {
     free: Vec<Slot>,
+    watches: Vec<Stopwatch>,
 }
 
 impl Slots {
@@ -132,6 +134,7 @@ impl Slot {
             setup,
             std::slice::from_mut(self),
             &[WorkItem { tile, samples, probe: true }],
+            None,
         )
     }
 
@@ -170,13 +173,17 @@ fn submit(
     setup: &Setup<'_>,
     slots: &mut [Slot],
     items: &[WorkItem],
+    watch: Option<&Stopwatch>,
 ) -> SubmissionIndex {
     let descriptor = CommandEncoderDescriptor { label: Some("tiles") };
     let mut encoder = device.gpu.create_command_encoder(&descriptor);
     for (slot, item) in slots.iter_mut().zip(items) {
         slot.prepare(device, setup, *item);
     }
-    let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor::default());
+    let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor {
+        label: Some("tiles"),
+        timestamp_writes: watch.map(Stopwatch::writes),
+    });
     pass.set_pipeline(&device.pipeline);
     for (slot, item) in slots.iter().zip(items) {
         pass.set_bind_group(0, &slot.bindings, &[]);
@@ -187,8 +194,14 @@ fn submit(
     for slot in slots.iter() {
         slot.copy(&mut encoder);
     }
+    if let Some(watch) = watch {
+        watch.resolve(&mut encoder);
+    }
     let index = device.queue.submit([encoder.finish()]);
     slots.iter().for_each(Slot::map);
+    if let Some(watch) = watch {
+        watch.map();
+    }
     index
 }
 
@@ -196,6 +209,7 @@ fn submit(
 struct Submission {
     index: SubmissionIndex,
     slots: Vec<Slot>,
+    watch: Option<Stopwatch>,
     submitted: Instant,
 }
 
@@ -226,7 +240,7 @@ impl Device {
         under_way: &mut VecDeque<Submission>,
     ) -> Result<(), GpuError> {
         let mut free = Slots::default();
-        let mut last_end = Instant::now();
+        let mut busy = Busy::new(Instant::now());
         let mut n_tiles = 0;
         loop {
             if run.control().loses_device_after(n_tiles) {
@@ -242,18 +256,23 @@ impl Device {
             }
             // With nothing under way there is nothing to wait for: the run is over.
             if under_way.is_empty() {
+                if let Some(text) = busy.text(Instant::now()) {
+                    run.note(&text);
+                }
                 return Ok(());
             }
-            self.collect(run, pace, under_way, &mut free, &mut last_end)?;
+            self.collect(run, pace, under_way, &mut free, &mut busy)?;
         }
     }
 
     fn start(&self, setup: &Setup<'_>, free: &mut Slots, items: &[WorkItem]) -> Submission {
         let mut slots: Vec<Slot> =
             items.iter().map(|item| free.take(self, item.tile.pixels())).collect();
+        let new = || Stopwatch::new(&self.gpu, self.queue.get_timestamp_period());
+        let watch = free.watches.pop().or_else(new);
         let submitted = Instant::now();
-        let index = submit(self, setup, &mut slots, items);
-        Submission { index, slots, submitted }
+        let index = submit(self, setup, &mut slots, items, watch.as_ref());
+        Submission { index, slots, watch, submitted }
     }
 
     /// Waits for the oldest submission and deposits its tiles. It stays in `under_way`, with the
@@ -264,17 +283,16 @@ impl Device {
         pace: &mut Pace,
         under_way: &mut VecDeque<Submission>,
         free: &mut Slots,
-        last_end: &mut Instant,
+        busy: &mut Busy,
     ) -> Result<(), GpuError> {
         let Some(oldest) = under_way.front_mut() else { return Ok(()) };
         let waited = wait(&self.gpu, oldest.index.clone());
         self.fault()?;
         waited?;
-        // The device was busy with it from its submission or from the end of the one before.
-        let now = Instant::now();
-        let busy = now - oldest.submitted.max(*last_end);
-        *last_end = now;
-        pace.measured(oldest.slots.iter().map(|slot| slot.item.cost()).sum(), busy);
+        let own = oldest.watch.as_ref().and_then(Stopwatch::read);
+        let time = busy.ended(oldest.submitted, Instant::now(), own);
+        pace.measured(oldest.slots.iter().map(|slot| slot.item.cost()).sum(), time);
+        free.watches.extend(oldest.watch.take());
         while let Some(slot) = oldest.slots.last_mut() {
             let item = slot.item;
             slot.read(self, |pixels| run.deposit(&item, pixels))?;

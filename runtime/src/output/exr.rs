@@ -104,8 +104,8 @@ fn attributes_of(picture: &Picture) -> Vec<(Text, AttributeValue)> {
         ("media_overflows", number(overflows)),
         ("media_leaks", number(leaks)),
     ];
-    if let Some(BadSample { x, y, sample }) = first_bad {
-        list.push(("first_bad_sample", text(&format!("{x},{y},{sample}"))));
+    if let Some(first) = first_bad {
+        list.push(("first_bad_sample", text(&first.to_string())));
     }
     list.into_iter().map(|(name, value)| (Text::from(name), value)).collect()
 }
@@ -199,7 +199,8 @@ fn parse_film(
     Ok(film)
 }
 
-fn parse_bad(text: &str) -> Option<BadSample> {
+/// The inverse of `BadSample`'s text.
+pub(crate) fn parse_bad(text: &str) -> Option<BadSample> {
     let mut numbers = text.split(',').map(|part| part.parse().ok());
     let mut next = || numbers.next().flatten();
     Some(BadSample { x: next()?, y: next()?, sample: next()? })

@@ -1,7 +1,9 @@
 //! Parts of one picture → the picture: sums added in `f64`, ranges joined.
 
 use super::{Meta, Picture, ranges_text};
-use crate::region::insert_range;
+use crate::job::Job;
+use crate::region::{Rect, insert_range};
+use crate::scene::Scene;
 use thiserror::Error;
 
 /// Why two files are not parts of one picture.
@@ -84,9 +86,11 @@ fn add_meta(whole: &mut Meta, part: &Meta) {
 
 fn check(parts: &[Picture]) -> Result<(), MergeError> {
     let first = parts.first().ok_or(MergeError::Nothing)?;
+    let expected = Identity::of_picture(first);
     let mut ranges = Vec::new();
     for (part, picture) in (1..).zip(parts) {
-        for ((what, expected), (_, found)) in identity(first).into_iter().zip(identity(picture)) {
+        let found = Identity::of_picture(picture).rows();
+        for ((what, expected), (_, found)) in expected.rows().into_iter().zip(found) {
             if found != expected {
                 return Err(MergeError::Differs { part, what, found, expected });
             }
@@ -104,15 +108,58 @@ fn check(parts: &[Picture]) -> Result<(), MergeError> {
     Ok(())
 }
 
-/// What parts of one picture share.
-fn identity(picture: &Picture) -> [(&'static str, String); 6] {
-    let [w, h] = picture.film.image_size;
-    [
-        ("render_id", picture.meta.render_id.clone()),
-        ("size", format!("{w}x{h}")),
-        ("crop", picture.film.region.to_string()),
-        ("seed", picture.meta.seed.to_string()),
-        ("estimator", picture.meta.estimator.to_string()),
-        ("precision", picture.meta.precision.clone()),
-    ]
+/// What parts of one picture share, and what a run that goes on shares with the one before.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Identity {
+    /// Hexadecimal name of what is rendered.
+    pub render_id: String,
+    /// Whole image in pixels.
+    pub image_size: [u32; 2],
+    /// The part of it that is rendered.
+    pub crop: Rect,
+    /// Seed of the image.
+    pub seed: u32,
+    /// Estimator switch of the kernel.
+    pub estimator: u32,
+    /// Precision of the kernel: `f32` or `f64`.
+    pub precision: String,
+}
+
+impl Identity {
+    /// Of the picture that `job` makes of `scene`.
+    #[must_use]
+    pub fn of(scene: &Scene, job: &Job) -> Self {
+        Self {
+            render_id: scene.render_id(),
+            image_size: job.image_size,
+            crop: job.crop,
+            seed: job.seed,
+            estimator: job.estimator,
+            precision: job.precision.name().to_owned(),
+        }
+    }
+
+    fn of_picture(picture: &Picture) -> Self {
+        Self {
+            render_id: picture.meta.render_id.clone(),
+            image_size: picture.film.image_size,
+            crop: picture.film.region,
+            seed: picture.meta.seed,
+            estimator: picture.meta.estimator,
+            precision: picture.meta.precision.clone(),
+        }
+    }
+
+    /// Name and value of everything, as people read it.
+    pub(crate) fn rows(&self) -> [(&'static str, String); 6] {
+        let [w, h] = self.image_size;
+        [
+            ("render_id", self.render_id.clone()),
+            ("size", format!("{w}x{h}")),
+            ("crop", self.crop.to_string()),
+            ("seed", self.seed.to_string()),
+            ("estimator", self.estimator.to_string()),
+            ("precision", self.precision.clone()),
+        ]
+    }
 }

@@ -1,10 +1,12 @@
 //! `cargo run --release -p tests --bin benchmarks`: measures and rewrites `docs/benchmarks.md`.
+//! With the argument `edits` it only prints what compiling again costs after edits.
 //!
 //! Everything is measured in this one process on this one machine: CPU seconds (user + system of
 //! the whole process, so that threads of a software adapter count), medians of interleaved rounds.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use compiler::bvh::{Fragment, Input, Preset, build};
@@ -12,7 +14,7 @@ use cpu_time::ProcessTime;
 use pack::abi::Triangle;
 use pack::{MapMode, Pack};
 use runtime::{Control, DeviceChoice, Job, Outcome, SampleRange, Scene, render};
-use tests::scene;
+use tests::{edits, scene};
 
 /// Rounds of each measurement; odd, so that the median is a measured value.
 const ROUNDS: usize = 3;
@@ -20,13 +22,29 @@ const ROUNDS: usize = 3;
 const SIZE: [u32; 2] = [480, 270];
 const SAMPLES: u32 = 16;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> Result<ExitCode, Box<dyn std::error::Error>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let pack = mesh_pack(&root)?;
+    let mut arguments = std::env::args().skip(1);
+    match arguments.next().as_deref() {
+        None => all(&root)?,
+        Some(edits::CHILD) => return Ok(ExitCode::from(edits::child(arguments))),
+        Some("edits") => {
+            let mut text = String::new();
+            compiling_again(&root, &mut text)?;
+            tests::console::line(&text);
+        }
+        Some(other) => return Err(format!("`{other}` is none of the tables: edits").into()),
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn all(root: &Path) -> Result<(), Box<dyn std::error::Error>> {
+    let pack = mesh_pack(root)?;
     let mut text = header();
     devices(&pack, &mut text)?;
     bvh(&pack, &mut text)?;
-    open(&pack, &mut text)?;
+    open("mesh", &pack, &mut text)?;
+    compiling_again(root, &mut text)?;
     let target = root.join("docs/benchmarks.md");
     std::fs::write(&target, &text)?;
     tests::console::line(&text);
@@ -157,7 +175,14 @@ fn bvh(pack: &Path, text: &mut String) -> Result<(), Box<dyn std::error::Error>>
     Ok(())
 }
 
-fn open(path: &Path, text: &mut String) -> Result<(), Box<dyn std::error::Error>> {
+/// Compiling the shrine after edits, and opening its pack.
+fn compiling_again(root: &Path, text: &mut String) -> Result<(), Box<dyn std::error::Error>> {
+    let folder = tempfile::tempdir()?;
+    let pack = edits::table(&root.join("scenes"), folder.path(), text)?;
+    open("shrine", &pack, text)
+}
+
+fn open(name: &str, path: &Path, text: &mut String) -> Result<(), Box<dyn std::error::Error>> {
     let size = std::fs::metadata(path)?.len();
     let mut walls = Vec::new();
     for _ in 0..ROUNDS {
@@ -169,7 +194,7 @@ fn open(path: &Path, text: &mut String) -> Result<(), Box<dyn std::error::Error>
     let wall = median(walls.iter().map(Duration::as_secs_f64));
     let _ = writeln!(
         text,
-        "\n## Opening a pack: map and check every rule\n\n\
+        "\n## Opening the pack of `{name}`: map and check every rule\n\n\
         {:.1} MB in {:.1} ms wall: {:.2} GB/s.",
         size as f64 / 1e6,
         wall * 1e3,

@@ -1,0 +1,84 @@
+//! A pack that is up to date is not made again; everything that could change it is noticed.
+
+use std::path::Path;
+use std::process::Command;
+
+const SCENE: &str = "rts 1
+param size: length = 20cm in 1cm..1m
+texture tile = image(\"tile.png\", space: srgb)
+material clay: diffuse { color = tile }
+instance ball { shape = sphere(radius: size), material = clay }
+light lamp: sphere { center = (0, 3, 0)m, radius = 10cm, strength = 5 }
+camera eye: perspective { from = (0, 1, 6)m, to = (0, 1, 0)m }
+render main: path { samples = 1 }
+";
+
+fn rtc(folder: &Path, args: &[&str]) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_rtc"))
+        .current_dir(folder)
+        .env("RTC_CACHE_DIR", folder.join("cache"))
+        .args(["scene.rts", "-o", "a.pack", "--color", "never"])
+        .args(args)
+        .output()
+        .expect("rtc starts");
+    let log = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{log}");
+    log
+}
+
+#[test]
+fn nothing_is_done_when_nothing_changed_and_everything_else_is_noticed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    let write = |name: &str, bytes: &[u8]| std::fs::write(at(name), bytes).expect("writable");
+    let image = |w| image::RgbImage::new(w, 2).save(at("tile.png")).expect("writable");
+    write("scene.rts", SCENE.as_bytes());
+    image(2);
+    let idle = |args: &[&str]| rtc(folder.path(), args).contains("a.pack is up to date");
+    assert!(!idle(&[]));
+    let pack = std::fs::read(at("a.pack")).expect("it is there");
+    let log = rtc(folder.path(), &["--depfile", "a.d"]);
+    assert_eq!(log, "a.pack is up to date: nothing changed in 2 files\n");
+    let rule = std::fs::read_to_string(at("a.d")).expect("the depfile is there");
+    assert!(rule.starts_with("a.pack: \\\n  scene.rts \\\n  tile.png\n"), "{rule}");
+    assert_eq!(std::fs::read(at("a.pack")).expect("it is there"), pack);
+
+    // The same bytes at another time are no change; other bytes of the same length are one.
+    write("scene.rts", SCENE.as_bytes());
+    assert!(idle(&[]));
+    write("scene.rts", SCENE.replace("strength = 5", "strength = 6").as_bytes());
+    assert!(!idle(&[]) && idle(&[]));
+    image(3);
+    assert!(!idle(&[]) && idle(&[]));
+    // Other options, and back: the pack is another one then.
+    assert!(!idle(&["-D", "size=30cm"]) && idle(&["-D", "size=30cm"]));
+    assert!(!idle(&[]) && !idle(&["--bvh", "fast"]) && !idle(&["--no-cache"]));
+    // The pack is gone, or not what was written.
+    std::fs::remove_file(at("a.pack")).expect("it was there");
+    assert!(!idle(&[]) && idle(&[]));
+    let mut bytes = std::fs::read(at("a.pack")).expect("it is there");
+    let last = bytes.iter().rposition(|byte| *byte != 0).expect("no pack is empty");
+    bytes[last] ^= 1;
+    write("a.pack", &bytes);
+    assert!(!idle(&[]) && idle(&[]));
+}
+
+#[test]
+fn warnings_are_said_every_time() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // A triangle without area is left out, with a warning.
+    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 1 2 4\n";
+    let scene = SCENE
+        .replace(
+            "texture tile = image(\"tile.png\", space: srgb)",
+            "asset t = obj(\"t.obj\", unit: m, up: +y)",
+        )
+        .replace("color = tile", "color = linear(1)")
+        .replace("shape = sphere(radius: size)", "shape = t");
+    std::fs::write(folder.path().join("scene.rts"), scene).expect("writable");
+    std::fs::write(folder.path().join("t.obj"), obj).expect("writable");
+    for _ in 0..2 {
+        let log = rtc(folder.path(), &[]);
+        assert!(log.contains("warning[W0520]") && !log.contains("up to date"), "{log}");
+    }
+}

@@ -1,0 +1,181 @@
+//! Films on their way → checkpoints, every so often, on a thread of its own.
+//!
+//! The run offers its film after every tile; a copy is taken only when one is due and another batch
+//! is whole, so rendering waits for a copy in memory and never for a disk. What cannot be written is
+//! told once and tried again the next time.
+
+use crate::checkpoint::Checkpoint;
+use crate::film::Film;
+use crate::job::Job;
+use crate::output::Identity;
+use crate::region::SampleRange;
+use crate::scene::Scene;
+use std::path::PathBuf;
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Where and how often a run is saved.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Keep {
+    /// The file.
+    pub path: PathBuf,
+    /// Time between two checkpoints.
+    pub every: Duration,
+}
+
+/// What a run goes on from, and where it is saved.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Session {
+    /// What an earlier run left; it must be of this run, see `Checkpoint::check`.
+    pub from: Option<Checkpoint>,
+    /// Where this run is saved; `None`: nowhere.
+    pub keep: Option<Keep>,
+}
+
+/// Saves one run.
+pub(crate) struct Saver<'a> {
+    keep: &'a Keep,
+    identity: Identity,
+    samples: SampleRange,
+    state: Mutex<State>,
+    wake: Condvar,
+}
+
+struct State {
+    /// When the next checkpoint is due.
+    next: Instant,
+    /// Last sample of the newest checkpoint, plus one.
+    end: u32,
+    task: Task,
+    over: bool,
+    device: String,
+    /// Seconds of the runs before this one.
+    before: f64,
+    written: bool,
+    failed: bool,
+}
+
+/// What the thread has to do.
+enum Task {
+    Nothing,
+    Write(Box<Checkpoint>),
+    /// It is at it.
+    UnderWay,
+}
+
+impl<'a> Saver<'a> {
+    pub(crate) fn new(keep: &'a Keep, scene: &Scene, job: &Job, from: Option<&Checkpoint>) -> Self {
+        let state = State {
+            next: Instant::now() + keep.every,
+            end: from.and_then(|from| from.film.ranges.last()).map_or(0, |range| range.end),
+            task: Task::Nothing,
+            over: false,
+            device: String::new(),
+            before: from.map_or(0.0, |from| from.seconds),
+            written: false,
+            failed: false,
+        };
+        Self {
+            keep,
+            identity: Identity::of(scene, job),
+            samples: job.samples,
+            state: Mutex::new(state),
+            wake: Condvar::new(),
+        }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The device that renders from now on.
+    pub(crate) fn device(&self, name: String) {
+        self.lock().device = name;
+    }
+
+    /// Takes a copy of the film if it is time to, `elapsed` into the run.
+    pub(crate) fn offer(&self, film: &Film, elapsed: Duration) {
+        let mut state = self.lock();
+        if !matches!(state.task, Task::Nothing) || Instant::now() < state.next {
+            return;
+        }
+        if self.is_news(&state, film) {
+            let checkpoint = self.checkpoint(&state, film.clone(), elapsed);
+            state.task = Task::Write(Box::new(checkpoint));
+            drop(state);
+            self.wake.notify_all();
+        }
+    }
+
+    /// Saves what a run that did not end well has left, in this thread.
+    pub(crate) fn last(&self, film: &Film, elapsed: Duration, note: &dyn Fn(&str)) {
+        let state = self.lock();
+        if self.is_news(&state, film) {
+            let checkpoint = self.checkpoint(&state, film.clone(), elapsed);
+            drop(state);
+            self.write(&checkpoint, note);
+        }
+    }
+
+    /// Whether this run has written a checkpoint.
+    pub(crate) fn has_written(&self) -> bool {
+        self.lock().written
+    }
+
+    fn is_news(&self, state: &State, film: &Film) -> bool {
+        let end = film.ranges.last().map(|range| range.end);
+        end.is_some_and(|end| end > state.end) && Checkpoint::can_hold(film, self.samples)
+    }
+
+    fn checkpoint(&self, state: &State, film: Film, elapsed: Duration) -> Checkpoint {
+        Checkpoint {
+            identity: self.identity.clone(),
+            samples: self.samples,
+            film,
+            device: state.device.clone(),
+            seconds: state.before + elapsed.as_secs_f64(),
+        }
+    }
+
+    /// Writes what is offered until `close`.
+    pub(crate) fn work(&self, note: &dyn Fn(&str)) {
+        let mut state = self.lock();
+        loop {
+            match std::mem::replace(&mut state.task, Task::Nothing) {
+                Task::Write(checkpoint) => {
+                    state.task = Task::UnderWay;
+                    drop(state);
+                    self.write(&checkpoint, note);
+                    state = self.lock();
+                    state.task = Task::Nothing;
+                    state.next = Instant::now() + self.keep.every;
+                }
+                _ if state.over => return,
+                _ => state = self.wake.wait(state).unwrap_or_else(PoisonError::into_inner),
+            }
+        }
+    }
+
+    /// Ends `work`, after what it has taken is written.
+    pub(crate) fn close(&self) {
+        self.lock().over = true;
+        self.wake.notify_all();
+    }
+
+    fn write(&self, checkpoint: &Checkpoint, note: &dyn Fn(&str)) {
+        let result = checkpoint.write(&self.keep.path);
+        let mut state = self.lock();
+        match result {
+            Ok(()) => {
+                state.written = true;
+                state.end = checkpoint.film.ranges.last().map_or(0, |range| range.end);
+            }
+            Err(error) if !state.failed => {
+                state.failed = true;
+                let path = self.keep.path.display();
+                note(&format!("warning: no checkpoint in {path}: {error}; rendering goes on"));
+            }
+            Err(_) => {}
+        }
+    }
+}

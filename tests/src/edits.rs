@@ -1,0 +1,153 @@
+//! What `rtc` has to do again after an edit of the shrine: a table of CPU seconds.
+//!
+//! Every compilation runs in a process of its own, the calling program under another name, with a
+//! cache of its own; that process says what it took. Nothing of the working tree is touched.
+
+use std::error::Error;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Instant;
+
+use cpu_time::ProcessTime;
+
+/// First argument of the process that compiles.
+pub const CHILD: &str = "rtc";
+
+type Outcome<T> = Result<T, Box<dyn Error>>;
+
+/// What an edit does to the folder of the scene.
+type Edit = fn(&Path) -> Outcome<()>;
+
+/// Name of each edit; the first makes everything anew.
+const EDITS: [(&str, Edit); 6] = [
+    ("everything (cold)", |_| Ok(())),
+    ("nothing", |_| Ok(())),
+    ("the camera", |dir| {
+        replace(&dir.join("shrine.rts"), "fov.vertical = 42deg", "fov.vertical = 43deg")
+    }),
+    ("a material", |dir| replace(&dir.join("parts/materials.rts"), "g = 0.7", "g = 0.6")),
+    ("the place of one thing", |dir| {
+        replace(&dir.join("shrine.rts"), "at = (0, 0, 6.6)m", "at = (0, 0, 6.7)m")
+    }),
+    ("a vertex of one mesh", |dir| nudge(&dir.join("generated/gate.glb"))),
+];
+
+/// In the process that compiles: runs `rtc` and says what it took. Returns the exit code.
+#[must_use]
+pub fn child(arguments: impl Iterator<Item = String>) -> u8 {
+    let code = compiler::cli::run(std::iter::once(CHILD.to_owned()).chain(arguments));
+    let cpu = ProcessTime::now().as_duration().as_secs_f64();
+    crate::console::line(&format!("{cpu} {}", peak()));
+    code
+}
+
+/// Most memory that this process ever had, bytes; 0 where the system does not say.
+fn peak() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let number = line.and_then(|line| line.split_whitespace().next()?.parse::<u64>().ok());
+    number.unwrap_or(0) * 1024
+}
+
+/// One compilation.
+struct Cost {
+    cpu: f64,
+    wall: f64,
+    peak: u64,
+    /// The last line that `rtc` said.
+    said: String,
+}
+
+/// The table, and where the pack of the shrine is; it lives as long as the folder.
+///
+/// # Errors
+/// When a file cannot be written, an edit finds nothing to change, or `rtc` fails.
+pub fn table(scenes: &Path, folder: &Path, text: &mut String) -> Outcome<PathBuf> {
+    let example = scenes::catalog::find("shrine").ok_or("the shrine exists")?;
+    example.generate(scenes, scenes::generate::Extent::Full)?;
+    let source = example.source(scenes);
+    let from = source.parent().ok_or("a scene lies in a folder")?;
+    let dir = folder.join("shrine");
+    copy(from, &dir)?;
+    let pack = folder.join("shrine.pack");
+    let mut costs = Vec::new();
+    for (name, edit) in EDITS {
+        edit(&dir)?;
+        costs.push((name, compile(&dir.join("shrine.rts"), &pack, folder)?));
+    }
+    let size = std::fs::metadata(&pack)?.len() as f64;
+    let cold = costs[0].1.cpu;
+    let _ = writeln!(
+        text,
+        "\n## Compiling again: `shrine`, a pack of {:.0} MB\n\n\
+        Each row is one edit more, compiled in a process of its own; `rtc --watch` takes over more.\n\n\
+        | what changed | CPU s | of cold | wall s | peak memory, packs | rtc says |\n\
+        |---|---|---|---|---|---|",
+        size / 1e6
+    );
+    for (name, Cost { cpu, wall, peak, said }) in &costs {
+        let (share, packs) = (100.0 * cpu / cold, *peak as f64 / size);
+        let _ = writeln!(
+            text,
+            "| {name} | {cpu:.2} | {share:.1} % | {wall:.2} | {packs:.2} | {said} |"
+        );
+    }
+    Ok(pack)
+}
+
+fn compile(scene: &Path, pack: &Path, folder: &Path) -> Outcome<Cost> {
+    let start = Instant::now();
+    let output = Command::new(std::env::current_exe()?)
+        .env("RTC_CACHE_DIR", folder.join("cache"))
+        .arg(CHILD)
+        .arg(scene)
+        .arg("-o")
+        .arg(pack)
+        .output()?;
+    let wall = start.elapsed().as_secs_f64();
+    let log = String::from_utf8_lossy(&output.stderr);
+    if !output.status.success() {
+        return Err(format!("rtc fails: {log}").into());
+    }
+    let out = String::from_utf8_lossy(&output.stdout);
+    let (cpu, peak) = out.trim().split_once(' ').ok_or("the process says what it took")?;
+    let said = log.lines().rfind(|line| !line.is_empty()).unwrap_or_default();
+    // Where the pack lies is no news.
+    let said = said.rsplit('/').next().unwrap_or(said).to_owned();
+    Ok(Cost { cpu: cpu.parse()?, wall, peak: peak.parse()?, said })
+}
+
+fn copy(from: &Path, to: &Path) -> std::io::Result<()> {
+    std::fs::create_dir_all(to)?;
+    for entry in std::fs::read_dir(from)? {
+        let entry = entry?;
+        let target = to.join(entry.file_name());
+        if entry.file_type()?.is_dir() {
+            copy(&entry.path(), &target)?;
+        } else {
+            std::fs::copy(entry.path(), target)?;
+        }
+    }
+    Ok(())
+}
+
+fn replace(path: &Path, from: &str, to: &str) -> Outcome<()> {
+    let text = std::fs::read_to_string(path)?;
+    if !text.contains(from) {
+        return Err(format!("{} has no `{from}`", path.display()).into());
+    }
+    Ok(std::fs::write(path, text.replacen(from, to, 1))?)
+}
+
+/// Moves the second vertex of a GLB a little along y.
+fn nudge(path: &Path) -> Outcome<()> {
+    let mut bytes = std::fs::read(path)?;
+    // A header of 12 bytes, a chunk of JSON and the head of the next chunk, of 8 bytes each.
+    let json = bytes.get(12..16).and_then(|word| word.try_into().ok()).map(u32::from_le_bytes);
+    let data = 12 + 8 + json.ok_or("a GLB has a header")? as usize + 8;
+    // A bit in the middle of the number: the last one would be lost when the scene is normalised.
+    let middle = bytes.get_mut(data + 12 + 4 + 1).ok_or("a GLB has vertices")?;
+    *middle ^= 1 << 4;
+    Ok(std::fs::write(path, bytes)?)
+}
