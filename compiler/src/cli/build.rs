@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime};
 
 use clap::Args;
 use lang::Analysis;
@@ -152,10 +152,13 @@ fn up_to_date(
     for file in &record.files {
         reuse.read(file);
     }
-    if let Some(path) = &args.depfile
-        && let Err(code) = write_depfile(path, output, reuse, reporter)
-    {
-        return code;
+    if let Some(path) = &args.depfile {
+        if let Err(code) = write_depfile(path, output, reuse, reporter) {
+            return code;
+        }
+        // Build tools go by times: a file that was touched would have them ask again and again.
+        let file = std::fs::File::options().append(true).open(output);
+        let _ = file.and_then(|file| file.set_modified(SystemTime::now()));
     }
     let (n, output) = (record.files.len(), output.display());
     let plural = if n == 1 { "" } else { "s" };
