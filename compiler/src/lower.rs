@@ -26,13 +26,17 @@ mod order;
 mod pieces;
 mod power;
 mod principled;
+mod share;
 mod sheet;
 mod sky;
 mod sky_table;
+mod stored;
 mod texture;
 
-pub use assemble::{Counters, LowerError, Lowered, Times, lower};
+pub use assemble::{Counters, LowerError, Lowered, Times, Trees, lower};
 pub use geometry::Placement;
+pub use share::{Instancing, MIN_SAVED, MIN_TRIANGLES, UnknownInstancing};
+pub use stored::{Placed, Stored};
 pub use texture::{TextureTable, srgb_table};
 
 use crate::import::{Environment, Image, MeshFile};

@@ -18,7 +18,7 @@ use shaders::{FeatureSet, LayoutError, Linked, ShaderError};
 use crate::bvh::Preset;
 use crate::cache::Cache;
 use crate::import::Limits;
-use crate::lower::{self, LowerError, Lowered};
+use crate::lower::{self, Instancing, LowerError, Lowered, Trees};
 
 pub use load::FileRead;
 
@@ -29,6 +29,8 @@ pub struct Options<'a> {
     pub root: &'a Path,
     /// How trees are built.
     pub preset: Preset,
+    /// Which meshes are stored once.
+    pub instancing: Instancing,
     /// Trees of earlier runs.
     pub cache: &'a Cache,
     /// How large inputs may be.
@@ -101,7 +103,8 @@ pub fn compile(
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(CompileError::Scene);
     }
-    let lowered = lower::lower(scene, &loaded, options.preset, options.cache, diagnostics)?;
+    let Options { preset, instancing, cache, .. } = *options;
+    let lowered = lower::lower(scene, &loaded, Trees { preset, instancing, cache }, diagnostics)?;
     drop(loaded);
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(CompileError::Scene);
@@ -137,6 +140,7 @@ impl Compiled {
             .records(&lowered.spheres)
             .records(&lowered.materials)
             .records(&lowered.objects)
+            .records(&lowered.instances)
             .records(&lowered.media)
             .records(&lowered.lights)
             .records(&lowered.light_nodes)

@@ -44,6 +44,7 @@ pub(crate) fn table() -> Result<String, Box<dyn Error>> {
         trees(),
         layers(),
         motion(),
+        instances(),
     ];
     let mut declarations: BTreeMap<String, Texts> = BTreeMap::new();
     for (f, family) in families.iter().enumerate() {
@@ -272,6 +273,15 @@ fn motion() -> Family {
     let members =
         members.map(|(bits, motion)| (bits, FeatureSet { motion, ..FeatureSet::full() })).collect();
     Family { mask: bit::MOTION, members }
+}
+
+/// Whether meshes have instances.
+fn instances() -> Family {
+    let member = |instances| {
+        let bits = if instances { bit::INSTANCES } else { 0 };
+        (bits, FeatureSet { instances, ..FeatureSet::full() })
+    };
+    Family { mask: bit::INSTANCES, members: [false, true].map(member).into() }
 }
 
 fn skies_and_lens() -> Vec<(u64, FeatureSet)> {

@@ -59,6 +59,8 @@ pub struct FeatureSet {
     pub principled_transmission: bool,
     /// Some object moves while the shutter is open.
     pub motion: bool,
+    /// There are instances; only with `triangles`.
+    pub instances: bool,
     /// Entries of the traversal stack, at least 1: `RenderSettings::stack_need`.
     pub stack_size: u32,
     /// How many bindings each section is split into.
@@ -127,6 +129,7 @@ impl FeatureSet {
             principled_coat: false,
             principled_transmission: false,
             motion: false,
+            instances: false,
             stack_size: 1,
             windows: Windows::default(),
         }
@@ -165,6 +168,7 @@ impl FeatureSet {
             principled_coat: true,
             principled_transmission: true,
             motion: true,
+            instances: true,
             stack_size: 96,
             windows: Windows::default(),
         }

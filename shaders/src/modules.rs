@@ -11,6 +11,7 @@ const MODULES: &[(&str, &str)] = modules![
     "abi/camera.wgsl",
     "abi/film.wgsl",
     "abi/frame.wgsl",
+    "abi/instance.wgsl",
     "abi/light.wgsl",
     "abi/light_node.wgsl",
     "abi/material.wgsl",
@@ -95,6 +96,7 @@ const MODULES: &[(&str, &str)] = modules![
     "sampler/key.wgsl",
     "sampler/pcg.wgsl",
     "sampler/sobol.wgsl",
+    "shape/instance.wgsl",
     "shape/sphere.wgsl",
     "shape/triangle.wgsl",
     "sky/constant.wgsl",
@@ -110,10 +112,12 @@ const MODULES: &[(&str, &str)] = modules![
     "trace/alpha.wgsl",
     "trace/box.wgsl",
     "trace/bvh.wgsl",
+    "trace/instance.wgsl",
     "trace/motion.wgsl",
     "trace/ray.wgsl",
     "trace/spheres.wgsl",
     "trace/triangles.wgsl",
+    "trace/walk.wgsl",
 ];
 
 /// Every hand-written module: its name, as in `#import`, and its text; sorted by name.

@@ -5,6 +5,7 @@ use std::path::Path;
 use compiler::bvh::Preset;
 use compiler::cache::Cache;
 use compiler::import::Limits;
+use compiler::lower::{Instancing, Trees};
 use compiler::pipeline::{self, Compiled, Options};
 use lang::scene::Scene;
 use lang::source::{LoadError, Loader};
@@ -48,9 +49,10 @@ pub fn example(example: &Example, defines: &[(&str, &str)]) -> Compiled {
     let text = std::fs::read_to_string(&source).expect("an example has a text");
     let defines = defines.iter().map(|(name, value)| ((*name).into(), (*value).into()));
     let options = lang::Options { defines: defines.collect() };
+    let (preset, instancing) = (Preset::default(), Instancing::default());
     let name = source.display().to_string();
     let analysis = lang::analyze(&name, &text, &mut Beside, &options);
-    let trees = (Preset::default(), &Cache::disabled());
+    let trees = Trees { preset, instancing, cache: &Cache::disabled() };
     let compiled = finish(&root, trees, analysis, &options.defines, |_| {});
     let (compiled, diagnostics) = compiled;
     assert!(diagnostics.is_empty(), "{diagnostics}");
@@ -86,7 +88,8 @@ pub fn compile_in(root: &Path, text: &str) -> Compiled {
 /// As `compile_in`.
 #[must_use]
 pub fn compile_with(root: &Path, text: &str, cache: &Cache) -> Compiled {
-    compile_as(root, text, Preset::default(), cache, |_| {})
+    let (preset, instancing) = (Preset::default(), Instancing::default());
+    compile_as(root, text, Trees { preset, instancing, cache }, |_| {})
 }
 
 /// As `compile_with`, with trees by this builder.
@@ -95,7 +98,23 @@ pub fn compile_with(root: &Path, text: &str, cache: &Cache) -> Compiled {
 /// As `compile_in`.
 #[must_use]
 pub fn compile_built(root: &Path, text: &str, preset: Preset, cache: &Cache) -> Compiled {
-    compile_as(root, text, preset, cache, |_| {})
+    let instancing = Instancing::default();
+    compile_as(root, text, Trees { preset, instancing, cache }, |_| {})
+}
+
+/// As `compile_changed`, with or without meshes that are stored once.
+///
+/// # Panics
+/// As `compile_in`.
+#[must_use]
+pub fn compile_shared(
+    root: &Path,
+    text: &str,
+    instancing: Instancing,
+    change: impl FnOnce(&mut Scene),
+) -> Compiled {
+    let trees = Trees { preset: Preset::default(), instancing, cache: &Cache::disabled() };
+    compile_as(root, text, trees, change)
 }
 
 /// As `compile_in`; `change` alters the checked scene before it is lowered.
@@ -104,25 +123,25 @@ pub fn compile_built(root: &Path, text: &str, preset: Preset, cache: &Cache) -> 
 /// As `compile_in`.
 #[must_use]
 pub fn compile_changed(root: &Path, text: &str, change: impl FnOnce(&mut Scene)) -> Compiled {
-    compile_as(root, text, Preset::default(), &Cache::disabled(), change)
+    let (preset, instancing) = (Preset::default(), Instancing::default());
+    compile_as(root, text, Trees { preset, instancing, cache: &Cache::disabled() }, change)
 }
 
 fn compile_as(
     root: &Path,
     text: &str,
-    preset: Preset,
-    cache: &Cache,
+    trees: Trees<'_>,
     change: impl FnOnce(&mut Scene),
 ) -> Compiled {
     let name = root.join("test.rts").display().to_string();
     let analysis = lang::analyze(&name, text, &mut NoImports, &lang::Options::default());
-    finish(root, (preset, cache), analysis, &[], change).0
+    finish(root, trees, analysis, &[], change).0
 }
 
 /// The pack of a checked text, and what was said about it, a line a diagnostic.
 fn finish(
     root: &Path,
-    (preset, cache): (Preset, &Cache),
+    trees: Trees<'_>,
     analysis: lang::Analysis,
     defines: &[(String, String)],
     change: impl FnOnce(&mut Scene),
@@ -134,7 +153,8 @@ fn finish(
     };
     let Some(mut scene) = analysis.scene else { panic!("{}", shown(&diagnostics)) };
     change(&mut scene);
-    let options = Options { root, preset, cache, limits: Limits::default(), defines };
+    let Trees { preset, instancing, cache } = trees;
+    let options = Options { root, preset, instancing, cache, limits: Limits::default(), defines };
     match pipeline::compile(&scene, &analysis.sources, &options, &mut diagnostics) {
         Ok(compiled) => (compiled, shown(&diagnostics)),
         Err(error) => panic!("{error}\n{}", shown(&diagnostics)),

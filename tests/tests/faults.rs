@@ -61,7 +61,14 @@ fn findings(dir: &Path, text: &str) -> (SourceSet, Vec<Diagnostic>) {
         let cache = Cache::disabled();
         let limits = Limits::default();
         let options =
-            Options { root: dir, preset: Preset::default(), cache: &cache, limits, defines: &[] };
+            Options {
+                root: dir,
+                preset: Preset::default(),
+                instancing: compiler::lower::Instancing::default(),
+                cache: &cache,
+                limits,
+                defines: &[],
+            };
         // Only what was found counts here; that nothing was written follows from it.
         let _ = pipeline::compile(scene, &analysis.sources, &options, &mut diagnostics);
     }

@@ -11,7 +11,7 @@ use compiler::pipeline::Compiled;
 use glam::Vec3;
 use pack::Pack;
 use runtime::kernel::f32 as single;
-use tests::kernel::Bench;
+use tests::kernel::{Bench, ray, skip};
 use tests::picture;
 use tests::scene::{bytes, compile_built};
 
@@ -123,7 +123,6 @@ fn a_ray_does_not_meet_the_triangle_that_it_starts_on_in_any_place() {
     let lowered = &compiled.lowered;
     let bench = Bench::new().shapes(lowered);
     let mut kernel = bench.single();
-    let (t_max, none) = (single::RAY_FAR, single::NONE);
     let mut met = 0;
     for places in &several {
         let t = &lowered.triangles[places[0] as usize];
@@ -133,17 +132,10 @@ fn a_ray_does_not_meet_the_triangle_that_it_starts_on_in_any_place() {
             let u = f32::from(k) / 20.0;
             let p = a + (b - a) * (u * 0.8) + (c - a) * 0.1;
             let dir = (n + (b - a).normalize() * (u - 0.5)).normalize();
-            let ray = |skip| single::Ray {
-                origin: p - dir * 1e-5,
-                t_max,
-                dir,
-                skip,
-                light: none,
-                time: 0.0,
-            };
-            met += usize::from(places.contains(&kernel.trace(ray(none)).prim));
+            let from = |prim| single::Ray { skip: skip(prim), ..ray(p - dir * 1e-5, dir) };
+            met += usize::from(places.contains(&kernel.trace(from(single::NONE)).prim));
             for &place in places {
-                let hit = kernel.trace(ray(place));
+                let hit = kernel.trace(from(place));
                 assert!(!places.contains(&hit.prim), "{places:?}: {hit:?}");
             }
         }

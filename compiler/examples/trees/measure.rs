@@ -106,7 +106,7 @@ fn walked(tree: &Joined) -> Walked {
         ChildRef::Triangles { first, count } | ChildRef::Spheres { first, count } => {
             To::Leaf { first, count }
         }
-        ChildRef::Empty => To::Leaf { first: 0, count: 0 },
+        ChildRef::Instance(_) | ChildRef::Empty => To::Leaf { first: 0, count: 0 },
     };
     let child =
         |lo, hi, word| Child { lo: Vec3::from_array(lo), hi: Vec3::from_array(hi), to: to(word) };

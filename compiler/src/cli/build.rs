@@ -12,7 +12,7 @@ use super::{BUG, IO, OK, ReportArgs, SCENE, SceneArgs};
 use crate::bvh::Preset;
 use crate::cache::Cache;
 use crate::import::Limits;
-use crate::lower::srgb_table;
+use crate::lower::{Counters, Instancing, Trees, srgb_table};
 use crate::pipeline::{self, CompileError, Compiled, Options, Phase};
 use crate::report::Reporter;
 
@@ -34,6 +34,10 @@ pub(super) struct BuildArgs {
     /// `spatial-median`. All show the same surfaces.
     #[arg(long, default_value_t, value_name = "BUILDER")]
     bvh: Preset,
+    /// Which meshes are stored once for all their places: `auto`, those for which it pays; `never`, none, for
+    /// comparison. Both show the same surfaces.
+    #[arg(long, default_value_t, value_name = "WHEN")]
+    instances: Instancing,
     /// Build every tree anew and store none.
     #[arg(long)]
     no_cache: bool,
@@ -70,7 +74,8 @@ fn build_here(args: &BuildArgs, reporter: &Reporter) -> u8 {
     let start = Instant::now();
     let cache = if args.no_cache { Cache::disabled() } else { Cache::from_env() };
     let output = args.output.clone().unwrap_or_else(|| default_output(&args.scene.scene));
-    let (compiled, mut phases) = match compile(&args.scene, args.bvh, &cache, reporter) {
+    let trees = Trees { preset: args.bvh, instancing: args.instances, cache: &cache };
+    let (compiled, mut phases) = match compile(&args.scene, trees, reporter) {
         Ok(done) => done,
         Err(code) => return code,
     };
@@ -101,7 +106,8 @@ fn build_here(args: &BuildArgs, reporter: &Reporter) -> u8 {
 pub(super) fn check(args: &CheckArgs) -> u8 {
     let reporter = args.report.reporter();
     let cache = Cache::from_env();
-    match compile(&args.scene, Preset::default(), &cache, &reporter) {
+    let (preset, instancing) = (Preset::default(), Instancing::default());
+    match compile(&args.scene, Trees { preset, instancing, cache: &cache }, &reporter) {
         Ok(_) => OK,
         Err(code) => code,
     }
@@ -126,8 +132,7 @@ pub(super) fn analyze(scene: &SceneArgs, reporter: &Reporter) -> Result<Analysis
 
 fn compile(
     args: &SceneArgs,
-    preset: Preset,
-    cache: &Cache,
+    trees: Trees<'_>,
     reporter: &Reporter,
 ) -> Result<(Compiled, Vec<Phase>), u8> {
     let start = Instant::now();
@@ -139,8 +144,9 @@ fn compile(
     let mut phases = vec![Phase { name: "read and check the text", time: start.elapsed() }];
     let options = Options {
         root: args.scene.parent().unwrap_or(Path::new("")),
-        preset,
-        cache,
+        preset: trees.preset,
+        instancing: trees.instancing,
+        cache: trees.cache,
         limits: Limits::default(),
         defines: &args.define,
     };
@@ -187,6 +193,9 @@ fn done(output: &Path, compiled: &Compiled, time: Duration) -> String {
             things.push(format!("{} {what}", grouped(count)));
         }
     }
+    if counters.instances > 0 {
+        things.push(instances_text(counters));
+    }
     let trees = &compiled.lowered.trees;
     things.extend((trees.groups > 0).then(|| trees_text(compiled)));
     format!(
@@ -196,6 +205,12 @@ fn done(output: &Path, compiled: &Compiled, time: Duration) -> String {
         if things.is_empty() { "nothing but sky".to_owned() } else { things.join(", ") },
         time.as_secs_f64(),
     )
+}
+
+/// What is stored once, and how often it is shown.
+fn instances_text(counters: &Counters) -> String {
+    let (meshes, instances) = (grouped(counters.meshes), grouped(counters.instances));
+    format!("{} triangles shown ({instances} instances of {meshes} meshes)", grouped(counters.shown))
 }
 
 /// Which builder made the trees, what it made of the triangles, and what it had not to do again.
@@ -220,6 +235,15 @@ fn timings(phases: &[Phase], compiled: &Compiled) -> String {
     }
     let trees = &compiled.lowered.trees;
     let ms = |time: Duration| time.as_secs_f64() * 1e3;
+    let counters = &compiled.lowered.counters;
+    if counters.instances > 0 {
+        let _ = writeln!(
+            text,
+            "{}, {} triangles stored",
+            instances_text(counters),
+            grouped(counters.triangles)
+        );
+    }
     text + &format!(
         "bvh {}: {} of {} trees cached, {:.1} ms of building saved; {} stored, {:.1} ms spent building",
         trees.preset,

@@ -8,7 +8,7 @@ use shaders::FeatureSet;
 
 use super::{FileRead, Options, features, load};
 use crate::bvh::Preset;
-use crate::lower::Lowered;
+use crate::lower::{Instancing, Lowered};
 
 /// What a manifest is made from.
 pub(super) struct Context<'a> {
@@ -45,6 +45,9 @@ impl Context<'_> {
             counters: vec![
                 ("triangles".to_owned(), counters.triangles),
                 ("triangles in leaves".to_owned(), counters.references),
+                ("meshes stored once".to_owned(), counters.meshes),
+                ("instances of them".to_owned(), counters.instances),
+                ("triangles shown".to_owned(), counters.shown),
                 ("triangles without area, left out".to_owned(), counters.dropped_triangles),
                 ("vertices".to_owned(), counters.vertices),
                 ("spheres".to_owned(), counters.spheres),
@@ -58,7 +61,9 @@ impl Context<'_> {
         let preset = self.options.preset;
         let bvh = (preset != Preset::default()).then(|| format!("--bvh {preset}"));
         let defines = self.options.defines.iter().map(|(n, v)| format!("-D {n}={v}"));
-        defines.chain(bvh).collect()
+        let how = self.options.instancing;
+        let instances = (how != Instancing::default()).then(|| format!("--instances {how}"));
+        defines.chain(bvh).chain(instances).collect()
     }
 
     /// BLAKE3 over compiler version, tree builder, overrides, scene texts and files.
@@ -71,6 +76,7 @@ impl Context<'_> {
         };
         field(env!("CARGO_PKG_VERSION").as_bytes());
         field(self.options.preset.recipe().as_bytes());
+        field(self.options.instancing.to_string().as_bytes());
         for (name, value) in self.options.defines {
             field(name.as_bytes());
             field(value.as_bytes());

@@ -4,7 +4,7 @@
 //! through this view, so both check and derive the same things. It judges nothing.
 
 use crate::abi::{
-    Camera, Light, LightNode, Material, Medium, Node, Object, RenderSettings, Sky, Sphere, Texture,
+    Camera, Instance, Light, LightNode, Material, Medium, Node, Object, RenderSettings, Sky, Sphere, Texture,
     TriShade, Triangle,
 };
 use crate::error::PackError;
@@ -22,6 +22,7 @@ pub(crate) struct Contents<'a> {
     pub(crate) spheres: &'a [Sphere],
     pub(crate) materials: &'a [Material],
     pub(crate) objects: &'a [Object],
+    pub(crate) instances: &'a [Instance],
     pub(crate) media: &'a [Medium],
     pub(crate) lights: &'a [Light],
     pub(crate) light_nodes: &'a [LightNode],
@@ -49,6 +50,7 @@ impl<'a> Contents<'a> {
             spheres: records(&find),
             materials: records(&find),
             objects: records(&find),
+            instances: records(&find),
             media: records(&find),
             lights: records(&find),
             light_nodes: records(&find),
@@ -69,6 +71,7 @@ impl<'a> Contents<'a> {
             Kind::SPHERE => self.spheres.len(),
             Kind::MATERIAL => self.materials.len(),
             Kind::OBJECT => self.objects.len(),
+            Kind::INSTANCE => self.instances.len(),
             Kind::MEDIUM => self.media.len(),
             Kind::LIGHT => self.lights.len(),
             Kind::TEXTURE => self.textures.len(),

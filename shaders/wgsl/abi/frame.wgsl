@@ -46,7 +46,8 @@ struct Frame {
     // Indices of the `Material`s inside of which the camera is, the one that counts first, then
     // `NONE`.
     inside: vec4<u32>,
-    _pad0: u32,
+    // First heap word of the `Instance` table.
+    instance_at: u32,
     // First heap word of the table by which the sky is sampled.
     sky_table_at: u32,
     // First heap word of the tree of lights; `NONE`: lights are chosen by their table.

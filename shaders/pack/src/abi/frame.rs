@@ -51,8 +51,8 @@ abi_struct! {
         /// Indices of the `Material`s inside of which the camera is, the one that counts first, then
         /// `NONE`.
         pub inside: [u32; 4],
-        /// Unused.
-        pub _pad0: u32,
+        /// First heap word of the `Instance` table.
+        pub instance_at: u32,
         /// First heap word of the table by which the sky is sampled.
         pub sky_table_at: u32,
         /// First heap word of the tree of lights; `NONE`: lights are chosen by their table.

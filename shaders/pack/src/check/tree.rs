@@ -1,12 +1,16 @@
-//! Checks that the tree is a tree over exactly the primitives that are there.
+//! Checks that the tree is a tree over exactly the primitives that are there, and that the trees of instances
+//! are such trees of their own.
 //!
-//! Turns nodes and root into the first broken rule. Children come after their parent, so there are
-//! no cycles; no node has two parents and none has none, so node 0 reaches all; leaves hold every
-//! primitive once; boxes are finite and nested; the traversal stack is as long as it says.
+//! Turns nodes and roots into the first broken rule. Children come after their parent, so there are
+//! no cycles; no node has two parents, and only roots have none, so the root and those of instances reach all;
+//! leaves hold every primitive once and the world's every instance once; triangles know whether they are in the
+//! tree of an instance; boxes are finite and nested; the traversal stack is as long as it says.
+
+use std::collections::BTreeSet;
 
 use rayon::prelude::*;
 
-use crate::abi::{ChildRef, MAX_STACK, Node};
+use crate::abi::{ChildRef, Instance, MAX_STACK, NONE, Node, OBJECT_OF_INSTANCE, TRI_SMOOTH};
 use crate::bvh;
 use crate::contents::Contents;
 use crate::error::{PackError, Place};
@@ -46,6 +50,11 @@ impl Taken {
         free
     }
 
+    /// Whether an element inside is marked.
+    fn has(&self, index: usize) -> bool {
+        self.0[index / 64] >> (index % 64) & 1 == 1
+    }
+
     /// First element that nobody took.
     fn first_free(&self) -> Option<usize> {
         let word = self.0.iter().position(|word| *word != u64::MAX)?;
@@ -59,10 +68,13 @@ fn structure(contents: &Contents<'_>) -> Result<(), PackError> {
     let mut walk = Walk {
         contents,
         nodes: Taken::new(contents.nodes.len()),
+        in_mesh: Taken::new(contents.nodes.len()),
         triangles: Taken::new(contents.triangles.len()),
         spheres: Taken::new(contents.spheres.len()),
+        instances: Taken::new(contents.instances.len()),
     };
     walk.root().map_err(|fault| PackError::Bvh { at: root_place(), fault })?;
+    walk.meshes()?;
     for (index, node) in contents.nodes.iter().enumerate() {
         for (side, word) in [("left", node.left), ("right", node.right)] {
             walk.child(index, side, word).map_err(|fault| node_error(index, fault))?;
@@ -81,6 +93,9 @@ fn structure(contents: &Contents<'_>) -> Result<(), PackError> {
     if let Some(index) = walk.spheres.first_free() {
         return lost(Kind::SPHERE, index, size_of::<crate::abi::Sphere>(), BvhFault::Lost);
     }
+    if let Some(index) = walk.instances.first_free() {
+        return lost(Kind::INSTANCE, index, size_of::<Instance>(), BvhFault::Lost);
+    }
     Ok(())
 }
 
@@ -88,69 +103,125 @@ fn structure(contents: &Contents<'_>) -> Result<(), PackError> {
 struct Walk<'a> {
     contents: &'a Contents<'a>,
     nodes: Taken,
+    /// Nodes that were reached from the root of an instance.
+    in_mesh: Taken,
     triangles: Taken,
     spheres: Taken,
+    instances: Taken,
 }
 
 impl Walk<'_> {
     fn root(&mut self) -> Result<(), BvhFault> {
         let word = self.contents.render.root;
-        let empty = self.contents.triangles.is_empty() && self.contents.spheres.is_empty();
+        let contents = self.contents;
+        let empty = contents.triangles.is_empty() && contents.spheres.is_empty();
         match ChildRef::decode(word) {
             ChildRef::Empty if !empty => Err(BvhFault::NoRoot),
             // Nodes without a root would be unreachable, which is what the caller finds.
             ChildRef::Empty => Ok(()),
-            ChildRef::Inner(0) if !self.contents.nodes.is_empty() => {
+            ChildRef::Inner(0) if !contents.nodes.is_empty() => {
                 self.nodes.take(0, 1);
                 Ok(())
             }
             ChildRef::Inner(_) => Err(BvhFault::Root { found: word }),
-            ChildRef::Triangles { first, count } | ChildRef::Spheres { first, count } => {
-                self.leaf("root", word, first, count)
+            ChildRef::Triangles { .. } | ChildRef::Spheres { .. } | ChildRef::Instance(_) => {
+                self.end("root", word, false)
+            }
+        }
+    }
+
+    /// The roots of instances, of which several may show the same tree.
+    fn meshes(&mut self) -> Result<(), PackError> {
+        let mut known = BTreeSet::new();
+        for (index, instance) in self.contents.instances.iter().enumerate() {
+            if known.insert(instance.root) {
+                let at = Place { kind: Kind::INSTANCE, index, offset: index * size_of::<Instance>() };
+                self.mesh(instance.root).map_err(|fault| PackError::Bvh { at, fault })?;
+            }
+        }
+        Ok(())
+    }
+
+    fn mesh(&mut self, word: u32) -> Result<(), BvhFault> {
+        match ChildRef::decode(word) {
+            ChildRef::Inner(child) => self.node("root", child, true),
+            ChildRef::Triangles { .. } => self.end("root", word, true),
+            ChildRef::Spheres { .. } | ChildRef::Instance(_) | ChildRef::Empty => {
+                Err(BvhFault::MeshRoot { found: word })
             }
         }
     }
 
     #[inline]
     fn child(&mut self, parent: usize, side: &'static str, word: u32) -> Result<(), BvhFault> {
+        let in_mesh = self.in_mesh.has(parent);
         match ChildRef::decode(word) {
-            ChildRef::Inner(child) => {
-                let count = self.contents.nodes.len();
-                if child as usize >= count {
-                    return Err(BvhFault::NoSuchNode { side, child, count });
-                }
-                if child as usize <= parent {
-                    return Err(BvhFault::Backwards { side, child });
-                }
-                let free = self.nodes.take(child as usize, 1);
-                if free { Ok(()) } else { Err(BvhFault::SharedNode { side, child }) }
+            ChildRef::Inner(child) if child as usize <= parent => {
+                Err(BvhFault::Backwards { side, child })
             }
-            ChildRef::Triangles { first, count } | ChildRef::Spheres { first, count } => {
-                self.leaf(side, word, first, count)
-            }
+            ChildRef::Inner(child) => self.node(side, child, in_mesh),
             ChildRef::Empty => Err(BvhFault::NoChild { side }),
+            _ => self.end(side, word, in_mesh),
         }
     }
 
     #[inline]
-    fn leaf(
-        &mut self,
-        side: &'static str,
-        word: u32,
-        first: u32,
-        count: u32,
-    ) -> Result<(), BvhFault> {
-        let (target, taken) = match ChildRef::decode(word) {
-            ChildRef::Spheres { .. } => (Kind::SPHERE, &mut self.spheres),
-            _ => (Kind::TRIANGLE, &mut self.triangles),
-        };
-        // 27 and 3 bits: the sum cannot wrap.
-        if (first + count) as usize > taken.1 {
-            return Err(BvhFault::Leaf { side, word, target, count: taken.1 });
+    fn node(&mut self, side: &'static str, child: u32, in_mesh: bool) -> Result<(), BvhFault> {
+        let (index, count) = (child as usize, self.contents.nodes.len());
+        if index >= count {
+            return Err(BvhFault::NoSuchNode { side, child, count });
         }
-        let free = taken.take(first as usize, count as usize);
-        if free { Ok(()) } else { Err(BvhFault::SharedLeaf { side, word }) }
+        if in_mesh {
+            self.in_mesh.take(index, 1);
+        }
+        if self.nodes.take(index, 1) { Ok(()) } else { Err(BvhFault::SharedNode { side, child }) }
     }
+
+    /// A leaf or an instance.
+    #[inline]
+    fn end(&mut self, side: &'static str, word: u32, in_mesh: bool) -> Result<(), BvhFault> {
+        match ChildRef::decode(word) {
+            ChildRef::Triangles { first, count } => {
+                leaf(&mut self.triangles, Kind::TRIANGLE, side, word, (first, count))?;
+                let shades = &self.contents.shades[first as usize..][..count as usize];
+                let fits = shades.iter().all(|shade| {
+                    let of_instance = shade.object & !TRI_SMOOTH == OBJECT_OF_INSTANCE;
+                    of_instance == in_mesh && !(in_mesh && shade.light != NONE)
+                });
+                if fits { Ok(()) } else { Err(BvhFault::Frame { side, word, inside: in_mesh }) }
+            }
+            _ if in_mesh => Err(BvhFault::InMesh { side, word }),
+            ChildRef::Spheres { first, count } => {
+                leaf(&mut self.spheres, Kind::SPHERE, side, word, (first, count))
+            }
+            ChildRef::Instance(index) => {
+                let count = self.contents.instances.len();
+                if index as usize >= count {
+                    return Err(BvhFault::NoSuchInstance { side, index, count });
+                }
+                let free = self.instances.take(index as usize, 1);
+                if free { Ok(()) } else { Err(BvhFault::SharedInstance { side, index }) }
+            }
+            ChildRef::Inner(_) | ChildRef::Empty => Err(BvhFault::NoChild { side }),
+        }
+    }
+}
+
+/// A range of primitives that are in no other leaf.
+#[inline]
+fn leaf(
+    taken: &mut Taken,
+    target: Kind,
+    side: &'static str,
+    word: u32,
+    (first, count): (u32, u32),
+) -> Result<(), BvhFault> {
+    // 27 and 3 bits: the sum cannot wrap.
+    if (first + count) as usize > taken.1 {
+        return Err(BvhFault::Leaf { side, word, target, count: taken.1 });
+    }
+    let free = taken.take(first as usize, count as usize);
+    if free { Ok(()) } else { Err(BvhFault::SharedLeaf { side, word }) }
 }
 
 /// Finite, not inside out, and inside the box that the parent has for them.
@@ -193,7 +264,7 @@ fn box_fault(nodes: &[Node], side: &'static str, outer: Corners, word: u32) -> O
 
 /// The stack is as long as the settings say, and not longer than any kernel's.
 fn stack(contents: &Contents<'_>) -> Result<(), PackError> {
-    let need = bvh::stack_need(contents.nodes, contents.render.root);
+    let need = bvh::stack_need(contents.nodes, contents.instances, contents.render.root);
     let found = contents.render.stack_need;
     let fault = if need > MAX_STACK {
         BvhFault::TooDeep { need }
