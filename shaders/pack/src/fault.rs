@@ -206,7 +206,7 @@ pub enum SectionFault {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ElementFault {
     /// Rows and columns that are not each other's inverse.
-    #[error("the rows are not the inverse of the columns: off by {0:e}")]
+    #[error("and the other rows are not the inverse of the columns: off by {0:e}")]
     NotInverse(f32),
     /// NaN or infinite.
     #[error("is {0}, expected a finite number")]

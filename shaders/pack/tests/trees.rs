@@ -59,7 +59,7 @@ proptest! {
     fn random_trees_are_accepted_and_sound(bits in prop::collection::vec(0u32..64, 1..120)) {
         let mut build = Build { nodes: Vec::new(), n_triangles: 0, n_spheres: 0 };
         let root = build.subtree(&mut bits.into_iter());
-        let need = stack_need(&build.nodes, root);
+        let need = stack_need(&build.nodes, &[], root);
         prop_assert_eq!(need, height(&build.nodes, root));
 
         let mut scene = Scene::full();

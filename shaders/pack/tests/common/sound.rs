@@ -4,7 +4,7 @@
 
 use pack::Pack;
 use pack::abi::{
-    ChildRef, Light, LightKind, Material, NONE, Node, Sphere, Texture, TriShade, Triangle,
+    CHILD_OUT, ChildRef, Instance, Light, LightKind, Material, NONE, Node, Sphere, Texture, TriShade, Triangle,
 };
 
 /// The relations that a kernel relies on, written a second time.
@@ -56,28 +56,48 @@ pub(crate) fn assert_sound(pack: &Pack) {
 /// Walks the tree with a stack of exactly the promised length and counts every primitive.
 fn assert_tree(pack: &Pack, n_triangles: usize, n_spheres: usize) {
     let nodes = pack.records::<Node>();
+    let instances = pack.records::<Instance>();
     let mut seen = (vec![0; nodes.len()], vec![0; n_triangles], vec![0; n_spheres]);
+    // How often each mesh is shown.
+    let shown = |root: u32| instances.iter().filter(|instance| instance.root == root).count();
+    let mut each = vec![0; instances.len()];
+    let mut times = 1;
     let mut stack = Vec::new();
     let mut current = Some(pack.render().root);
     while let Some(word) = current {
+        if word == CHILD_OUT {
+            times = 1;
+            current = stack.pop();
+            continue;
+        }
         current = match ChildRef::decode(word) {
             ChildRef::Inner(index) => {
-                seen.0[index as usize] += 1;
+                seen.0[index as usize] += 420 / times;
                 let node = &nodes[index as usize];
                 stack.push(node.right);
                 assert!(stack.len() <= pack.render().stack_need as usize);
                 Some(node.left)
             }
             ChildRef::Triangles { first, count } => {
-                (first..first + count).for_each(|index| seen.1[index as usize] += 1);
+                (first..first + count).for_each(|index| seen.1[index as usize] += 420 / times);
                 stack.pop()
             }
             ChildRef::Spheres { first, count } => {
-                (first..first + count).for_each(|index| seen.2[index as usize] += 1);
+                (first..first + count).for_each(|index| seen.2[index as usize] += 420 / times);
                 stack.pop()
+            }
+            ChildRef::Instance(index) => {
+                each[index as usize] += 1;
+                let root = instances[index as usize].root;
+                times = shown(root);
+                stack.push(CHILD_OUT);
+                assert!(stack.len() <= pack.render().stack_need as usize);
+                Some(root)
             }
             ChildRef::Empty => None,
         };
     }
-    assert!([seen.0, seen.1, seen.2].concat().iter().all(|count| *count == 1));
+    // 420 can be divided by any small number of places.
+    assert!([seen.0, seen.1, seen.2].concat().iter().all(|count| *count == 420));
+    assert!(each.iter().all(|count| *count == 1));
 }
