@@ -351,7 +351,7 @@ instance bead_d { shape = bead, material = n, at = (1.7, 0.4, 0)m, scale = (0.3,
 const FLAT_PETAL: &str =
     "material m: petal { color = linear(0.9, 0.5, 0.6), pillow = 0, tilt = 0 }\n";
 const ALL_BEADS: &str = "asset bead = obj(\"bead.obj\", unit: m, up: +y)
-instance bead_a { shape = bead, material = m, rotate = (20, 40, 0)deg, at = (-1.9, 0.5, 1.6)m, scale = (0.2, 0.3, -0.25) }
+instance bead_a { shape = bead, material = steel, rotate = (20, 40, 0)deg, at = (-1.9, 0.5, 1.6)m, scale = (0.2, 0.3, -0.25) }
 instance bead_b { shape = bead, material = glass, rotate = (0, -70, 30)deg, at = (1, 0.3, 1.9)m, scale = (0.3, 0.2, 0.25), velocity = (10, 20, 0)m/s }
 instance bead_c { shape = bead, material = n, at = (1.9, 0.4, 1.2)m, scale = 0.25 }
 instance bead_d { shape = bead, at = (1.4, 1.3, 0.6)m, scale = 0.25 }\n";

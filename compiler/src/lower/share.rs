@@ -3,7 +3,7 @@
 //! A mesh that is stored once takes less memory and its tree need not be built again when it is moved; but every
 //! ray that comes near pays for the way into its frame and back, and trees that overlap cannot be taken apart as
 //! triangles in one frame can. So a mesh is shared when it is placed twice or more and that saves
-//! [`MIN_SAVED`] triangles or more; `docs/bvh.md` has the measurements.
+//! [`MIN_SAVED`] triangles or more; `docs/instances.md` has the measurements.
 //!
 //! Never shared are places whose triangles are lights (the light table names triangles of the world), whose leaves
 //! or petals depend on the name of the thing, and whose transform has no good inverse in 24 bits.

@@ -112,12 +112,14 @@ fn the_render_id_names_the_picture_and_not_its_history() {
 #[test]
 fn features_are_those_of_the_contents() {
     let pack = Pack::from_bytes(Scene::full().bytes()).unwrap();
-    // A pack has one sky, and this one is no light; few lights need no tree; none is tinted.
+    // A pack has one sky, and this one is no light; few lights need no tree; none is tinted; no
+    // mesh is stored once.
     let absent = features::SKY_CONSTANT
         | features::SKY_IMAGE
         | features::LIGHT_SKY
         | features::LIGHT_TREE
         | features::TINT
+        | features::INSTANCES
         | features::SAMPLER_PCG;
     assert_eq!(pack.features(), features::KNOWN & !absent);
     let mut scene = Scene::empty();
@@ -138,7 +140,7 @@ fn absent_kinds_bring_no_section() {
     };
     assert_eq!(kinds(&Scene::empty()), ["RENDER", "CAMERA", "KERNEL"]);
     let all: Vec<String> = pack::SECTIONS.iter().map(|spec| spec.kind.to_string()).collect();
-    assert_eq!(kinds(&Scene::with_light_tree()), all);
+    assert_eq!(kinds(&Scene::with_light_tree().and_instances()), all);
 }
 
 #[test]

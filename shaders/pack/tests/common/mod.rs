@@ -321,7 +321,12 @@ impl Scene {
 
     /// The example with a mesh of two nodes and four triangles in two places, one of which moves.
     pub(crate) fn with_instances() -> Self {
-        let mut scene = Self::full();
+        Self::full().and_instances()
+    }
+
+    /// The same with such a mesh; for those that have the example's tree.
+    pub(crate) fn and_instances(self) -> Self {
+        let mut scene = self;
         for at in 0..4_u32 {
             let mut triangle = scene.triangles[at as usize];
             for id in [&mut triangle.id0, &mut triangle.id1, &mut triangle.id2] {
