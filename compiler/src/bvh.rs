@@ -4,25 +4,29 @@
 //! `pack::abi::Node` in depth-first order. Keeps these invariants: every piece of a primitive is in
 //! exactly one leaf and the pieces cover it (checked after each build), leaf ranges tile the pieces, a
 //! child's index is greater than its parent's, no path has more than `pack::abi::MAX_DEPTH` nodes, and
-//! the bytes depend on the input alone, not on threads.
+//! the bytes depend on the input alone, not on threads. The finished tree becomes wide at the end
+//! ([`widen`]); everything before that, the cache too, is about binary trees.
 //! It does not know the scene language, materials or files; `cache` keeps trees on disk.
 
 mod binned;
 mod build;
 mod check;
 mod clip;
+mod collapse;
 mod cut;
 mod fragment;
 mod join;
 mod pieces;
 mod preset;
 mod probe;
+mod quantize;
 mod refit;
 mod sbvh;
 mod scene;
 mod spatial;
 mod sweep;
 mod top;
+mod wide;
 mod words;
 
 use std::borrow::Cow;
@@ -32,10 +36,11 @@ use thiserror::Error;
 
 pub use check::TreeFault;
 pub use fragment::{Bounds, COORD_MAX, Fragment, MAX_PRIMITIVES};
-pub use join::{Group, GroupKind, Joined, join};
+pub use join::{Group, GroupKind, Joined, join, stack_need};
 pub use pieces::Split;
 pub use preset::{Preset, UnknownPreset};
 pub use scene::{BuildReport, Primitives, SMALL_MESH, Shared, build_instanced, build_scene, plan};
+pub use wide::{Layout, UnknownLayout, widen, widen_all};
 
 /// The tree of one group of primitives, with indices local to the group. Leaves are written as
 /// triangles whatever they hold.
@@ -187,6 +192,10 @@ fn finish(mut tree: Tree) -> Result<Tree, BvhError> {
     let children = |i: usize| [nodes[i].left, nodes[i].right];
     tree.depth = check::tree_depth(nodes.len(), order.len(), *root, children)?;
     Ok(tree)
+}
+
+fn word_of(len: usize) -> u32 {
+    u32::try_from(len).expect("at most 2^28 primitives have fewer than 2^31 nodes")
 }
 
 /// A tree from its shape alone, which comes from a source that is not trusted.

@@ -15,10 +15,8 @@ use lang::source::SourceSet;
 use pack::{PackError, PackWriter};
 use shaders::{FeatureSet, LayoutError, Linked, ShaderError};
 
-use crate::bvh::Preset;
-use crate::cache::Cache;
 use crate::import::Limits;
-use crate::lower::{self, Instancing, LowerError, Lowered, Trees};
+use crate::lower::{self, LowerError, Lowered, Trees};
 
 pub use load::FileRead;
 
@@ -27,12 +25,8 @@ pub use load::FileRead;
 pub struct Options<'a> {
     /// Directory of the root `.rts` file; names in the pack are relative to it.
     pub root: &'a Path,
-    /// How trees are built.
-    pub preset: Preset,
-    /// Which meshes are stored once.
-    pub instancing: Instancing,
-    /// Trees of earlier runs.
-    pub cache: &'a Cache,
+    /// How trees are made.
+    pub trees: Trees<'a>,
     /// How large inputs may be.
     pub limits: Limits,
     /// Overrides of parameters, for the manifest.
@@ -103,8 +97,7 @@ pub fn compile(
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(CompileError::Scene);
     }
-    let Options { preset, instancing, cache, .. } = *options;
-    let lowered = lower::lower(scene, &loaded, Trees { preset, instancing, cache }, diagnostics)?;
+    let lowered = lower::lower(scene, &loaded, &options.trees, diagnostics)?;
     drop(loaded);
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(CompileError::Scene);
@@ -135,6 +128,7 @@ impl Compiled {
         }
         writer
             .records(&lowered.nodes)
+            .records(&lowered.wide_nodes)
             .records(&lowered.triangles)
             .records(&lowered.shades)
             .records(&lowered.spheres)

@@ -7,7 +7,7 @@
 use crate::pieces::pieces;
 use pack::abi::{LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat};
 use pack::features as bit;
-use shaders::{FeatureSet, Windows};
+use shaders::{FeatureSet, NodeLayout, Windows};
 use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
 use std::fmt::Write as _;
@@ -45,6 +45,7 @@ pub(crate) fn table() -> Result<String, Box<dyn Error>> {
         layers(),
         motion(),
         instances(),
+        layouts(),
     ];
     let mut declarations: BTreeMap<String, Texts> = BTreeMap::new();
     for (f, family) in families.iter().enumerate() {
@@ -282,6 +283,14 @@ fn instances() -> Family {
         (bits, FeatureSet { instances, ..FeatureSet::full() })
     };
     Family { mask: bit::INSTANCES, members: [false, true].map(member).into() }
+}
+
+/// How nodes are stored.
+fn layouts() -> Family {
+    let members = [(0, NodeLayout::Binary), (bit::WIDE_NODES, NodeLayout::Wide)];
+    let member =
+        |(bits, layout)| (bits, FeatureSet { layouts: [layout].into(), ..FeatureSet::full() });
+    Family { mask: bit::WIDE_NODES, members: members.map(member).into() }
 }
 
 fn skies_and_lens() -> Vec<(u64, FeatureSet)> {

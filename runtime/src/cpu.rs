@@ -50,7 +50,7 @@ impl<'a> Inputs<'a> {
         Self {
             frame: bytemuck::cast_slice(std::slice::from_ref(frame)),
             heap: setup.heap(),
-            nodes: setup.section(Kind::NODE),
+            nodes: setup.nodes(),
             triangles: setup.section(Kind::TRIANGLE),
             shades: setup.section(Kind::TRISHADE),
             spheres: setup.section(Kind::SPHERE),

@@ -11,8 +11,9 @@ use std::fmt::Write as _;
 
 /// Sections that the kernel binds as they are, with their binding numbers.
 #[cfg(feature = "gpu")]
-const BOUND: [(u32, Kind); 5] = [
+const BOUND: [(u32, Kind); 6] = [
     (3, Kind::NODE),
+    (3, Kind::WIDENODE),
     (4, Kind::TRIANGLE),
     (5, Kind::TRISHADE),
     (6, Kind::SPHERE),
@@ -151,6 +152,7 @@ impl Scene {
             sampler: settings.sampler,
             air: settings.air,
             fog: settings.fog,
+            wide: u32::from(self.pack.section_bytes(Kind::WIDENODE).is_some()),
             inside: settings.inside,
             ..Frame::default()
         };
@@ -184,6 +186,12 @@ impl Setup<'_> {
     /// 16-byte words of a section; empty when the scene has none.
     pub(crate) fn section(&self, kind: Kind) -> &[UVec4] {
         self.scene.pack.section_bytes(kind).map_or(&[], words)
+    }
+
+    /// The nodes of the tree, in either layout.
+    pub(crate) fn nodes(&self) -> &[UVec4] {
+        let wide = self.section(Kind::WIDENODE);
+        if wide.is_empty() { self.section(Kind::NODE) } else { wide }
     }
 
     /// Every storage buffer that is only read: binding number and bytes, none empty.

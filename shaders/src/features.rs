@@ -61,10 +61,21 @@ pub struct FeatureSet {
     pub motion: bool,
     /// There are instances; only with `triangles`.
     pub instances: bool,
+    /// Layouts of nodes; a scene has one.
+    pub layouts: BTreeSet<NodeLayout>,
     /// Entries of the traversal stack, at least 1: `RenderSettings::stack_need`.
     pub stack_size: u32,
     /// How many bindings each section is split into.
     pub windows: Windows,
+}
+
+/// How inner nodes are stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum NodeLayout {
+    /// `pack::abi::Node`: two children.
+    Binary,
+    /// `pack::abi::WideNode`: up to four children.
+    Wide,
 }
 
 /// Bindings per section: 1, unless the section exceeds [`crate::WINDOW_WORDS`].
@@ -130,6 +141,7 @@ impl FeatureSet {
             principled_transmission: false,
             motion: false,
             instances: false,
+            layouts: [NodeLayout::Binary].into(),
             stack_size: 1,
             windows: Windows::default(),
         }
@@ -169,6 +181,7 @@ impl FeatureSet {
             principled_transmission: true,
             motion: true,
             instances: true,
+            layouts: [NodeLayout::Binary, NodeLayout::Wide].into(),
             stack_size: 96,
             windows: Windows::default(),
         }

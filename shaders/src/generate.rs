@@ -38,6 +38,7 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/layers.wgsl", principled::layers(features)),
         ("scene/leaf.wgsl", traversal::leaf(features)),
         ("scene/motion.wgsl", motion::text(features)),
+        ("scene/nodes.wgsl", traversal::nodes(features)),
         ("scene/place.wgsl", dispatch::place(features)),
         ("scene/placed.wgsl", traversal::placed(features)),
         ("scene/principled.wgsl", principled::outer(features)),

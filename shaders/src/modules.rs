@@ -23,6 +23,7 @@ const MODULES: &[(&str, &str)] = modules![
     "abi/texture.wgsl",
     "abi/tri_shade.wgsl",
     "abi/triangle.wgsl",
+    "abi/wide_node.wgsl",
     "bsdf/clearcoat.wgsl",
     "bsdf/coat.wgsl",
     "bsdf/conductor.wgsl",
@@ -110,14 +111,17 @@ const MODULES: &[(&str, &str)] = modules![
     "texture/rgba16.wgsl",
     "texture/rgba8.wgsl",
     "trace/alpha.wgsl",
+    "trace/binary.wgsl",
     "trace/box.wgsl",
     "trace/bvh.wgsl",
     "trace/instance.wgsl",
     "trace/motion.wgsl",
     "trace/ray.wgsl",
     "trace/spheres.wgsl",
+    "trace/stack.wgsl",
     "trace/triangles.wgsl",
     "trace/walk.wgsl",
+    "trace/wide.wgsl",
 ];
 
 /// Every hand-written module: its name, as in `#import`, and its text; sorted by name.

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use compiler::bvh::Layout;
 use compiler::lower::Instancing;
 use compiler::pipeline::Compiled;
 use lang::scene::Scene;
@@ -555,19 +556,23 @@ pub fn compiled(case: &Case) -> Compiled {
 /// When the case is not a scene.
 #[must_use]
 pub fn changed(case: &Case, change: impl FnOnce(&mut Scene)) -> Compiled {
-    with(case, Instancing::default(), change)
+    with(case, (Instancing::default(), Layout::default()), change)
 }
 
-/// Compiles a case with or without meshes that are stored once.
+/// Compiles a case with or without meshes that are stored once, and with this layout of nodes.
 ///
 /// # Panics
 /// When the case is not a scene.
 #[must_use]
-pub fn shared(case: &Case, instancing: Instancing) -> Compiled {
-    with(case, instancing, |_| {})
+pub fn shared(case: &Case, instancing: Instancing, layout: Layout) -> Compiled {
+    with(case, (instancing, layout), |_| {})
 }
 
-fn with(case: &Case, instancing: Instancing, change: impl FnOnce(&mut Scene)) -> Compiled {
+fn with(
+    case: &Case,
+    how: (Instancing, Layout),
+    change: impl FnOnce(&mut Scene),
+) -> Compiled {
     let dir = tempfile::tempdir().expect("a temporary directory can be made");
     write_files(dir.path());
     let Case { parts, camera, render, .. } = case;
@@ -584,7 +589,7 @@ camera eye: perspective {{
 film small {{ size = (40, 30)px }}
 render main: path {{ camera = eye, film = small, samples = 8, depth = 8, seed = 7{render}{air} }}\n",
     );
-    crate::scene::compile_shared(dir.path(), &text, instancing, change)
+    crate::scene::compile_shared(dir.path(), &text, how, change)
 }
 
 /// Compiles a case into a checked pack.

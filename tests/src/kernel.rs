@@ -160,6 +160,8 @@ impl Bench {
         bench.frame.instance_at = bench.heap_end();
         bench.heap.extend(words(&lowered.instances));
         bench.nodes = words(&lowered.nodes);
+        bench.nodes.extend(words(&lowered.wide_nodes));
+        bench.frame.wide = u32::from(!lowered.wide_nodes.is_empty());
         bench.triangles = words(&lowered.triangles);
         bench.shades = words(&lowered.shades);
         bench.spheres = words(&lowered.spheres);

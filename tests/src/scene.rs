@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use compiler::bvh::Preset;
+use compiler::bvh::{Layout, Preset};
 use compiler::cache::Cache;
 use compiler::import::Limits;
 use compiler::lower::{Instancing, Trees};
@@ -49,10 +49,10 @@ pub fn example(example: &Example, defines: &[(&str, &str)]) -> Compiled {
     let text = std::fs::read_to_string(&source).expect("an example has a text");
     let defines = defines.iter().map(|(name, value)| ((*name).into(), (*value).into()));
     let options = lang::Options { defines: defines.collect() };
-    let (preset, instancing) = (Preset::default(), Instancing::default());
     let name = source.display().to_string();
     let analysis = lang::analyze(&name, &text, &mut Beside, &options);
-    let trees = Trees { preset, instancing, cache: &Cache::disabled() };
+    let cache = Cache::disabled();
+    let trees = Trees::usual(&cache);
     let compiled = finish(&root, trees, analysis, &options.defines, |_| {});
     let (compiled, diagnostics) = compiled;
     assert!(diagnostics.is_empty(), "{diagnostics}");
@@ -88,21 +88,20 @@ pub fn compile_in(root: &Path, text: &str) -> Compiled {
 /// As `compile_in`.
 #[must_use]
 pub fn compile_with(root: &Path, text: &str, cache: &Cache) -> Compiled {
-    let (preset, instancing) = (Preset::default(), Instancing::default());
-    compile_as(root, text, Trees { preset, instancing, cache }, |_| {})
+    compile_as(root, text, Trees::usual(cache), |_| {})
 }
 
-/// As `compile_with`, with trees by this builder.
+/// As `compile_in`, with trees by this builder in this layout.
 ///
 /// # Panics
 /// As `compile_in`.
 #[must_use]
-pub fn compile_built(root: &Path, text: &str, preset: Preset, cache: &Cache) -> Compiled {
-    let instancing = Instancing::default();
-    compile_as(root, text, Trees { preset, instancing, cache }, |_| {})
+pub fn compile_built(root: &Path, text: &str, preset: Preset, layout: Layout) -> Compiled {
+    let cache = Cache::disabled();
+    compile_as(root, text, Trees { preset, layout, ..Trees::usual(&cache) }, |_| {})
 }
 
-/// As `compile_changed`, with or without meshes that are stored once.
+/// As `compile_changed`, with or without meshes that are stored once, and with this layout of nodes.
 ///
 /// # Panics
 /// As `compile_in`.
@@ -110,11 +109,11 @@ pub fn compile_built(root: &Path, text: &str, preset: Preset, cache: &Cache) -> 
 pub fn compile_shared(
     root: &Path,
     text: &str,
-    instancing: Instancing,
+    (instancing, layout): (Instancing, Layout),
     change: impl FnOnce(&mut Scene),
 ) -> Compiled {
-    let trees = Trees { preset: Preset::default(), instancing, cache: &Cache::disabled() };
-    compile_as(root, text, trees, change)
+    let cache = Cache::disabled();
+    compile_as(root, text, Trees { instancing, layout, ..Trees::usual(&cache) }, change)
 }
 
 /// As `compile_in`; `change` alters the checked scene before it is lowered.
@@ -123,8 +122,7 @@ pub fn compile_shared(
 /// As `compile_in`.
 #[must_use]
 pub fn compile_changed(root: &Path, text: &str, change: impl FnOnce(&mut Scene)) -> Compiled {
-    let (preset, instancing) = (Preset::default(), Instancing::default());
-    compile_as(root, text, Trees { preset, instancing, cache: &Cache::disabled() }, change)
+    compile_as(root, text, Trees::usual(&Cache::disabled()), change)
 }
 
 fn compile_as(
@@ -153,8 +151,7 @@ fn finish(
     };
     let Some(mut scene) = analysis.scene else { panic!("{}", shown(&diagnostics)) };
     change(&mut scene);
-    let Trees { preset, instancing, cache } = trees;
-    let options = Options { root, preset, instancing, cache, limits: Limits::default(), defines };
+    let options = Options { root, trees, limits: Limits::default(), defines };
     match pipeline::compile(&scene, &analysis.sources, &options, &mut diagnostics) {
         Ok(compiled) => (compiled, shown(&diagnostics)),
         Err(error) => panic!("{error}\n{}", shown(&diagnostics)),

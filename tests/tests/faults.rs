@@ -3,9 +3,10 @@
 
 use std::path::Path;
 
-use compiler::bvh::Preset;
+use compiler::bvh::{Layout, Preset};
 use compiler::cache::Cache;
 use compiler::import::Limits;
+use compiler::lower::Trees;
 use compiler::pipeline::{self, Options};
 use lang::diagnostic::{self, Diagnostic};
 use lang::source::{LoadError, Loader, SourceSet};
@@ -60,15 +61,8 @@ fn findings(dir: &Path, text: &str) -> (SourceSet, Vec<Diagnostic>) {
     if let Some(scene) = &analysis.scene {
         let cache = Cache::disabled();
         let limits = Limits::default();
-        let options =
-            Options {
-                root: dir,
-                preset: Preset::default(),
-                instancing: compiler::lower::Instancing::default(),
-                cache: &cache,
-                limits,
-                defines: &[],
-            };
+        let trees = Trees::usual(&cache);
+        let options = Options { root: dir, trees, limits, defines: &[] };
         // Only what was found counts here; that nothing was written follows from it.
         let _ = pipeline::compile(scene, &analysis.sources, &options, &mut diagnostics);
     }

@@ -1,19 +1,21 @@
-//! The builder of the tree changes how long a picture takes, and not one bit of the picture where nothing lets
-//! shadow rays through: triangles that are in several leaves are one triangle to paths, lights and shadow rays.
+//! The builder of the tree and the layout of its nodes change how long a picture takes, and not one bit of the
+//! picture where nothing lets shadow rays through: triangles that are in several leaves are one triangle to paths,
+//! lights and shadow rays.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use compiler::bvh::Preset;
-use compiler::cache::Cache;
+use compiler::bvh::{Layout, Preset};
 use compiler::pipeline::Compiled;
 use glam::Vec3;
 use pack::Pack;
+use pack::abi::Triangle;
 use runtime::kernel::f32 as single;
 use tests::kernel::{Bench, ray, skip};
 use tests::picture;
 use tests::scene::{bytes, compile_built};
+use tests::statistics::stream::Stream;
 
 /// Long boards and blades through one another, among small triangles: what is split.
 fn thicket_obj() -> String {
@@ -62,14 +64,16 @@ render main: path {{ camera = eye, film = tiny, samples = 16, depth = 6, seed = 
     )
 }
 
-/// Renders with every builder; returns how many places in leaves a triangle has by default.
+/// Renders with every builder and layout; returns how many places in leaves a triangle has by default.
 fn check(material: &str) -> f64 {
     let dir = tempfile::tempdir().expect("dir");
     let text = thicket(dir.path(), material);
     let mut expected = None;
     let mut places = 0.0;
-    for preset in Preset::ALL {
-        let compiled = compile_built(dir.path(), &text, preset, &Cache::disabled());
+    let both = |preset| Layout::ALL.map(|layout| (preset, layout));
+    for (preset, layout) in Preset::ALL.into_iter().flat_map(both) {
+        let compiled = compile_built(dir.path(), &text, preset, layout);
+        assert_eq!(compiled.lowered.nodes.is_empty(), layout == Layout::Wide);
         let counters = compiled.lowered.counters;
         assert_eq!(counters.references > counters.triangles, preset.splits_triangles(), "{preset}");
         if preset == Preset::Default {
@@ -81,7 +85,10 @@ fn check(material: &str) -> f64 {
         match &expected {
             None => expected = Some(picture),
             Some(expected) => {
-                assert!(*expected == picture, "{material}: `{preset}` shows another picture");
+                assert!(
+                    *expected == picture,
+                    "{material}: `{preset}`, `{layout}` shows another picture"
+                );
             }
         }
     }
@@ -89,7 +96,7 @@ fn check(material: &str) -> f64 {
 }
 
 #[test]
-fn every_builder_gives_the_same_picture() {
+fn every_builder_and_layout_gives_the_same_picture() {
     for material in [
         "diffuse { color = linear(0.7) }",
         // Paths go on behind what they hit, and shadow rays too.
@@ -106,7 +113,7 @@ fn every_builder_gives_the_same_picture() {
 fn split_thicket() -> (Compiled, Vec<Vec<u32>>) {
     let dir = tempfile::tempdir().expect("dir");
     let text = thicket(dir.path(), "diffuse { color = linear(0.7) }");
-    let compiled = compile_built(dir.path(), &text, Preset::Default, &Cache::disabled());
+    let compiled = compile_built(dir.path(), &text, Preset::Default, Layout::Wide);
     let mut places: BTreeMap<[u32; 4], Vec<u32>> = BTreeMap::new();
     for ((i, t), shade) in (0..).zip(&compiled.lowered.triangles).zip(&compiled.lowered.shades) {
         places.entry([t.id0, t.id1, t.id2, shade.material]).or_default().push(i);
@@ -161,4 +168,53 @@ fn all_places_of_a_triangle_have_the_same_rank() {
         }
         assert!(!kernel.triangles_same(pair[0][0], single::NONE));
     }
+}
+
+/// Both layouts of one tree, over the same triangles in the same order.
+fn both_layouts(text: &str, dir: &Path) -> [Compiled; 2] {
+    let both = Layout::ALL.map(|layout| compile_built(dir, text, Preset::Default, layout));
+    let [wide, binary] = both.each_ref().map(|compiled| &compiled.lowered.triangles);
+    assert_eq!(wide, binary);
+    both
+}
+
+/// A ray from anywhere to a corner, along an edge, or along an axis through a corner: where boxes are tight.
+fn tight_ray(stream: &mut Stream, triangles: &[Triangle]) -> (Vec3, Vec3) {
+    let t = &triangles[stream.index(triangles.len())];
+    let [a, b] = [t.v0, t.v1].map(Vec3::from);
+    let far = Vec3::from([0; 3].map(|_| stream.unit24() * 3.0 - 1.5));
+    match stream.index(4) {
+        0 => (far, a - far),
+        1 => (far, a.lerp(b, stream.unit24()) - far),
+        2 => (a - (b - a) * 3.0, b - a),
+        _ => {
+            let axis = [Vec3::X, Vec3::Y, Vec3::Z][stream.index(3)];
+            (a - axis * 2.0, axis)
+        }
+    }
+}
+
+#[test]
+fn both_layouts_give_every_ray_the_same_hit() {
+    let dir = tempfile::tempdir().expect("dir");
+    let text = thicket(dir.path(), "diffuse { color = linear(0.7) }");
+    let both = both_layouts(&text, dir.path());
+    let benches = both.each_ref().map(|compiled| Bench::new().shapes(&compiled.lowered));
+    let [mut wide, mut binary] = benches.each_ref().map(Bench::single);
+    let triangles = &both[0].lowered.triangles;
+    let mut stream = Stream::new(61, 0);
+    let (mut met, n) = (0, 200_000);
+    for _ in 0..n {
+        let (origin, way) = tight_ray(&mut stream, triangles);
+        let (t_max, none) = (single::RAY_FAR, single::NONE);
+        let ray =
+            single::Ray { origin, t_max, dir: way.normalize(), skip: none, light: none, time: 0.0 };
+        let hits = [wide.trace(ray), binary.trace(ray)];
+        // Of a triangle in several leaves any place may be met first.
+        let what = |hit: single::Hit| triangles.get(hit.prim as usize).ok_or(hit.prim);
+        let bits = hits.map(|hit| (what(hit), hit.t.to_bits(), hit.b.to_array().map(f32::to_bits)));
+        assert_eq!(bits[0], bits[1], "from {origin} along {way}");
+        met += usize::from(hits[0].prim != none);
+    }
+    assert!(met > n / 2, "{met} of {n} rays meet anything");
 }

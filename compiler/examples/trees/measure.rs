@@ -7,11 +7,11 @@ use std::path::Path;
 use compiler::bvh::{self, Joined, Preset, Primitives};
 use compiler::cache::Cache;
 use glam::Vec3;
-use pack::abi::{ChildRef, Node};
+use pack::abi::{ChildRef, Node, WideNode};
 
 use crate::other;
 use crate::scene::Tri;
-use crate::walk::{Child, Cost, Ray, Shape, To, Walked};
+use crate::walk::{Child, Cost, Ray, Shape, To, Walked, pair};
 
 /// Builds of each tree; odd, so that the median is a measured value.
 pub(crate) const ROUNDS: usize = 3;
@@ -38,8 +38,6 @@ impl Row {
         count as f64 / self.n_rays as f64
     }
 }
-
-/// What one build took: CPU seconds, and bytes a triangle where known.
 
 /// Builds and walks every tree.
 pub(crate) fn all(triangles: &[Tri], yardstick: Option<&Path>) -> Result<Rows, Box<dyn Error>> {
@@ -87,7 +85,7 @@ fn row(name: String, cpu: f64, tree: &Walked, triangles: &[Tri], rays: &[Ray]) -
     Row { name, cpu, references, shape, cost, n_rays: rays.len() }
 }
 
-fn build(preset: Preset, triangles: &[Tri]) -> Result<(Joined, f64), Box<dyn Error>> {
+pub(crate) fn build(preset: Preset, triangles: &[Tri]) -> Result<(Joined, f64), Box<dyn Error>> {
     let primitives = Primitives {
         triangles,
         mesh_sizes: &[triangles.len()],
@@ -100,23 +98,36 @@ fn build(preset: Preset, triangles: &[Tri]) -> Result<(Joined, f64), Box<dyn Err
     Ok((tree, cpu_seconds() - cpu))
 }
 
-fn walked(tree: &Joined) -> Walked {
-    let to = |word| match ChildRef::decode(word) {
+fn child([lo, hi]: [[f32; 3]; 2], word: u32) -> Child {
+    let to = match ChildRef::decode(word) {
         ChildRef::Inner(node) => To::Inner(node),
         ChildRef::Triangles { first, count } | ChildRef::Spheres { first, count } => {
             To::Leaf { first, count }
         }
-        ChildRef::Instance(_) | ChildRef::Empty => To::Leaf { first: 0, count: 0 },
+        ChildRef::Instance(_) | ChildRef::Empty => To::Nowhere,
     };
-    let child =
-        |lo, hi, word| Child { lo: Vec3::from_array(lo), hi: Vec3::from_array(hi), to: to(word) };
-    let pair =
-        |n: &Node| [child(n.left_lo, n.left_hi, n.left), child(n.right_lo, n.right_hi, n.right)];
-    Walked { nodes: tree.nodes.iter().map(pair).collect(), order: tree.triangle_order.clone() }
+    Child { lo: Vec3::from_array(lo), hi: Vec3::from_array(hi), to }
+}
+
+/// A binary tree.
+pub(crate) fn walked(tree: &Joined) -> Walked {
+    let children = |n: &Node| {
+        pair([child([n.left_lo, n.left_hi], n.left), child([n.right_lo, n.right_hi], n.right)])
+    };
+    Walked { nodes: tree.nodes.iter().map(children).collect(), order: tree.triangle_order.clone() }
+}
+
+/// The same tree with wide nodes.
+pub(crate) fn walked_wide(nodes: &[WideNode], order: &[u32]) -> Walked {
+    let children = |n: &WideNode| {
+        let words = n.children();
+        [0, 1, 2, 3].map(|slot| child(n.corners(slot), words[slot]))
+    };
+    Walked { nodes: nodes.iter().map(children).collect(), order: order.to_vec() }
 }
 
 /// User and system time of this process, where the system tells (0 elsewhere).
-fn cpu_seconds() -> f64 {
+pub(crate) fn cpu_seconds() -> f64 {
     let stat = fs::read_to_string("/proc/self/stat").unwrap_or_default();
     let ticks = |i| stat.split(' ').nth(i).and_then(|s: &str| s.parse().ok()).unwrap_or(0.0);
     (ticks(13) + ticks(14)) / 100.0

@@ -8,7 +8,7 @@ use std::process::Command;
 use glam::Vec3;
 
 use crate::scene::Tri;
-use crate::walk::{Child, To, Walked};
+use crate::walk::{Child, To, Walked, pair as both};
 
 /// What the program is asked for, and what that is called on the page.
 pub(crate) const MODES: [(&str, &str); 2] = [
@@ -76,7 +76,8 @@ pub(crate) fn read(bytes: &[u8]) -> Walked {
         pair_of[*first as usize] = pair;
     }
     let pair = |first: u32| pair_of[first as usize];
-    let nodes = firsts.iter().map(|&f| [child(f, &pair), child(f + 1, &pair)]).collect();
+    let children = |first: u32| both([child(first, &pair), child(first + 1, &pair)]);
+    let nodes = firsts.iter().map(|&first| children(first)).collect();
     let order = (0..n_indices).map(|i| word(16 + 32 * n_nodes + 4 * i)).collect();
     Walked { nodes, order }
 }

@@ -1,6 +1,7 @@
 //! One walk for all trees, ours and others': what a ray costs, counted.
 
 use glam::Vec3;
+use pack::abi::WIDTH;
 
 use crate::scene::{Rng, Tri, basis};
 
@@ -16,12 +17,34 @@ pub(crate) struct Child {
 #[derive(Clone, Copy)]
 pub(crate) enum To {
     Inner(u32),
-    Leaf { first: u32, count: u32 },
+    Leaf {
+        first: u32,
+        count: u32,
+    },
+    /// There is no such child, and none behind it.
+    Nowhere,
 }
 
-/// A tree: pairs of children, the first of which is the root's, and triangles in leaf order.
+/// The children of a node.
+pub(crate) type Children = [Child; WIDTH];
+
+impl Child {
+    pub(crate) const NONE: Self = Self { lo: Vec3::ZERO, hi: Vec3::ZERO, to: To::Nowhere };
+}
+
+/// Two children.
+pub(crate) fn pair([left, right]: [Child; 2]) -> Children {
+    [left, right, Child::NONE, Child::NONE]
+}
+
+/// Those that are there.
+fn there(children: &Children) -> impl Iterator<Item = &Child> {
+    children.iter().take_while(|child| !matches!(child.to, To::Nowhere))
+}
+
+/// A tree: children, the first of which are the root's, and triangles in leaf order.
 pub(crate) struct Walked {
-    pub(crate) nodes: Vec<[Child; 2]>,
+    pub(crate) nodes: Vec<Children>,
     pub(crate) order: Vec<u32>,
 }
 
@@ -55,12 +78,13 @@ fn half_area(lo: Vec3, hi: Vec3) -> f64 {
 impl Walked {
     pub(crate) fn shape(&self) -> Shape {
         let mut shape = Shape::default();
-        let [l, r] = self.nodes[0];
-        let root = half_area(l.lo.min(r.lo), l.hi.max(r.hi));
+        let ends = there(&self.nodes[0])
+            .fold((Vec3::MAX, Vec3::MIN), |(lo, hi), child| (lo.min(child.lo), hi.max(child.hi)));
+        let root = half_area(ends.0, ends.1);
         let mut stack = vec![(0_u32, 1)];
         while let Some((node, depth)) = stack.pop() {
             shape.depth = shape.depth.max(depth);
-            for child in self.nodes[node as usize] {
+            for child in there(&self.nodes[node as usize]) {
                 let tests = match child.to {
                     To::Inner(node) => {
                         stack.push((node, depth + 1));
@@ -70,6 +94,7 @@ impl Walked {
                         shape.largest_leaf = shape.largest_leaf.max(count);
                         count
                     }
+                    To::Nowhere => 0,
                 };
                 shape.cost += half_area(child.lo, child.hi) / root * f64::from(tests);
             }
@@ -94,20 +119,16 @@ impl Walked {
             match to {
                 To::Inner(node) => {
                     cost.steps += 1;
-                    let mut children = self.nodes[node as usize];
-                    let mut at = [0, 1].map(|k| enter(&children[k], best.0));
-                    if at[1] < at[0] {
-                        children.swap(0, 1);
-                        at.swap(0, 1);
-                    }
-                    if at[0] < f32::INFINITY {
-                        if at[1] < f32::INFINITY {
-                            stack.push((at[1], children[1].to));
-                        }
-                        next = Some(children[0].to);
-                        continue;
-                    }
+                    let from = stack.len();
+                    let entered = there(&self.nodes[node as usize])
+                        .map(|child| (enter(child, best.0), child.to))
+                        .filter(|(at, _)| *at < f32::INFINITY);
+                    stack.extend(entered);
+                    // Of equal distances the left child is next.
+                    stack[from..].reverse();
+                    stack[from..].sort_by(|a, b| b.0.total_cmp(&a.0));
                 }
+                To::Nowhere => {}
                 To::Leaf { first, count } => {
                     for &i in &self.order[first as usize..][..count as usize] {
                         cost.tests += 1;

@@ -34,6 +34,9 @@ pub enum TreeFault {
     /// A split of what is not there, is not a triangle, or does not cross the plane.
     #[error("a split of nothing")]
     Split,
+    /// A box of a wide node that is smaller than what is in it.
+    #[error("a box became smaller on its grid")]
+    Grid,
     /// A reference to spheres or to nothing where triangles are expected.
     #[error("unexpected kind of child reference")]
     Kind,

@@ -10,11 +10,12 @@
 use std::ops::Range;
 
 use pack::abi::{CHILD_INNER, ChildRef, Instance, NONE, Node};
+use pack::bvh::InnerNode;
 
 use super::fragment::{Bounds, MAX_PRIMITIVES};
 use super::top::{self, Door, MAX_TOP_LEVELS, Piece, Top};
 use super::words::{as_spheres, shift_word};
-use super::{BvhError, Tree};
+use super::{BvhError, Tree, word_of};
 
 /// What a group holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -123,9 +124,7 @@ impl Joined {
             };
             self.mesh_roots.push(root);
         }
-        let shown = |mesh: &usize| Instance { root: self.mesh_roots[*mesh], ..Instance::default() };
-        let instances: Vec<Instance> = mesh_of.iter().map(shown).collect();
-        self.stack_need = pack::bvh::stack_need(&self.nodes, &instances, self.root);
+        self.stack_need = stack_need(&self.nodes, &self.mesh_roots, mesh_of, self.root);
         Ok(())
     }
 
@@ -149,6 +148,20 @@ impl Joined {
     }
 }
 
+/// Entries of the traversal stack that the worst ray needs, where instance `i` shows the mesh with root
+/// `mesh_roots[mesh_of[i]]`.
+#[must_use]
+pub fn stack_need<N: InnerNode>(
+    nodes: &[N],
+    mesh_roots: &[u32],
+    mesh_of: &[usize],
+    root: u32,
+) -> u32 {
+    let shown = |mesh: &usize| Instance { root: mesh_roots[*mesh], ..Instance::default() };
+    let instances: Vec<Instance> = mesh_of.iter().map(shown).collect();
+    pack::bvh::stack_need(nodes, &instances, root)
+}
+
 /// The primitives of a group's leaves, in leaf order, as the scene numbers them.
 fn scene_order(group: &Group) -> Vec<u32> {
     let mut order = group.tree.primitives();
@@ -162,10 +175,6 @@ fn scene_order(group: &Group) -> Vec<u32> {
         }
     }
     order
-}
-
-fn word_of(len: usize) -> u32 {
-    u32::try_from(len).expect("at most 2^28 primitives have fewer than 2^31 nodes")
 }
 
 /// Widens a box downwards, so that no face of it contains a vertex.

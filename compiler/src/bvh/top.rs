@@ -110,7 +110,7 @@ fn budget(n_groups: usize, n_doors: usize) -> usize {
 const MANY_DOORS: usize = 1 << 15;
 
 /// The two children of a node as boxes and references.
-fn children(node: &Node) -> [(Bounds, u32); 2] {
+pub(super) fn children(node: &Node) -> [(Bounds, u32); 2] {
     let corner = |c: [f32; 3]| Vec4::new(c[0], c[1], c[2], 0.0);
     let side = |lo, hi| Bounds { lo: corner(lo), hi: corner(hi) };
     [

@@ -9,7 +9,7 @@ use lang::Analysis;
 
 use super::files::{DiskLoader, TextError, read_text};
 use super::{BUG, IO, OK, ReportArgs, SCENE, SceneArgs};
-use crate::bvh::Preset;
+use crate::bvh::{Layout, Preset};
 use crate::cache::Cache;
 use crate::import::Limits;
 use crate::lower::{Counters, Instancing, Trees, srgb_table};
@@ -38,6 +38,10 @@ pub(super) struct BuildArgs {
     /// comparison. Both show the same surfaces.
     #[arg(long, default_value_t, value_name = "WHEN")]
     instances: Instancing,
+    /// How inner nodes are stored: `wide` with up to four children, their boxes rounded outwards to 8
+    /// bits; `binary`, which is larger, for comparison. Both show the same picture.
+    #[arg(long, default_value_t, value_name = "LAYOUT")]
+    nodes: Layout,
     /// Build every tree anew and store none.
     #[arg(long)]
     no_cache: bool,
@@ -74,7 +78,8 @@ fn build_here(args: &BuildArgs, reporter: &Reporter) -> u8 {
     let start = Instant::now();
     let cache = if args.no_cache { Cache::disabled() } else { Cache::from_env() };
     let output = args.output.clone().unwrap_or_else(|| default_output(&args.scene.scene));
-    let trees = Trees { preset: args.bvh, instancing: args.instances, cache: &cache };
+    let trees =
+        Trees { preset: args.bvh, layout: args.nodes, instancing: args.instances, cache: &cache };
     let (compiled, mut phases) = match compile(&args.scene, trees, reporter) {
         Ok(done) => done,
         Err(code) => return code,
@@ -106,8 +111,8 @@ fn build_here(args: &BuildArgs, reporter: &Reporter) -> u8 {
 pub(super) fn check(args: &CheckArgs) -> u8 {
     let reporter = args.report.reporter();
     let cache = Cache::from_env();
-    let (preset, instancing) = (Preset::default(), Instancing::default());
-    match compile(&args.scene, Trees { preset, instancing, cache: &cache }, &reporter) {
+    let trees = Trees::usual(&cache);
+    match compile(&args.scene, trees, &reporter) {
         Ok(_) => OK,
         Err(code) => code,
     }
@@ -144,9 +149,7 @@ fn compile(
     let mut phases = vec![Phase { name: "read and check the text", time: start.elapsed() }];
     let options = Options {
         root: args.scene.parent().unwrap_or(Path::new("")),
-        preset: trees.preset,
-        instancing: trees.instancing,
-        cache: trees.cache,
+        trees,
         limits: Limits::default(),
         defines: &args.define,
     };

@@ -5,10 +5,12 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use pack::abi::Instance;
+use pack::abi::{Instance, Node, WideNode};
+use pack::bvh::InnerNode;
 use pack::{Checked, MapMode, Pack};
 
 use super::{IO, OK};
+use crate::bvh::Layout;
 use crate::report::{Color, ErrorFormat, Reporter};
 
 #[derive(Debug, Args)]
@@ -45,10 +47,11 @@ fn table(pack: &Pack<Checked>) -> String {
     let [width, height] = render.image_size;
     let features = pack::features::names(pack.features()).join(", ");
     let mut text = format!(
-        "render id   {}\nimage       {width} x {height} px, {} samples, depth {}\nstack need  {}\nholds       {features}\n{}\n",
+        "render id   {}\nimage       {width} x {height} px, {} samples, depth {}\nnodes       {}\nstack need  {}\nholds       {features}\n{}\n",
         hex(&pack.render_id()),
         render.samples,
         render.max_depth,
+        nodes(pack),
         render.stack_need,
         instances(pack),
     );
@@ -81,6 +84,17 @@ fn instances(pack: &Pack<Checked>) -> String {
         _ => String::new(),
     };
     format!("instances   {} of {} meshes{triangles}\n", instances.len(), meshes.len())
+}
+
+/// The layout of the nodes and how full they are.
+fn nodes(pack: &Pack<Checked>) -> String {
+    let (binary, wide) = (pack.records::<Node>(), pack.records::<WideNode>());
+    let n_children: usize = wide.iter().map(|node| InnerNode::children(node).count()).sum();
+    match (binary.len(), wide.len()) {
+        (0, 0) => "none".to_owned(),
+        (n, 0) => format!("{n} {}, 2 children each", Layout::Binary),
+        (_, n) => format!("{n} {}, {:.2} children each", Layout::Wide, n_children as f64 / n as f64),
+    }
 }
 
 fn hex(bytes: &[u8]) -> String {

@@ -20,10 +20,32 @@ use super::sky::LoweredSky;
 use super::sky_table::SkyTable;
 use super::share::Instancing;
 use super::{Loaded, camera, closed, light_tree, medium, motion, power, sky};
-use crate::bvh::{self, BuildReport, BvhError, Joined, Preset, Primitives, Shared};
+use crate::bvh::{self, BuildReport, BvhError, Joined, Layout, Preset, Primitives, Shared};
 use crate::cache::Cache;
 use crate::normalize::Normalization;
 use crate::weld::weld;
+
+/// How trees over the geometry are made.
+#[derive(Clone, Copy, Debug)]
+pub struct Trees<'a> {
+    /// Which builder.
+    pub preset: Preset,
+    /// How their nodes are stored.
+    pub layout: Layout,
+    /// Which meshes are stored once.
+    pub instancing: Instancing,
+    /// Trees of earlier runs.
+    pub cache: &'a Cache,
+}
+
+impl<'a> Trees<'a> {
+    /// As everybody gets them.
+    #[must_use]
+    pub fn usual(cache: &'a Cache) -> Self {
+        let (preset, layout) = (Preset::default(), Layout::default());
+        Self { preset, layout, instancing: Instancing::default(), cache }
+    }
+}
 
 /// What was counted while lowering.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -70,8 +92,10 @@ pub struct Lowered {
     pub sky: Option<abi::Sky>,
     /// By which the sky is sampled; empty if it is no light.
     pub sky_table: Vec<[f32; 4]>,
-    /// Nodes of the joined tree.
+    /// Nodes of the joined tree; empty if they are wide.
     pub nodes: Vec<abi::Node>,
+    /// Nodes of the joined tree; empty if they are binary.
+    pub wide_nodes: Vec<abi::WideNode>,
     /// Triangles in leaf order.
     pub triangles: Vec<abi::Triangle>,
     /// Shading data in leaf order.
@@ -118,17 +142,6 @@ pub enum LowerError {
     },
 }
 
-/// How trees are made, and over what.
-#[derive(Clone, Copy, Debug)]
-pub struct Trees<'a> {
-    /// Which builder.
-    pub preset: Preset,
-    /// Which meshes are stored once.
-    pub instancing: Instancing,
-    /// Trees of earlier runs.
-    pub cache: &'a Cache,
-}
-
 /// Lowers a scene whose files are loaded. Faults of single instances are added to `diagnostics`.
 ///
 /// # Errors
@@ -136,12 +149,12 @@ pub struct Trees<'a> {
 pub fn lower(
     scene: &Scene,
     loaded: &Loaded,
-    how: Trees<'_>,
+    trees: &Trees<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Lowered, LowerError> {
     let start = Instant::now();
     let mut materials = MaterialTable::new(scene, loaded);
-    let mut placement = geometry::place(scene, loaded, how.instancing, &mut materials, diagnostics);
+    let mut placement = geometry::place(scene, loaded, trees.instancing, &mut materials, diagnostics);
     let stored = placement.meshes.iter().map(|mesh| mesh.corners.len()).sum::<usize>();
     let count = placement.corners.len() + stored;
     if count > bvh::MAX_PRIMITIVES {
@@ -165,7 +178,9 @@ pub fn lower(
     let start = Instant::now();
     let balls = normalised_spheres(&placement, &frame);
     let motions = motion::displacements(&placement, &frame);
-    let (joined, trees) = build_tree(&placement, &shared, &balls, (&motions, &frame), how)?;
+    let (mut joined, report) = build_tree(&placement, &shared, &balls, (&motions, &frame), trees)?;
+    let mesh_of: Vec<usize> = placement.placed.iter().map(|placed| placed.mesh).collect();
+    let wide_nodes = widened(&mut joined, trees.layout, &mesh_of)?;
     times.bvh = start.elapsed();
 
     let start = Instant::now();
@@ -200,6 +215,7 @@ pub fn lower(
         sky,
         sky_table,
         nodes: joined.nodes,
+        wide_nodes,
         triangles: ordered.triangles,
         shades: ordered.shades,
         spheres: ordered.spheres,
@@ -214,8 +230,34 @@ pub fn lower(
         texels,
         counters,
         times,
-        trees,
+        trees: report,
     })
+}
+
+/// The nodes in the layout of the pack: wide ones are returned, and `joined` is left with their roots, the
+/// stack that they need, and no nodes. Instance `i` shows mesh `mesh_of[i]`.
+fn widened(
+    joined: &mut Joined,
+    layout: Layout,
+    mesh_of: &[usize],
+) -> Result<Vec<abi::WideNode>, BvhError> {
+    if layout == Layout::Binary || joined.nodes.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut wide = Vec::new();
+    let roots: Vec<u32> =
+        std::iter::once(joined.root).chain(joined.mesh_roots.iter().copied()).collect();
+    let roots = bvh::widen_all(&joined.nodes, &roots, &mut wide)?;
+    let need = bvh::stack_need(&wide, &roots[1..], mesh_of, roots[0]);
+    // Four children may wait where two did not: trees that are as deep as binary ones may be stay binary.
+    if need > abi::MAX_STACK {
+        return Ok(Vec::new());
+    }
+    joined.root = roots[0];
+    joined.mesh_roots = roots[1..].to_vec();
+    joined.stack_need = need;
+    joined.nodes = Vec::new();
+    Ok(wide)
 }
 
 /// What the camera is inside of, and what is around everything, as `RenderSettings` holds it.
@@ -298,7 +340,7 @@ fn build_tree(
     corners: &Corners,
     balls: &[([f32; 3], f32)],
     (motions, frame): (&[[f32; 3]], &Normalization),
-    how: Trees<'_>,
+    trees: &Trees<'_>,
 ) -> Result<(Joined, BuildReport), BvhError> {
     let sizes = placement.mesh_sizes();
     let (mesh_motions, sphere_motions) = motions_of(placement, motions);
@@ -315,7 +357,7 @@ fn build_tree(
     };
     let instances: Vec<_> = placement.placed.iter().map(boxed).collect();
     let shared = Shared { meshes: &corners.meshes, instances: &instances };
-    bvh::build_instanced(&primitives, &shared, how.preset, how.cache)
+    bvh::build_instanced(&primitives, &shared, trees.preset, trees.cache)
 }
 
 /// How far each mesh and each sphere comes, from the displacements of things; empty where those are.

@@ -6,7 +6,7 @@ use pack::abi::{
     LightKind, Material, MaterialKind, NONE, SamplerKind, SkyKind, TRI_SMOOTH, TextureFormat,
     material_flag,
 };
-use shaders::{FeatureSet, WINDOW_WORDS, Windows};
+use shaders::{FeatureSet, NodeLayout, WINDOW_WORDS, Windows};
 
 use crate::lower::Lowered;
 
@@ -57,15 +57,23 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
         sheets: materials.iter().any(Material::is_sheet),
         instances: !lowered.instances.is_empty(),
         motion: lowered.objects.iter().any(pack::abi::Object::moves),
+        layouts: [layout(lowered)].into(),
         stack_size: lowered.render.stack_need.max(1),
         windows: Windows {
-            node: words(size_of_val(lowered.nodes.as_slice())),
+            node: words(
+                size_of_val(lowered.nodes.as_slice()) + size_of_val(lowered.wide_nodes.as_slice()),
+            ),
             tri: words(size_of_val(lowered.triangles.as_slice())),
             shade: words(size_of_val(lowered.shades.as_slice())),
             sphere: words(size_of_val(lowered.spheres.as_slice())),
             texel: words(size_of_val(lowered.texels.as_slice())),
         },
     }
+}
+
+/// How the nodes are stored; a tree without any has no layout, which is the binary one.
+fn layout(lowered: &Lowered) -> NodeLayout {
+    if lowered.wide_nodes.is_empty() { NodeLayout::Binary } else { NodeLayout::Wide }
 }
 
 const FORMATS: [TextureFormat; 3] =
@@ -102,6 +110,9 @@ pub(super) fn explain(features: &FeatureSet, lowered: &Lowered) -> (Reasons, Rea
     rows.push(row("sheets", features.sheets, "light goes straight through thin things".to_owned()));
     rows.push(row("instances", features.instances, format!("{} of meshes", lowered.instances.len())));
     rows.push(row("motion", features.motion, "things move while the shutter is open".to_owned()));
+    let wide = features.layouts.contains(&NodeLayout::Wide);
+    let n_wide = lowered.wide_nodes.len();
+    rows.push(row("wide nodes", wide, format!("{n_wide} nodes with up to four children")));
     for kind in MaterialKind::ALL {
         let users: Vec<&str> = (lowered.materials.iter().zip(&lowered.material_names))
             .filter(|(material, _)| material.kind == kind as u32)

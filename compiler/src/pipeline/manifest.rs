@@ -7,8 +7,8 @@ use pack::manifest::Named;
 use shaders::FeatureSet;
 
 use super::{FileRead, Options, features, load};
-use crate::bvh::Preset;
-use crate::lower::{Instancing, Lowered};
+use crate::bvh::{Layout, Preset};
+use crate::lower::{Instancing, Lowered, Trees};
 
 /// What a manifest is made from.
 pub(super) struct Context<'a> {
@@ -58,15 +58,16 @@ impl Context<'_> {
 
     /// What was asked for on the command line, where it is not what everybody gets.
     fn named_options(&self) -> Vec<String> {
-        let preset = self.options.preset;
+        let Trees { preset, layout, instancing, .. } = self.options.trees;
         let bvh = (preset != Preset::default()).then(|| format!("--bvh {preset}"));
         let defines = self.options.defines.iter().map(|(n, v)| format!("-D {n}={v}"));
-        let how = self.options.instancing;
-        let instances = (how != Instancing::default()).then(|| format!("--instances {how}"));
-        defines.chain(bvh).chain(instances).collect()
+        let nodes = (layout != Layout::default()).then(|| format!("--nodes {layout}"));
+        let instances = (instancing != Instancing::default())
+            .then(|| format!("--instances {instancing}"));
+        defines.chain(bvh).chain(nodes).chain(instances).collect()
     }
 
-    /// BLAKE3 over compiler version, tree builder, overrides, scene texts and files.
+    /// BLAKE3 over compiler version, tree builder, layout of nodes, overrides, scene texts and files.
     pub(super) fn recipe_id(&self) -> [u8; 32] {
         let mut hasher = blake3::Hasher::new();
         let mut field = |bytes: &[u8]| {
@@ -75,8 +76,9 @@ impl Context<'_> {
             hasher.update(bytes);
         };
         field(env!("CARGO_PKG_VERSION").as_bytes());
-        field(self.options.preset.recipe().as_bytes());
-        field(self.options.instancing.to_string().as_bytes());
+        field(self.options.trees.preset.recipe().as_bytes());
+        field(self.options.trees.layout.recipe().as_bytes());
+        field(self.options.trees.instancing.to_string().as_bytes());
         for (name, value) in self.options.defines {
             field(name.as_bytes());
             field(value.as_bytes());

@@ -9,3 +9,4 @@ mod rays;
 mod shapes;
 mod trees;
 mod verify;
+mod wide;

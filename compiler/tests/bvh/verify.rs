@@ -172,8 +172,9 @@ fn check_cover(triangle: &Tri, places: &[Corners]) {
     }
 }
 
-/// Checks the tree of a scene in which nothing was split.
+/// Checks the tree of a scene in which nothing was split, binary and wide.
 pub(crate) fn joined(joined: &Joined, triangles: &[Fragment], spheres: &[Fragment]) {
+    crate::wide::check(joined);
     let triangles = corners(triangles, &joined.triangle_order);
     let spheres = corners(spheres, &joined.sphere_order);
     let depth = walk(&joined.nodes, joined.root, triangles, spheres);

@@ -27,8 +27,8 @@ pub use field::{AbiRecord, Field, FieldType};
 pub use film::FilmPixel;
 pub use frame::Frame;
 pub use geometry::{
-    CHILD_DOOR, CHILD_INNER, CHILD_OUT, CHILD_SPHERES, ChildRef, MAX_DEPTH, MAX_LEAF, MOVES, Node, Sphere, TRI_SMOOTH,
-    TriShade, Triangle,
+    CHILD_DOOR, CHILD_INNER, CHILD_OUT, CHILD_SPHERES, ChildRef, EMPTY_BOX, MAX_DEPTH, MAX_LEAF,
+    MOVES, Node, Sphere, TRI_SMOOTH, TriShade, Triangle, WIDTH, WideNode,
 };
 pub use instance::{Instance, OBJECT_OF_INSTANCE};
 pub use light::{Light, LightKind};
@@ -64,6 +64,7 @@ pub fn records() -> Vec<(&'static str, &'static [Field], usize)> {
         row::<Camera>(),
         row::<Sky>(),
         row::<Node>(),
+        row::<WideNode>(),
         row::<Triangle>(),
         row::<TriShade>(),
         row::<Sphere>(),

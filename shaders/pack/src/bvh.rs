@@ -2,17 +2,49 @@
 //!
 //! Turns nodes into the length of the traversal stack. It trusts nothing: any words give a number.
 
-use crate::abi::{ChildRef, Instance, Node};
+use crate::abi::{ChildRef, Instance, NONE, Node, WideNode};
+use crate::kind::PackRecord;
 
-/// Entries that the traversal stack needs over all rays and orders: at every inner node both
-/// children may be hit, one waits on the stack while the other is followed, so
-/// `need(inner) = 1 + max(need(left), need(right))` and `need(leaf) = 0`: the most inner nodes on a path
-/// from the root. The way out of an instance waits, too: `need(instance) = 1 + need(its root)`.
+/// An inner node of either layout.
+pub trait InnerNode: PackRecord + Sync {
+    /// Names of its children, in order.
+    const SIDES: &'static [&'static str];
+
+    /// `ChildRef` word of child `side`, below the number of `SIDES`; `NONE` where there is none.
+    fn child(&self, side: usize) -> u32;
+
+    /// The words of the children that are there.
+    fn children(&self) -> impl Iterator<Item = u32> {
+        (0..Self::SIDES.len()).map(|side| self.child(side)).filter(|word| *word != NONE)
+    }
+}
+
+impl InnerNode for Node {
+    const SIDES: &'static [&'static str] = &["left", "right"];
+
+    fn child(&self, side: usize) -> u32 {
+        [self.left, self.right][side]
+    }
+}
+
+impl InnerNode for WideNode {
+    const SIDES: &'static [&'static str] = &["child0", "child1", "child2", "child3"];
+
+    fn child(&self, side: usize) -> u32 {
+        self.children()[side]
+    }
+}
+
+/// Entries that the traversal stack needs over all rays and orders: at every inner node all
+/// children may be hit, the others wait on the stack while one is followed, so
+/// `need(inner) = children - 1 + max(need(child))` and `need(leaf) = 0`. Of a binary tree that is the
+/// most inner nodes on a path from the root. The way out of an instance waits, too:
+/// `need(instance) = 1 + need(its root)`.
 ///
 /// Children that break the order (not after their parent, or not there) count as leaves, and so do
 /// instances in the tree of an instance; the checks of a pack refuse them. Linear in the number of nodes.
 #[must_use]
-pub fn stack_need(nodes: &[Node], instances: &[Instance], root: u32) -> u32 {
+pub fn stack_need<N: InnerNode>(nodes: &[N], instances: &[Instance], root: u32) -> u32 {
     let closed = needs(nodes, |_| 0);
     if instances.is_empty() {
         return need_of(&closed, |_| 0, root);
@@ -25,14 +57,19 @@ pub fn stack_need(nodes: &[Node], instances: &[Instance], root: u32) -> u32 {
 }
 
 /// The need of every node, where `door` is that of an instance.
-fn needs(nodes: &[Node], door: impl Fn(u32) -> u32) -> Vec<u32> {
+fn needs<N: InnerNode>(nodes: &[N], door: impl Fn(u32) -> u32) -> Vec<u32> {
     let mut needs = vec![0; nodes.len()];
     for (index, node) in nodes.iter().enumerate().rev() {
-        let below = [node.left, node.right].map(|word| match ChildRef::decode(word) {
-            ChildRef::Inner(child) if child as usize <= index => 0,
-            _ => need_of(&needs, &door, word),
-        });
-        needs[index] = 1 + below[0].max(below[1]);
+        let (mut others, mut below) = (0_u32, 0);
+        for word in node.children() {
+            let need = match ChildRef::decode(word) {
+                ChildRef::Inner(child) if child as usize <= index => 0,
+                _ => need_of(&needs, &door, word),
+            };
+            others += 1;
+            below = need.max(below);
+        }
+        needs[index] = below.saturating_add(others.saturating_sub(1));
     }
     needs
 }
@@ -49,7 +86,6 @@ fn need_of(needs: &[u32], door: impl Fn(u32) -> u32, word: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::abi::NONE;
 
     fn inner(index: u32) -> u32 {
         ChildRef::Inner(index).encode().unwrap()
@@ -76,9 +112,9 @@ mod tests {
 
     #[test]
     fn leaves_need_nothing() {
-        assert_eq!(stack_need(&[], &[], NONE), 0);
-        assert_eq!(stack_need(&[], &[], leaf(0)), 0);
-        assert_eq!(stack_need(&[], &[], inner(0)), 0);
+        assert_eq!(stack_need::<Node>(&[], &[], NONE), 0);
+        assert_eq!(stack_need::<Node>(&[], &[], leaf(0)), 0);
+        assert_eq!(stack_need::<WideNode>(&[], &[], inner(0)), 0);
     }
 
     #[test]
@@ -114,28 +150,19 @@ mod tests {
         assert_eq!(stack_need(&cycle, &[], inner(1)), 1);
     }
 
-    /// A stack machine that follows either child first never holds more, and reaches the bound.
-    #[test]
-    fn a_traversal_that_hits_everything_reaches_the_bound() {
-        let tree = [
-            node(inner(1), inner(2)),
-            node(leaf(0), inner(3)),
-            node(leaf(1), leaf(2)),
-            node(inner(4), leaf(3)),
-            node(leaf(4), leaf(5)),
-        ];
-        let need = stack_need(&tree, &[], inner(0)) as usize;
+    /// A stack machine that follows any child first never holds more, and reaches the bound.
+    fn check_bound<N: InnerNode>(tree: &[N]) {
+        let need = stack_need(tree, &[], inner(0)) as usize;
         let mut deepest = 0;
-        for order in 0..1u32 << tree.len() {
+        for order in 0..1u32 << (2 * tree.len()) {
             let mut stack = Vec::new();
             let mut current = Some(inner(0));
             while let Some(word) = current {
                 current = if let ChildRef::Inner(index) = ChildRef::decode(word) {
-                    let node = &tree[index as usize];
-                    let swap = order >> index & 1 == 1;
-                    let (near, far) =
-                        if swap { (node.right, node.left) } else { (node.left, node.right) };
-                    stack.push(far);
+                    let mut children: Vec<u32> = tree[index as usize].children().collect();
+                    let first = (order >> (2 * index) & 3) as usize % children.len();
+                    let near = children.remove(first);
+                    stack.extend(children);
                     deepest = deepest.max(stack.len());
                     Some(near)
                 } else {
@@ -145,5 +172,29 @@ mod tests {
             assert!(stack.is_empty());
         }
         assert_eq!(deepest, need);
+    }
+
+    #[test]
+    fn a_traversal_that_hits_everything_reaches_the_bound() {
+        check_bound(&[
+            node(inner(1), inner(2)),
+            node(leaf(0), inner(3)),
+            node(leaf(1), leaf(2)),
+            node(inner(4), leaf(3)),
+            node(leaf(4), leaf(5)),
+        ]);
+        let wide = |children: [u32; 4]| {
+            let [child0, child1, child2, child3] = children;
+            WideNode { child0, child1, child2, child3, ..WideNode::default() }
+        };
+        let tree = [
+            wide([leaf(0), inner(1), inner(2), NONE]),
+            wide([leaf(1), leaf(2), leaf(3), leaf(4)]),
+            wide([leaf(5), inner(3), NONE, NONE]),
+            wide([leaf(6), inner(4), leaf(7), leaf(8)]),
+            wide([leaf(9), leaf(10), NONE, NONE]),
+        ];
+        check_bound(&tree);
+        assert_eq!(stack_need(&tree, &[], inner(0)), 2 + 1 + 3 + 1);
     }
 }

@@ -4,8 +4,8 @@
 //! through this view, so both check and derive the same things. It judges nothing.
 
 use crate::abi::{
-    Camera, Instance, Light, LightNode, Material, Medium, Node, Object, RenderSettings, Sky, Sphere, Texture,
-    TriShade, Triangle,
+    Camera, Instance, Light, LightNode, Material, Medium, Node, Object, RenderSettings, Sky, Sphere,
+    Texture, TriShade, Triangle, WideNode,
 };
 use crate::error::PackError;
 use crate::kind::{Kind, PackRecord};
@@ -17,6 +17,7 @@ pub(crate) struct Contents<'a> {
     pub(crate) camera: &'a Camera,
     pub(crate) sky: Option<&'a Sky>,
     pub(crate) nodes: &'a [Node],
+    pub(crate) wide_nodes: &'a [WideNode],
     pub(crate) triangles: &'a [Triangle],
     pub(crate) shades: &'a [TriShade],
     pub(crate) spheres: &'a [Sphere],
@@ -45,6 +46,7 @@ impl<'a> Contents<'a> {
             camera: records(&find).first().ok_or_else(|| first(Kind::CAMERA))?,
             sky: records(&find).first(),
             nodes: records(&find),
+            wide_nodes: records(&find),
             triangles: records(&find),
             shades: records(&find),
             spheres: records(&find),
@@ -66,6 +68,7 @@ impl<'a> Contents<'a> {
     pub(crate) fn count(&self, kind: Kind) -> usize {
         match kind {
             Kind::NODE => self.nodes.len(),
+            Kind::WIDENODE => self.wide_nodes.len(),
             Kind::TRIANGLE => self.triangles.len(),
             Kind::TRISHADE => self.shades.len(),
             Kind::SPHERE => self.spheres.len(),

@@ -214,6 +214,9 @@ pub enum ElementFault {
     /// NaN or infinite, double precision.
     #[error("is {0}, expected a finite number")]
     NotFinite64(f64),
+    /// The step of a grid, whose products with 8 bits would be rounded.
+    #[error("is {0}, expected a number of at most 16 significant bits")]
+    Step(f32),
     /// A number outside its range.
     #[error("is {found}, expected {expected}")]
     Range {
@@ -375,31 +378,45 @@ pub enum BvhFault {
     /// A child that is nothing.
     #[error("{side} is none: an inner node has two children")]
     NoChild {
-        /// `left` or `right`.
+        /// `left`, `right` or `child0` to `child3`.
+        side: &'static str,
+    },
+    /// The place of a child that is not there has a box that could be hit.
+    #[error("{side} is none, but its box is not 255 to 0")]
+    EmptyBox {
+        /// `child2` or `child3`.
+        side: &'static str,
+    },
+    /// A child behind one that is not there.
+    #[error("{side} is none, but a child follows it")]
+    Gap {
+        /// `child2`.
         side: &'static str,
     },
     /// A node that comes before its parent.
     #[error("{side} is node {child}, a child must come after its parent")]
     Backwards {
-        /// `left` or `right`.
+        /// `left`, `right` or `child0` to `child3`.
         side: &'static str,
         /// The child.
         child: u32,
     },
     /// A node that does not exist.
-    #[error("{side} is node {child}, but NODE has {count} elements")]
+    #[error("{side} is node {child}, but {kind} has {count} elements")]
     NoSuchNode {
-        /// `left` or `right`.
+        /// `left`, `right` or `child0` to `child3`.
         side: &'static str,
         /// The child.
         child: u32,
+        /// NODE or WIDENODE.
+        kind: Kind,
         /// Of the section.
         count: usize,
     },
     /// A leaf beyond the primitives.
     #[error("{side} is {}, but {target} has {count} elements", Reference(*word))]
     Leaf {
-        /// `left`, `right` or `root`.
+        /// `left`, `right`, `child0` to `child3` or `root`.
         side: &'static str,
         /// The reference word.
         word: u32,
@@ -411,7 +428,7 @@ pub enum BvhFault {
     /// A node with two parents.
     #[error("{side} is node {child}, which already has a parent")]
     SharedNode {
-        /// `left` or `right`.
+        /// `left`, `right` or `child0` to `child3`.
         side: &'static str,
         /// The child.
         child: u32,
@@ -419,7 +436,7 @@ pub enum BvhFault {
     /// A primitive in two leaves.
     #[error("{side} is {}, but a primitive of it is in another leaf already", Reference(*word))]
     SharedLeaf {
-        /// `left` or `right`.
+        /// `left`, `right` or `child0` to `child3`.
         side: &'static str,
         /// The reference word.
         word: u32,
@@ -478,7 +495,7 @@ pub enum BvhFault {
     /// A box whose lower corner is above its upper one.
     #[error("the {side} box is inside out on axis {}", axis(*axis_index))]
     Inverted {
-        /// `left` or `right`.
+        /// `left`, `right` or `child0` to `child3`.
         side: &'static str,
         /// 0, 1, 2.
         axis_index: usize,
@@ -486,7 +503,7 @@ pub enum BvhFault {
     /// A child's boxes reach out of the parent's box for that child.
     #[error("the boxes of node {child} reach out of the {side} box on axis {}", axis(*axis_index))]
     NotNested {
-        /// `left` or `right`.
+        /// `left`, `right` or `child0` to `child3`.
         side: &'static str,
         /// The child.
         child: u32,

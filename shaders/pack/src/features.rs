@@ -53,6 +53,8 @@ pub const TANGENTS: u64 = 1 << 17;
 pub const OBJECTS: u64 = 1 << 18;
 /// Has a material with a normal map.
 pub const NORMAL_MAPS: u64 = 1 << 21;
+/// Its nodes are wide.
+pub const WIDE_NODES: u64 = 1 << 23;
 /// Something moves while the shutter is open.
 pub const MOTION: u64 = 1 << 31;
 /// Has a principled material with a specular factor or colour.
@@ -111,7 +113,7 @@ pub const SHEETS: u64 = 1 << 19;
 pub const MATERIAL_WATER: u64 = 1 << 45;
 
 /// Every bit with its name, in bit order.
-pub const NAMES: [(u64, &str); 44] = [
+pub const NAMES: [(u64, &str); 45] = [
     (TRIANGLES, "triangles"),
     (SPHERES, "spheres"),
     (LIGHT_SPHERE, "sphere lights"),
@@ -132,6 +134,7 @@ pub const NAMES: [(u64, &str); 44] = [
     (TANGENTS, "tangents"),
     (OBJECTS, "objects"),
     (NORMAL_MAPS, "normal maps"),
+    (WIDE_NODES, "wide nodes"),
     (MOTION, "motion"),
     (MATERIAL_STONE, "stone"),
     (MATERIAL_WOOD, "wood"),
@@ -184,6 +187,7 @@ pub(crate) fn of(contents: &Contents<'_>) -> u64 {
     set(SAMPLER_PCG, contents.render.sampler == SamplerKind::Pcg as u32);
     set(LIGHT_TREE, !contents.light_nodes.is_empty());
     set(INSTANCES, !contents.instances.is_empty());
+    set(WIDE_NODES, !contents.wide_nodes.is_empty());
     set(MOTION, contents.objects.iter().any(Object::moves));
     for light in contents.lights {
         set(LIGHT_SPHERE, light.kind == LightKind::Sphere as u32);

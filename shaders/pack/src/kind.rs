@@ -20,6 +20,8 @@ impl Kind {
     pub const SKY: Self = Self(*b"SKY     ");
     /// [`abi::Node`]s, every child after its parent.
     pub const NODE: Self = Self(*b"NODE    ");
+    /// [`abi::WideNode`]s, every child after its parent; never together with NODE.
+    pub const WIDENODE: Self = Self(*b"WIDENODE");
     /// [`abi::Triangle`]s in leaf order.
     pub const TRIANGLE: Self = Self(*b"TRIANGLE");
     /// [`abi::TriShade`]s, one a triangle.
@@ -134,12 +136,13 @@ const MAX_SKY_WORDS: u64 = (32 << 20) / 16 + (1 << 16);
 pub(crate) const SRGB_WORDS: u64 = 64;
 
 /// Every section of this format, in file order.
-pub const SECTIONS: [SectionSpec; 19] = [
+pub const SECTIONS: [SectionSpec; 20] = [
     one(Kind::RENDER, size_of::<abi::RenderSettings>(), true),
     one(Kind::CAMERA, size_of::<abi::Camera>(), true),
     one(Kind::SKY, size_of::<abi::Sky>(), false),
     // A binary tree has one inner node less than leaves, and a leaf holds at least one primitive.
     table(Kind::NODE, size_of::<abi::Node>(), 2 * MAX_PRIMITIVES),
+    table(Kind::WIDENODE, size_of::<abi::WideNode>(), 2 * MAX_PRIMITIVES),
     table(Kind::TRIANGLE, size_of::<abi::Triangle>(), MAX_PRIMITIVES),
     table(Kind::TRISHADE, size_of::<abi::TriShade>(), MAX_PRIMITIVES),
     // A reference to spheres has one bit less.
@@ -172,7 +175,8 @@ macro_rules! pack_records {
     };
 }
 pack_records! {
-    RenderSettings => RENDER, Camera => CAMERA, Sky => SKY, Node => NODE, Triangle => TRIANGLE,
+    RenderSettings => RENDER, Camera => CAMERA, Sky => SKY, Node => NODE, WideNode => WIDENODE,
+    Triangle => TRIANGLE,
     TriShade => TRISHADE, Sphere => SPHERE, Material => MATERIAL, Object => OBJECT,
     Instance => INSTANCE,
     Medium => MEDIUM, Light => LIGHT, LightNode => LIGHTNODE, Texture => TEXTURE,

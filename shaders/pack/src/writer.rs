@@ -219,7 +219,7 @@ impl<'a> Plan<'a> {
                 hash,
             });
         }
-        let section_count = u32::try_from(entries.len()).expect("there are at most 14 kinds");
+        let section_count = u32::try_from(entries.len()).expect("there are few kinds");
         let header = Header {
             magic: MAGIC,
             major: FORMAT_MAJOR,

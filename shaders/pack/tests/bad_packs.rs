@@ -2,7 +2,7 @@
 //!
 //! Every case starts from the same valid pack and breaks one thing; hashes, lengths and ids are
 //! put right again, so that only the rule in question can fire. Cases of a single wrong word are
-//! data: `bad_packs.txt`. A last test reads the error enums and fails when a rule has no case here.
+//! data: `bad_packs.txt`; those of WIDENODE start from the same pack with wide nodes. A last test reads the error enums and fails when a rule has no case here.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
@@ -34,7 +34,8 @@ enum Mutation {
 use Mutation::{Parts, Raw, Table, Word};
 
 fn error(mutation: &Mutation) -> PackError {
-    let mut bytes = Scene::full().bytes();
+    let wide = matches!(mutation, Word(Kind::WIDENODE, ..));
+    let mut bytes = if wide { Scene::wide() } else { Scene::full() }.bytes();
     match mutation {
         Raw(change) => change(&mut bytes),
         Table(change) => {
@@ -330,6 +331,14 @@ fn relation_cases() -> Vec<Case> {
             Parts(|d| d.section(Kind::TRISHADE).truncate(144)),
             "the number of TRISHADE elements is 3, but the number of TRIANGLE elements is 4",
         ),
+        (
+            Parts(|d| {
+                let nodes = d.section(Kind::NODE).clone();
+                d.add(4, Kind::WIDENODE, 1, &nodes);
+                put32(d.entry(Kind::WIDENODE), 32, 64);
+            }),
+            "section NODE must be absent, the nodes are wide",
+        ),
         (Word(Kind::RENDER, 72, 4), "RENDER.n_lights is 4, but the number of LIGHT elements is 3"),
         (Parts(|d| d.section(Kind::KERNEL)[3] = 0xff), "KERNEL: not UTF-8 at byte 0x3"),
     ]
@@ -431,6 +440,13 @@ fn the_deepest_tree_is_accepted() {
     draft.section(Kind::SPHERE).truncate(96 * 32);
     put32(draft.section(Kind::RENDER), 36, 96);
     assert_eq!(Pack::from_bytes(draft.seal()).unwrap().render().stack_need, 96);
+}
+
+/// A grid may end up to a step above the box that the parent has.
+#[test]
+fn a_wide_box_may_reach_one_step_out() {
+    let bytes = with_word(&Scene::wide().bytes(), Kind::WIDENODE, 0x70, 0x8080_8081);
+    assert_eq!(Pack::from_bytes(bytes).unwrap().render().stack_need, 5);
 }
 
 #[test]

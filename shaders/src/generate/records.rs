@@ -39,6 +39,7 @@ const TABLES: &[Table] = &[
     Table { single: true, ..heap("Camera", "camera", "abi/camera.wgsl", "camera_at") },
     Table { single: true, ..heap("Sky", "sky", "abi/sky.wgsl", "sky_at") },
     section("Node", "node", "node_word", "abi/node.wgsl"),
+    section("WideNode", "wide_node", "node_word", "abi/wide_node.wgsl"),
     section("Triangle", "triangle", "tri_word", "abi/triangle.wgsl"),
     section("TriShade", "tri_shade", "shade_word", "abi/tri_shade.wgsl"),
     section("Sphere", "sphere", "sphere_word", "abi/sphere.wgsl"),

@@ -1,8 +1,8 @@
-//! `scene/candidate.wgsl`, `scene/leaf.wgsl`, `scene/door.wgsl`, `scene/placed.wgsl`: what the traversal does
-//! with a primitive, and with an instance.
+//! `scene/candidate.wgsl`, `scene/leaf.wgsl`, `scene/nodes.wgsl`, `scene/door.wgsl`, `scene/placed.wgsl`: what
+//! the traversal does with a primitive, a leaf, a node and an instance.
 
 use super::imports;
-use crate::FeatureSet;
+use crate::{FeatureSet, NodeLayout};
 use std::fmt::Write as _;
 
 /// Whether a primitive that the ray meets is there: not the light that a shadow ray goes to, not cut out.
@@ -155,4 +155,33 @@ pub(crate) fn placed(features: &FeatureSet) -> String {
         either("tangent", "tangent"),
     );
     text
+}
+
+/// What a node is. Only the full kernel asks.
+pub(crate) fn nodes(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: the nodes of this scene's tree.\n\n");
+    let visit = |layout: &NodeLayout| match layout {
+        NodeLayout::Binary => ("trace/binary.wgsl", "binary_visit"),
+        NodeLayout::Wide => ("trace/wide.wgsl", "wide_visit"),
+    };
+    let layouts = &features.layouts;
+    let mut modules: Vec<&str> = layouts.iter().map(|layout| visit(layout).0).collect();
+    modules.push("scene/records.wgsl");
+    text += &imports(modules);
+    let call = |layout: &NodeLayout| {
+        format!("return {}(i, origin, inverse, t_max, n_stack);", visit(layout).1)
+    };
+    text += "\n// The child of node `i` to visit next, or `NONE`; others that the ray meets go on the stack.\n\
+             fn dispatch_node(\n    i: u32, origin: vec3f, inverse: vec3f, t_max: f32, n_stack: ptr<function, u32>,\n\
+             ) -> u32 {\n";
+    if layouts.len() > 1 {
+        let _ = writeln!(
+            text,
+            "    if (load_frame_wide() != 0u) {{\n        {}\n    }}",
+            call(&NodeLayout::Wide)
+        );
+    }
+    let last = layouts.first().unwrap_or(&NodeLayout::Binary);
+    let _ = writeln!(text, "    {}", call(last));
+    text + "}\n"
 }

@@ -1,7 +1,7 @@
 //! The feature sets that the tests run over.
 
 use pack::abi::{LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat};
-use shaders::FeatureSet;
+use shaders::{FeatureSet, NodeLayout};
 use std::collections::BTreeMap;
 
 type Switch = fn(&mut FeatureSet);
@@ -62,6 +62,7 @@ const FEATURES: &[(&str, Switch)] = &[
     ("coat", |f| principled(f).principled_coat = true),
     ("transmission", |f| principled(f).principled_transmission = true),
     ("motion", |f| f.motion = true),
+    ("wide nodes", |f| f.layouts = [NodeLayout::Wide].into()),
 ];
 
 fn principled(features: &mut FeatureSet) -> &mut FeatureSet {

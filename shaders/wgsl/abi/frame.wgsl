@@ -46,12 +46,17 @@ struct Frame {
     // Indices of the `Material`s inside of which the camera is, the one that counts first, then
     // `NONE`.
     inside: vec4<u32>,
-    // First heap word of the `Instance` table.
-    instance_at: u32,
+    // 1: the nodes are `WideNode`s, 0: they are `Node`s. The full kernel asks, a specialised one knows.
+    wide: u32,
     // First heap word of the table by which the sky is sampled.
     sky_table_at: u32,
     // First heap word of the tree of lights; `NONE`: lights are chosen by their table.
     light_tree_at: u32,
     // Index of the `Medium` that is fog, or `NONE`.
     fog: u32,
+    // First heap word of the `Instance` table.
+    instance_at: u32,
+    _pad0: u32,
+    _pad1: u32,
+    _pad2: u32,
 }

@@ -6,6 +6,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use compiler::bvh::Layout;
 use compiler::lower::{Instancing, MIN_SAVED, MIN_TRIANGLES};
 use cpu_time::ProcessTime;
 use pack::Pack;
@@ -119,7 +120,7 @@ fn row(
     for _ in 0..ROUNDS {
         for (way, how) in ways.into_iter().enumerate() {
             let start = ProcessTime::now();
-            let bytes = scene::bytes(&scene::compile_shared(dir, &text, how, |_| {}));
+            let bytes = scene::bytes(&scene::compile_shared(dir, &text, (how, Layout::default()), |_| {}));
             compile[way].push(start.elapsed().as_secs_f64());
             sizes[way] = bytes.len();
             let scene = Scene::new(Pack::from_bytes(bytes)?);

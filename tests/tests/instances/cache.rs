@@ -67,7 +67,7 @@ fn moving_an_instance_builds_no_tree_of_a_mesh() {
     // The same again: all found, and the same records.
     let again = compile(places, "(9, 90, 9)");
     assert_eq!(trees(&again), (2, 0, 2));
-    assert_eq!(again.lowered.nodes, first.lowered.nodes);
+    assert_eq!(again.lowered.wide_nodes, first.lowered.wide_nodes);
     assert_eq!(again.lowered.triangles, first.lowered.triangles);
     // Moved, turned, mirrored and stretched.
     let other = "at = (1, 1, -1)m, rotate = (0, 0, 40)deg, scale = (-1, 0.5, 2)";

@@ -1,5 +1,6 @@
 //! Pictures of scenes with meshes that are stored once, and of the same scenes with triangles in the world.
 
+use compiler::bvh::Layout;
 use compiler::lower::Instancing;
 use compiler::pipeline::Compiled;
 use pack::{Checked, Pack};
@@ -11,7 +12,7 @@ fn pack_of(compiled: &Compiled) -> Pack<Checked> {
 }
 
 fn both(case: &Case) -> [Compiled; 2] {
-    [Instancing::Auto, Instancing::Never].map(|how| shared(case, how))
+    [Instancing::Auto, Instancing::Never].map(|how| shared(case, how, Layout::default()))
 }
 
 fn with_instances() -> impl Iterator<Item = &'static Case> {

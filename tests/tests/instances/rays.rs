@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 use compiler::pipeline::Compiled;
 use glam::{DMat3, DVec3, UVec2, Vec2, Vec3};
 use pack::abi::{ChildRef, Instance, MOVES, NONE, TRI_SMOOTH};
+use pack::bvh::InnerNode;
 use runtime::kernel::f32 as single;
 use tests::console;
 use tests::kernel::{Bench, ray};
@@ -71,10 +72,10 @@ fn all(compiled: &Compiled) -> Vec<(u32, u32)> {
         let mut stack = vec![instance.root];
         while let Some(word) = stack.pop() {
             match ChildRef::decode(word) {
-                ChildRef::Inner(node) => {
-                    let node = &lowered.nodes[node as usize];
-                    stack.extend([node.left, node.right]);
-                }
+                ChildRef::Inner(node) => match lowered.wide_nodes.get(node as usize) {
+                    Some(wide) => stack.extend(InnerNode::children(wide)),
+                    None => stack.extend(lowered.nodes[node as usize].children()),
+                },
                 ChildRef::Triangles { first, count } => {
                     triangles.extend((first..first + count).map(|prim| (i, prim)));
                     of_mesh.extend(first..first + count);

@@ -118,7 +118,7 @@ fn fast_things_are_hit_wherever_they_are() {
     text += &front([16, 16], 5.0);
     let compiled = scene::compile(&text);
     let lowered = &compiled.lowered;
-    assert!(!lowered.nodes.is_empty());
+    assert!(!lowered.wide_nodes.is_empty());
     let bench = Bench::new().shapes(lowered);
     let mut kernel = bench.single();
     let of_ball = |s: &pack::abi::Sphere| (Vec3::from(s.center), s.object & !pack::abi::MOVES);

@@ -51,13 +51,21 @@ abi_struct! {
         /// Indices of the `Material`s inside of which the camera is, the one that counts first, then
         /// `NONE`.
         pub inside: [u32; 4],
-        /// First heap word of the `Instance` table.
-        pub instance_at: u32,
+        /// 1: the nodes are `WideNode`s, 0: they are `Node`s. The full kernel asks, a specialised one knows.
+        pub wide: u32,
         /// First heap word of the table by which the sky is sampled.
         pub sky_table_at: u32,
         /// First heap word of the tree of lights; `NONE`: lights are chosen by their table.
         pub light_tree_at: u32,
         /// Index of the `Medium` that is fog, or `NONE`.
         pub fog: u32,
+        /// First heap word of the `Instance` table.
+        pub instance_at: u32,
+        /// Unused.
+        pub _pad0: u32,
+        /// Unused.
+        pub _pad1: u32,
+        /// Unused.
+        pub _pad2: u32,
     }
 }

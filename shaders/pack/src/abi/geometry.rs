@@ -122,6 +122,61 @@ abi_struct! {
     }
 }
 
+/// Children that a [`WideNode`] has room for.
+pub const WIDTH: usize = 4;
+/// Ends of the box of an empty child, in steps: inside out, so that it cannot be mistaken for a box.
+pub const EMPTY_BOX: [u8; 2] = [255, 0];
+
+abi_struct! {
+    /// Inner node of the wide BVH, 64 bytes: up to four children with boxes in steps of a grid of
+    /// the node's own. Normalised world frame, or the frame of a mesh, see `Instance`.
+    ///
+    /// Child `k` is at byte `k` (the lowest is byte 0) of the words of `lo` and `hi`, and covers
+    /// `origin + lo * scale` to `origin + hi * scale` along each axis. A step has at most 16
+    /// significant bits: its product with 8 bits is exact, so that the sum is rounded once, fused or
+    /// not, and every device has the same boxes.
+    pub struct WideNode {
+        /// Lower corner of the grid.
+        pub origin: [f32; 3],
+        /// `ChildRef` word of the first child.
+        pub child0: u32,
+        /// Length of a step along each axis.
+        pub scale: [f32; 3],
+        /// `ChildRef` word of the second child.
+        pub child1: u32,
+        /// Lower ends of the boxes along x, y and z, a byte a child; 255 for one that is not there.
+        pub lo: [u32; 3],
+        /// `ChildRef` word of the third child, or `NONE`.
+        pub child2: u32,
+        /// Upper ends of the boxes along x, y and z, a byte a child; 0 for one that is not there.
+        pub hi: [u32; 3],
+        /// `ChildRef` word of the fourth child, or `NONE`.
+        pub child3: u32,
+    }
+}
+
+impl WideNode {
+    /// The `ChildRef` words of all four places; those that are not there are `NONE`.
+    #[must_use]
+    pub fn children(&self) -> [u32; WIDTH] {
+        [self.child0, self.child1, self.child2, self.child3]
+    }
+
+    /// Ends of the box of child `slot`, 0 to 3, in steps along each axis.
+    #[must_use]
+    pub fn steps(&self, slot: usize) -> [[u8; 3]; 2] {
+        [self.lo, self.hi].map(|ends| ends.map(|word| word.to_le_bytes()[slot]))
+    }
+
+    /// Lower and upper corner of the box of child `slot`, as every device computes them.
+    #[must_use]
+    pub fn corners(&self, slot: usize) -> [[f32; 3]; 2] {
+        self.steps(slot).map(|steps| {
+            [0, 1, 2].map(|axis| self.origin[axis] + f32::from(steps[axis]) * self.scale[axis])
+        })
+    }
+}
+
 abi_struct! {
     /// A triangle's corners, 48 bytes, in leaf order. Normalised world frame, as when the shutter
     /// opens, or the frame of its mesh, see `Instance`; the geometric normal is `cross(v1 - v0, v2 - v0)`.

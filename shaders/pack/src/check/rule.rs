@@ -46,6 +46,12 @@ pub(super) fn positive(value: impl Lanes) -> Fault {
     range(value, "a finite number greater than 0", |lane| lane > 0.0 && lane < f32::INFINITY)
 }
 
+/// A step of a grid: as [`positive`], with at most 16 significant bits.
+pub(super) fn step(value: [f32; 3]) -> Fault {
+    let long = value.into_iter().find(|lane| lane.to_bits() & 0xff != 0);
+    positive(value).or_else(|| long.map(ElementFault::Step))
+}
+
 /// 0 to 1.
 pub(super) fn unit_range(value: impl Lanes) -> Fault {
     range(value, "0 to 1", |lane| (0.0..=1.0).contains(&lane))

@@ -5,8 +5,8 @@
 
 use crate::abi::{
     Camera, Instance, Light, LightKind, LightNode, MOVES, Material, MaterialKind, Medium, Node,
-    OBJECT_OF_INSTANCE, Object, RenderSettings, SamplerKind, Sky, SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap,
-    TriShade, Triangle, Wrap, material_flag,
+    OBJECT_OF_INSTANCE, Object, RenderSettings, SamplerKind, Sky, SkyKind, Sphere, TRI_SMOOTH,
+    Texture, TextureFormat, ToneMap, TriShade, Triangle, WideNode, Wrap, material_flag,
 };
 use crate::contents::Contents;
 use crate::fault::ElementFault;
@@ -14,7 +14,7 @@ use crate::kind::{Kind, PackRecord};
 
 use super::rule::{
     bits, corner, cosine, count, direction, finite, finite64, index, index_or_none,
-    indices_or_none, not_negative, positive, power_of_two, probability, refractive, tag,
+    indices_or_none, not_negative, positive, power_of_two, probability, refractive, step, tag,
     unit_range, unused,
 };
 
@@ -110,6 +110,11 @@ rules! { pack;
         right_hi: finite(),
         _pad0: unused(),
         _pad1: unused(),
+    }
+    // The children and the ends of their boxes are the tree's.
+    WideNode and grid {
+        origin: finite(),
+        scale: step(),
     }
     Triangle {
         v0: finite(),
@@ -241,6 +246,12 @@ rules! { pack;
         _pad0: unused(),
         _pad1: unused(),
     }
+}
+
+/// The whole grid is finite.
+fn grid(record: &WideNode, _: &Contents<'_>) -> Option<Broken> {
+    let end = [0, 1, 2].map(|axis| record.origin[axis] + 255.0 * record.scale[axis]);
+    finite(end).map(|fault| ("scale", fault))
 }
 
 /// Bits 0-30 are a welded id.

@@ -4,14 +4,18 @@
 //! Turns nodes and roots into the first broken rule. Children come after their parent, so there are
 //! no cycles; no node has two parents, and only roots have none, so the root and those of instances reach all;
 //! leaves hold every primitive once and the world's every instance once; triangles know whether they are in the
-//! tree of an instance; boxes are finite and nested; the traversal stack is as long as it says.
+//! tree of an instance; boxes are finite and nested; the traversal stack is as long as it says. Both
+//! layouts of nodes obey the same rules; boxes of a wide node are nested up to a step of their own
+//! grid, because the upper end of a grid cannot be placed everywhere.
 
 use std::collections::BTreeSet;
 
 use rayon::prelude::*;
 
-use crate::abi::{ChildRef, Instance, MAX_STACK, NONE, Node, OBJECT_OF_INSTANCE, TRI_SMOOTH};
-use crate::bvh;
+use crate::abi::{
+    ChildRef, EMPTY_BOX, Instance, MAX_STACK, NONE, Node, OBJECT_OF_INSTANCE, TRI_SMOOTH, WideNode,
+};
+use crate::bvh::{self, InnerNode};
 use crate::contents::Contents;
 use crate::error::{PackError, Place};
 use crate::fault::BvhFault;
@@ -22,9 +26,93 @@ use super::{CHUNK, element};
 
 /// The whole tree. Structure is reported before boxes.
 pub(super) fn check(contents: &Contents<'_>) -> Result<(), PackError> {
-    let (structure, (boxes, need)) =
-        rayon::join(|| structure(contents), || rayon::join(|| boxes(contents), || stack(contents)));
+    let Contents { nodes, wide_nodes, .. } = *contents;
+    if wide_nodes.is_empty() {
+        return check_nodes(contents, nodes);
+    }
+    if !nodes.is_empty() {
+        return Err(PackError::Unwanted { kind: Kind::NODE, because: ", the nodes are wide" });
+    }
+    check_nodes(contents, wide_nodes)
+}
+
+fn check_nodes<N: Boxes>(contents: &Contents<'_>, nodes: &[N]) -> Result<(), PackError> {
+    let (structure, (boxes, need)) = rayon::join(
+        || structure(contents, nodes),
+        || rayon::join(|| boxes(contents, nodes), || stack(contents, nodes)),
+    );
     structure.and(boxes).and(need)
+}
+
+type Corners = ([f32; 3], [f32; 3]);
+
+/// What the checks ask a node of either layout beyond its children.
+trait Boxes: InnerNode + Ruled {
+    /// Children that every node has.
+    const FEWEST: usize;
+
+    /// The box of child `side`.
+    fn corners(&self, side: usize) -> Corners;
+
+    /// How far the box of child `side` may reach above the box that its parent has for this node.
+    fn excess(&self) -> [f32; 3];
+
+    /// What is wrong with the place of a child that is not there.
+    fn empty_fault(&self, side: usize) -> Option<BvhFault>;
+
+    /// The first axis along which the box of child `side` is inside out.
+    fn inverted(&self, side: usize) -> Option<usize>;
+}
+
+impl Boxes for Node {
+    const FEWEST: usize = 2;
+
+    #[inline]
+    fn corners(&self, side: usize) -> Corners {
+        [(self.left_lo, self.left_hi), (self.right_lo, self.right_hi)][side]
+    }
+
+    fn excess(&self) -> [f32; 3] {
+        [0.0; 3]
+    }
+
+    fn empty_fault(&self, _: usize) -> Option<BvhFault> {
+        None
+    }
+
+    #[inline]
+    fn inverted(&self, side: usize) -> Option<usize> {
+        let (lo, hi) = self.corners(side);
+        (0..3).find(|axis| lo[*axis] > hi[*axis])
+    }
+}
+
+impl Boxes for WideNode {
+    const FEWEST: usize = 2;
+
+    #[inline]
+    fn corners(&self, side: usize) -> Corners {
+        WideNode::corners(self, side).into()
+    }
+
+    fn excess(&self) -> [f32; 3] {
+        self.scale
+    }
+
+    fn empty_fault(&self, side: usize) -> Option<BvhFault> {
+        let name = Self::SIDES[side];
+        if (side + 1..Self::SIDES.len()).any(|later| self.child(later) != NONE) {
+            return Some(BvhFault::Gap { side: name });
+        }
+        let open = self.steps(side) != EMPTY_BOX.map(|end| [end; 3]);
+        open.then_some(BvhFault::EmptyBox { side: name })
+    }
+
+    #[inline]
+    fn inverted(&self, side: usize) -> Option<usize> {
+        let [lo, hi] = self.steps(side);
+        (0..3).find(|axis| lo[*axis] > hi[*axis])
+    }
 }
 
 /// One bit an element; `take` says whether all of a range were still free.
@@ -64,20 +152,27 @@ impl Taken {
 }
 
 /// Root, order of children, one parent a node, one leaf a primitive.
-fn structure(contents: &Contents<'_>) -> Result<(), PackError> {
+fn structure<N: Boxes>(contents: &Contents<'_>, nodes: &[N]) -> Result<(), PackError> {
     let mut walk = Walk {
         contents,
-        nodes: Taken::new(contents.nodes.len()),
-        in_mesh: Taken::new(contents.nodes.len()),
+        kind: N::KIND,
+        nodes: Taken::new(nodes.len()),
+        in_mesh: Taken::new(nodes.len()),
         triangles: Taken::new(contents.triangles.len()),
         spheres: Taken::new(contents.spheres.len()),
         instances: Taken::new(contents.instances.len()),
     };
     walk.root().map_err(|fault| PackError::Bvh { at: root_place(), fault })?;
     walk.meshes()?;
-    for (index, node) in contents.nodes.iter().enumerate() {
-        for (side, word) in [("left", node.left), ("right", node.right)] {
-            walk.child(index, side, word).map_err(|fault| node_error(index, fault))?;
+    for (index, node) in nodes.iter().enumerate() {
+        for (side, name) in N::SIDES.iter().enumerate() {
+            let word = node.child(side);
+            let fault = if word == NONE && side >= N::FEWEST {
+                node.empty_fault(side).map_or(Ok(()), Err)
+            } else {
+                walk.child(index, name, word)
+            };
+            fault.map_err(|fault| node_error::<N>(index, fault))?;
         }
     }
     let lost = |kind: Kind, index: usize, size: usize, fault| {
@@ -85,7 +180,7 @@ fn structure(contents: &Contents<'_>) -> Result<(), PackError> {
         Err(PackError::Bvh { at, fault })
     };
     if let Some(index) = walk.nodes.first_free() {
-        return lost(Kind::NODE, index, size_of::<Node>(), BvhFault::Unreachable);
+        return lost(N::KIND, index, size_of::<N>(), BvhFault::Unreachable);
     }
     if let Some(index) = walk.triangles.first_free() {
         return lost(Kind::TRIANGLE, index, size_of::<crate::abi::Triangle>(), BvhFault::Lost);
@@ -102,6 +197,8 @@ fn structure(contents: &Contents<'_>) -> Result<(), PackError> {
 /// What has been reached so far.
 struct Walk<'a> {
     contents: &'a Contents<'a>,
+    /// Of the nodes.
+    kind: Kind,
     nodes: Taken,
     /// Nodes that were reached from the root of an instance.
     in_mesh: Taken,
@@ -119,7 +216,7 @@ impl Walk<'_> {
             ChildRef::Empty if !empty => Err(BvhFault::NoRoot),
             // Nodes without a root would be unreachable, which is what the caller finds.
             ChildRef::Empty => Ok(()),
-            ChildRef::Inner(0) if !contents.nodes.is_empty() => {
+            ChildRef::Inner(0) if self.nodes.1 > 0 => {
                 self.nodes.take(0, 1);
                 Ok(())
             }
@@ -167,9 +264,9 @@ impl Walk<'_> {
 
     #[inline]
     fn node(&mut self, side: &'static str, child: u32, in_mesh: bool) -> Result<(), BvhFault> {
-        let (index, count) = (child as usize, self.contents.nodes.len());
+        let (index, kind, count) = (child as usize, self.kind, self.nodes.1);
         if index >= count {
-            return Err(BvhFault::NoSuchNode { side, child, count });
+            return Err(BvhFault::NoSuchNode { side, child, kind, count });
         }
         if in_mesh {
             self.in_mesh.take(index, 1);
@@ -225,46 +322,45 @@ fn leaf(
 }
 
 /// Finite, not inside out, and inside the box that the parent has for them.
-fn boxes(contents: &Contents<'_>) -> Result<(), PackError> {
-    let nodes = contents.nodes;
+fn boxes<N: Boxes>(contents: &Contents<'_>, nodes: &[N]) -> Result<(), PackError> {
     let bad = nodes.par_chunks(CHUNK).enumerate().find_map_first(|(chunk, part)| {
         (chunk * CHUNK..).zip(part).find_map(|(index, node)| {
             if let Some(broken) = node.broken(contents) {
-                return Some(element::<Node>(index, broken));
+                return Some(element::<N>(index, broken));
             }
-            let fault = box_fault(nodes, "left", (node.left_lo, node.left_hi), node.left).or_else(
-                || box_fault(nodes, "right", (node.right_lo, node.right_hi), node.right),
-            )?;
-            Some(node_error(index, fault))
+            let mut there = (0..N::SIDES.len()).filter(|side| node.child(*side) != NONE);
+            let fault = there.find_map(|side| box_fault(nodes, node, side))?;
+            Some(node_error::<N>(index, fault))
         })
     });
     bad.map_or(Ok(()), Err)
 }
 
-type Corners = ([f32; 3], [f32; 3]);
-
+/// What is wrong with the box of a child that is there.
 #[inline]
-fn box_fault(nodes: &[Node], side: &'static str, outer: Corners, word: u32) -> Option<BvhFault> {
-    let (lo, hi) = outer;
-    if let Some(axis_index) = (0..3).find(|axis| lo[*axis] > hi[*axis]) {
-        return Some(BvhFault::Inverted { side, axis_index });
+fn box_fault<N: Boxes>(nodes: &[N], node: &N, side: usize) -> Option<BvhFault> {
+    let name = N::SIDES[side];
+    if let Some(axis_index) = node.inverted(side) {
+        return Some(BvhFault::Inverted { side: name, axis_index });
     }
-    let ChildRef::Inner(child) = ChildRef::decode(word) else { return None };
+    let ChildRef::Inner(child) = ChildRef::decode(node.child(side)) else { return None };
     // An index beyond the nodes is the structure's fault.
     let inner = nodes.get(child as usize)?;
+    let ((lo, hi), excess) = (node.corners(side), inner.excess());
     // A NaN is reported at the node that has it: it is not outside here.
+    let outside = |axis: usize, (low, high): Corners| {
+        low[axis] < lo[axis] || high[axis] > hi[axis] + excess[axis]
+    };
+    let there = |side: &usize| inner.child(*side) != NONE;
     let axis_index = (0..3).find(|&axis| {
-        inner.left_lo[axis] < lo[axis]
-            || inner.right_lo[axis] < lo[axis]
-            || inner.left_hi[axis] > hi[axis]
-            || inner.right_hi[axis] > hi[axis]
+        (0..N::SIDES.len()).filter(there).any(|side| outside(axis, inner.corners(side)))
     })?;
-    Some(BvhFault::NotNested { side, child, axis_index })
+    Some(BvhFault::NotNested { side: name, child, axis_index })
 }
 
 /// The stack is as long as the settings say, and not longer than any kernel's.
-fn stack(contents: &Contents<'_>) -> Result<(), PackError> {
-    let need = bvh::stack_need(contents.nodes, contents.instances, contents.render.root);
+fn stack<N: Boxes>(contents: &Contents<'_>, nodes: &[N]) -> Result<(), PackError> {
+    let need = bvh::stack_need(nodes, contents.instances, contents.render.root);
     let found = contents.render.stack_need;
     let fault = if need > MAX_STACK {
         BvhFault::TooDeep { need }
@@ -280,7 +376,7 @@ fn root_place() -> Place {
     Place { kind: Kind::RENDER, index: 0, offset: 0 }
 }
 
-fn node_error(index: usize, fault: BvhFault) -> PackError {
-    let at = Place { kind: Kind::NODE, index, offset: index * size_of::<Node>() };
+fn node_error<N: Boxes>(index: usize, fault: BvhFault) -> PackError {
+    let at = Place { kind: N::KIND, index, offset: index * size_of::<N>() };
     PackError::Bvh { at, fault }
 }

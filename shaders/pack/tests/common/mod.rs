@@ -8,9 +8,10 @@
 pub(crate) mod sound;
 
 use pack::abi::{
-    Camera, ChildRef, Instance, LIGHT_LEAF, Light, LightKind, LightNode, MOVES, Material, MaterialKind,
-    Medium, NONE, Node, OBJECT_OF_INSTANCE, Object, RenderSettings, Sky, SkyKind, Sphere, TRI_SMOOTH, Texture,
-    TextureFormat, ToneMap, TriShade, Triangle, Wrap, f64_bits, material_flag,
+    Camera, ChildRef, Instance, LIGHT_LEAF, Light, LightKind, LightNode, MOVES, Material,
+    MaterialKind, Medium, NONE, Node, OBJECT_OF_INSTANCE, Object, RenderSettings, Sky, SkyKind,
+    Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap, TriShade, Triangle, WideNode, Wrap,
+    f64_bits, material_flag,
 };
 use pack::manifest::Named;
 use pack::{Kind, Manifest, PackWriter};
@@ -21,6 +22,7 @@ pub(crate) struct Scene {
     pub(crate) camera: Camera,
     pub(crate) sky: Option<Sky>,
     pub(crate) nodes: Vec<Node>,
+    pub(crate) wide_nodes: Vec<WideNode>,
     pub(crate) triangles: Vec<Triangle>,
     pub(crate) shades: Vec<TriShade>,
     pub(crate) spheres: Vec<Sphere>,
@@ -64,6 +66,23 @@ pub(crate) fn node(left: u32, right: u32) -> Node {
         right_lo: [-1.0; 3],
         right_hi: [1.0; 3],
         ..Node::default()
+    }
+}
+
+/// A wide node whose boxes are all the cube from -1 to 1 on its grid; `NONE` for no child.
+pub(crate) fn wide_node(children: [u32; 4]) -> WideNode {
+    let ends = children.map(|word| if word == NONE { [255, 0] } else { [0, 128] });
+    let word = |end: usize| u32::from_le_bytes(ends.map(|ends| ends[end]));
+    let [child0, child1, child2, child3] = children;
+    WideNode {
+        origin: [-1.0; 3],
+        child0,
+        scale: [1.0 / 64.0; 3],
+        child1,
+        lo: [word(0); 3],
+        child2,
+        hi: [word(1); 3],
+        child3,
     }
 }
 
@@ -248,6 +267,7 @@ impl Scene {
             render: render(),
             camera: camera(),
             sky: Some(sky()),
+            wide_nodes: Vec::new(),
             nodes: vec![
                 node(inner(1), inner(2)),
                 node(triangles(0, 2), triangles(2, 2)),
@@ -275,6 +295,20 @@ impl Scene {
             sky_table: Vec::new(),
             kernel: "// kernel\nfn main() {}\n".to_owned(),
             manifest: Some(manifest()),
+        }
+    }
+
+    /// The example with wide nodes: three, four and two children.
+    pub(crate) fn wide() -> Self {
+        Self {
+            render: RenderSettings { stack_need: 5, ..render() },
+            nodes: Vec::new(),
+            wide_nodes: vec![
+                wide_node([inner(1), inner(2), triangles(0, 1), NONE]),
+                wide_node([triangles(1, 1), triangles(2, 1), triangles(3, 1), spheres(0, 1)]),
+                wide_node([spheres(1, 1), spheres(2, 1), NONE, NONE]),
+            ],
+            ..Self::full()
         }
     }
 
@@ -373,6 +407,7 @@ impl Scene {
             render,
             sky: None,
             nodes: Vec::new(),
+            wide_nodes: Vec::new(),
             triangles: Vec::new(),
             shades: Vec::new(),
             spheres: Vec::new(),
@@ -395,6 +430,7 @@ impl Scene {
             .record(&self.render)
             .record(&self.camera)
             .records(&self.nodes)
+            .records(&self.wide_nodes)
             .records(&self.triangles)
             .records(&self.shades)
             .records(&self.spheres)

@@ -4,8 +4,10 @@
 
 use pack::Pack;
 use pack::abi::{
-    CHILD_OUT, ChildRef, Instance, Light, LightKind, Material, NONE, Node, Sphere, Texture, TriShade, Triangle,
+    CHILD_OUT, ChildRef, Instance, Light, LightKind, Material, NONE, Node, Sphere, Texture, TriShade,
+    Triangle, WideNode,
 };
+use pack::bvh::InnerNode;
 
 /// The relations that a kernel relies on, written a second time.
 pub(crate) fn assert_sound(pack: &Pack) {
@@ -50,12 +52,17 @@ pub(crate) fn assert_sound(pack: &Pack) {
         let end = u64::from(texture.offset) + texture.words().unwrap();
         assert!(end <= pack.texels().len() as u64);
     }
-    assert_tree(pack, n_triangles, n_spheres);
+    let wide = pack.records::<WideNode>();
+    if wide.is_empty() {
+        assert_tree(pack, pack.records::<Node>(), n_triangles, n_spheres);
+    } else {
+        assert!(pack.records::<Node>().is_empty());
+        assert_tree(pack, wide, n_triangles, n_spheres);
+    }
 }
 
 /// Walks the tree with a stack of exactly the promised length and counts every primitive and every instance.
-fn assert_tree(pack: &Pack, n_triangles: usize, n_spheres: usize) {
-    let nodes = pack.records::<Node>();
+fn assert_tree<N: InnerNode>(pack: &Pack, nodes: &[N], n_triangles: usize, n_spheres: usize) {
     let instances = pack.records::<Instance>();
     let mut seen = (vec![0; nodes.len()], vec![0; n_triangles], vec![0; n_spheres]);
     let mut shown = vec![0; instances.len()];
@@ -69,10 +76,11 @@ fn assert_tree(pack: &Pack, n_triangles: usize, n_spheres: usize) {
         current = match ChildRef::decode(word) {
             ChildRef::Inner(index) => {
                 seen.0[index as usize] += 1;
-                let node = &nodes[index as usize];
-                stack.push(node.right);
+                let mut children = nodes[index as usize].children();
+                let first = children.next();
+                stack.extend(children);
                 assert!(stack.len() <= pack.render().stack_need as usize);
-                Some(node.left)
+                first
             }
             ChildRef::Triangles { first, count } => {
                 (first..first + count).for_each(|index| seen.1[index as usize] += 1);

@@ -1,0 +1,175 @@
+//! The two layouts of nodes: what they take, and what rays cost in the kernel that renders.
+
+use std::error::Error;
+
+use compiler::bvh::{self, Joined, Layout, Preset};
+use glam::UVec4;
+use pack::abi::{Frame, NONE, TriShade, Triangle};
+use runtime::kernel::f32 as kernel;
+
+use crate::measure::{build, cpu_seconds, walked, walked_wide};
+use crate::scene::Tri;
+use crate::walk::{Cost, Ray};
+
+/// Runs of each kernel; odd, so that the median is a measured value.
+pub(crate) const ROUNDS: usize = 5;
+/// The kernel's frame: everything is nearer than 1.
+const SCALE: f32 = 1.0 / 8192.0;
+
+/// A layout of one tree.
+pub(crate) struct Row {
+    pub(crate) preset: Preset,
+    pub(crate) layout: Layout,
+    /// CPU seconds to make it from the binary tree.
+    pub(crate) made: f64,
+    pub(crate) node_bytes: usize,
+    pub(crate) stack: u32,
+    pub(crate) cost: Cost,
+    /// Median of CPU seconds of all rays in the kernel.
+    pub(crate) cpu: f64,
+}
+
+/// All of them.
+pub(crate) struct Rows {
+    pub(crate) n_triangles: usize,
+    pub(crate) n_rays: usize,
+    pub(crate) rows: Vec<Row>,
+}
+
+/// What a kernel reads of one layout.
+struct Words {
+    frame: Vec<UVec4>,
+    nodes: Vec<UVec4>,
+    triangles: Vec<UVec4>,
+    shades: Vec<UVec4>,
+}
+
+/// Both layouts of two trees.
+pub(crate) fn all(triangles: &[Tri]) -> Result<Rows, Box<dyn Error>> {
+    let scaled: Vec<Tri> = triangles.iter().map(|t| t.map(|p| p.map(|x| x * SCALE))).collect();
+    let mut all = Rows { n_triangles: scaled.len(), n_rays: 0, rows: Vec::new() };
+    for preset in [Preset::Fast, Preset::Default] {
+        let (tree, _) = build(preset, &scaled)?;
+        let rays = rays(&tree, triangles);
+        all.n_rays = rays.len();
+        all.rows.extend(compare(preset, &tree, &scaled, &rays)?);
+    }
+    Ok(all)
+}
+
+/// The rays of the other tables, in the kernel's frame. They depend on the scene alone.
+fn rays(tree: &Joined, triangles: &[Tri]) -> Vec<Ray> {
+    let mut unscaled = walked(tree);
+    for child in unscaled.nodes.as_flattened_mut() {
+        (child.lo, child.hi) = (child.lo / SCALE, child.hi / SCALE);
+    }
+    let rays = unscaled.rays(triangles).into_iter();
+    rays.map(|ray| Ray { origin: ray.origin * SCALE, dir: ray.dir }).collect()
+}
+
+/// Both layouts of a tree, their runs interleaved; every ray must have the same hit in both.
+fn compare(
+    preset: Preset,
+    tree: &Joined,
+    triangles: &[Tri],
+    rays: &[Ray],
+) -> Result<Vec<Row>, Box<dyn Error>> {
+    let before = cpu_seconds();
+    let mut wide = Vec::new();
+    let root = bvh::widen(&tree.nodes, tree.root, &mut wide)?;
+    let made = cpu_seconds() - before;
+    let words = [
+        Words::new(tree, tree.root, bytemuck::cast_slice(&tree.nodes), 0, triangles),
+        Words::new(tree, root, bytemuck::cast_slice(&wide), 1, triangles),
+    ];
+    let mut took = [Vec::new(), Vec::new()];
+    let mut hits = Vec::new();
+    for _ in 0..ROUNDS {
+        for (words, took) in words.iter().zip(&mut took) {
+            let before = cpu_seconds();
+            let found = words.hits(rays);
+            took.push(cpu_seconds() - before);
+            let found: Vec<_> = found.iter().map(|hit| whose(tree, *hit)).collect();
+            hits.extend(hits.is_empty().then(|| found.clone()).into_iter().flatten());
+            let differ = hits.iter().zip(&found).filter(|(a, b)| a != b).count();
+            assert_eq!(differ, 0, "rays have other hits");
+        }
+    }
+    let [cpu, cpu_wide] = took.map(|mut took| {
+        took.sort_by(f64::total_cmp);
+        took[ROUNDS / 2]
+    });
+    let cost = walked(tree).cost(rays, triangles);
+    let cost_wide = walked_wide(&wide, &tree.triangle_order).cost(rays, triangles);
+    let binary = Row {
+        preset,
+        layout: Layout::Binary,
+        made: 0.0,
+        node_bytes: size_of_val(tree.nodes.as_slice()),
+        stack: tree.stack_need,
+        cost,
+        cpu,
+    };
+    let wide = Row {
+        layout: Layout::Wide,
+        made,
+        node_bytes: size_of_val(wide.as_slice()),
+        stack: pack::bvh::stack_need(&wide, &[], root),
+        cost: cost_wide,
+        cpu: cpu_wide,
+        ..binary
+    };
+    Ok(vec![binary, wide])
+}
+
+/// Distance and triangle of the scene, in whichever place it was met.
+fn whose(tree: &Joined, (t, place): (u32, u32)) -> (u32, Option<u32>) {
+    (t, tree.triangle_order.get(place as usize).copied())
+}
+
+impl Words {
+    fn new(tree: &Joined, root: u32, nodes: &[u8], wide: u32, triangles: &[Tri]) -> Self {
+        let frame = Frame { root, wide, object_at: NONE, ..Frame::default() };
+        let record = |i: &u32| {
+            let [v0, v1, v2] = triangles[*i as usize];
+            Triangle { v0, id0: 3 * i, v1, id1: 3 * i + 1, v2, id2: 3 * i + 2 }
+        };
+        let records: Vec<Triangle> = tree.triangle_order.iter().map(record).collect();
+        let shades = vec![TriShade { light: NONE, ..TriShade::default() }; records.len()];
+        Self {
+            frame: bytemuck::pod_collect_to_vec(&[frame]),
+            nodes: bytemuck::pod_collect_to_vec(nodes),
+            triangles: bytemuck::pod_collect_to_vec(&records),
+            shades: bytemuck::pod_collect_to_vec(&shades),
+        }
+    }
+
+    /// Distance (bits) and triangle of every ray.
+    fn hits(&self, rays: &[Ray]) -> Vec<(u32, u32)> {
+        // One material of no special kind: nothing is cut out.
+        let heap = [UVec4::ZERO; 64];
+        let mut kernel = kernel::Kernel::new(kernel::Bindings {
+            frame_words: &self.frame,
+            film_words: &mut [],
+            heap_words: &heap,
+            node_words: &self.nodes,
+            tri_words: &self.triangles,
+            shade_words: &self.shades,
+            sphere_words: &[],
+            texel_words: &[],
+        });
+        let trace = |ray: &Ray| {
+            let hit = kernel.trace(kernel::Ray {
+                origin: ray.origin,
+                t_max: kernel::RAY_FAR,
+                dir: ray.dir,
+                skip: glam::UVec2::splat(NONE),
+                instance: NONE,
+                light: NONE,
+                time: 0.0,
+            });
+            (hit.t.to_bits(), hit.prim)
+        };
+        rays.iter().map(trace).collect()
+    }
+}
