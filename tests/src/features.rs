@@ -136,7 +136,10 @@ pub const CASES: &[Case] = &[
     // Meshes that are stored once: mirrored, sheared, alone, and with everything that can be hit in the world.
     case("instances", &[GRADIENT, SPHERE_LIGHT, PLASTIC, BEADS, FLOOR]),
     case("instances alone", &[SKY, CLAY, BEADS]),
-    case("instances, brushed and of their own material", &[GRADIENT, BRUSHED, BEADS, PLAIN_BEAD, BALL]),
+    case(
+        "instances, brushed and of their own material",
+        &[GRADIENT, BRUSHED, BEADS, PLAIN_BEAD, BALL],
+    ),
     case(
         "instances with normal maps",
         &[GRADIENT, SPHERE_LIGHT, BUMPS, BUMPY_PLASTIC, BEADS, QUILT, FLOOR],
@@ -144,10 +147,7 @@ pub const CASES: &[Case] = &[
     case("cut-out instances", &[SKY, SPHERE_LIGHT, WEAR, LACE, BEADS, FLOOR]),
     case("instances of wood", &[GRADIENT, SPHERE_LIGHT, WOOD_X, BEADS, FLOOR]),
     case("instances of glass, filled", &[GRADIENT, SPHERE_LIGHT, INK, FILLED, BEADS, FLOOR]),
-    case(
-        "instances inside each other",
-        &[GRADIENT, SPHERE_LIGHT, INK, MILK, NESTED_BEADS, FLOOR],
-    ),
+    case("instances inside each other", &[GRADIENT, SPHERE_LIGHT, INK, MILK, NESTED_BEADS, FLOOR]),
     case("instances of petals", &[GRADIENT, SPHERE_LIGHT, FLAT_PETAL, BEADS, FLOOR]),
     Case {
         camera: SHUTTER,
@@ -512,7 +512,8 @@ fn bead_obj() -> String {
             // The seam has the same places on both sides, and so have the poles.
             let (sin, cos) = (2.0 * PI * f64::from(i % n) / f64::from(n)).sin_cos();
             let radius = if j % m == 0 { 0.0 } else { (PI * v).sin() };
-            let p = [radius * cos, -(PI * v).cos(), radius * sin].map(|x| (x * 1024.0).round() / 1024.0);
+            let p = [radius * cos, -(PI * v).cos(), radius * sin]
+                .map(|x| (x * 1024.0).round() / 1024.0);
             let [x, y, z] = p;
             writeln!(text, "v {x} {y} {z}\nvn {x} {y} {z}\nvt {u} {v}").expect("strings take all");
         }
@@ -568,11 +569,7 @@ pub fn shared(case: &Case, instancing: Instancing, layout: Layout) -> Compiled {
     with(case, (instancing, layout), |_| {})
 }
 
-fn with(
-    case: &Case,
-    how: (Instancing, Layout),
-    change: impl FnOnce(&mut Scene),
-) -> Compiled {
+fn with(case: &Case, how: (Instancing, Layout), change: impl FnOnce(&mut Scene)) -> Compiled {
     let dir = tempfile::tempdir().expect("a temporary directory can be made");
     write_files(dir.path());
     let Case { parts, camera, render, .. } = case;

@@ -67,10 +67,7 @@ pub fn join(groups: &[Group]) -> Result<Joined, BvhError> {
 }
 
 /// Joins groups and instances; also tells whether some groups overlap in more places than could be separated.
-pub(super) fn join_groups(
-    groups: &[Group],
-    doors: &[Door],
-) -> Result<(Joined, bool), BvhError> {
+pub(super) fn join_groups(groups: &[Group], doors: &[Door]) -> Result<(Joined, bool), BvhError> {
     let count = |kind| {
         let of_kind = groups.iter().filter(|g| g.kind == kind);
         of_kind.map(|g| g.tree.order.len()).sum::<usize>()
@@ -108,7 +105,11 @@ impl Joined {
     ///
     /// # Errors
     /// When there are too many references.
-    pub(super) fn add_meshes(&mut self, meshes: &[Group], mesh_of: &[usize]) -> Result<(), BvhError> {
+    pub(super) fn add_meshes(
+        &mut self,
+        meshes: &[Group],
+        mesh_of: &[usize],
+    ) -> Result<(), BvhError> {
         let count = self.triangle_order.len()
             + meshes.iter().map(|mesh| mesh.tree.order.len()).sum::<usize>();
         if count > MAX_PRIMITIVES {

@@ -188,8 +188,10 @@ fn check_counts(primitives: &Primitives, shared: &Shared) -> Result<(), BvhError
     }
     let stored = shared.meshes.iter().map(Vec::len).sum::<usize>();
     // References to spheres have one bit less, see `ChildRef`.
-    let counts =
-        [(count.saturating_add(stored), MAX_PRIMITIVES), (primitives.spheres.len(), MAX_PRIMITIVES / 2)];
+    let counts = [
+        (count.saturating_add(stored), MAX_PRIMITIVES),
+        (primitives.spheres.len(), MAX_PRIMITIVES / 2),
+    ];
     match counts.into_iter().find(|&(n, most)| n > most) {
         Some((count, _)) => Err(BvhError::TooMany { count }),
         None => Ok(()),

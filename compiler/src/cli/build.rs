@@ -213,7 +213,10 @@ fn done(output: &Path, compiled: &Compiled, time: Duration) -> String {
 /// What is stored once, and how often it is shown.
 fn instances_text(counters: &Counters) -> String {
     let (meshes, instances) = (grouped(counters.meshes), grouped(counters.instances));
-    format!("{} triangles shown ({instances} instances of {meshes} meshes)", grouped(counters.shown))
+    format!(
+        "{} triangles shown ({instances} instances of {meshes} meshes)",
+        grouped(counters.shown)
+    )
 }
 
 /// Which builder made the trees, what it made of the triangles, and what it had not to do again.

@@ -93,7 +93,9 @@ fn nodes(pack: &Pack<Checked>) -> String {
     match (binary.len(), wide.len()) {
         (0, 0) => "none".to_owned(),
         (n, 0) => format!("{n} {}, 2 children each", Layout::Binary),
-        (_, n) => format!("{n} {}, {:.2} children each", Layout::Wide, n_children as f64 / n as f64),
+        (_, n) => {
+            format!("{n} {}, {:.2} children each", Layout::Wide, n_children as f64 / n as f64)
+        }
     }
 }
 

@@ -16,9 +16,9 @@ use super::geometry::{self, Placement};
 use super::inside::Solids;
 use super::material::{MaterialRef, MaterialTable};
 use super::order::{Declared, Ordered, order};
+use super::share::Instancing;
 use super::sky::LoweredSky;
 use super::sky_table::SkyTable;
-use super::share::Instancing;
 use super::{Loaded, camera, closed, light_tree, medium, motion, power, sky};
 use crate::bvh::{self, BuildReport, BvhError, Joined, Layout, Preset, Primitives, Shared};
 use crate::cache::Cache;
@@ -154,7 +154,8 @@ pub fn lower(
 ) -> Result<Lowered, LowerError> {
     let start = Instant::now();
     let mut materials = MaterialTable::new(scene, loaded);
-    let mut placement = geometry::place(scene, loaded, trees.instancing, &mut materials, diagnostics);
+    let mut placement =
+        geometry::place(scene, loaded, trees.instancing, &mut materials, diagnostics);
     let stored = placement.meshes.iter().map(|mesh| mesh.corners.len()).sum::<usize>();
     let count = placement.corners.len() + stored;
     if count > bvh::MAX_PRIMITIVES {

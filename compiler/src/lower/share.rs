@@ -184,9 +184,10 @@ fn extent(scene: &Scene, shutter: Shutter) -> f64 {
         let longest = linear.to_cols_array().into_iter().map(f64::abs).fold(0.0, f64::max);
         translation.abs().max_element() + 3.0 * longest * size
     });
-    let lights = scene.lights.iter().map(|light| {
-        light.center.iter().map(|x| x.abs()).fold(0.0, f64::max) + light.radius
-    });
+    let lights = scene
+        .lights
+        .iter()
+        .map(|light| light.center.iter().map(|x| x.abs()).fold(0.0, f64::max) + light.radius);
     things.chain(lights).fold(0.0, f64::max)
 }
 

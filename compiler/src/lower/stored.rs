@@ -182,7 +182,12 @@ impl Placed {
     }
 
     /// The record without its tree; `moves`: its object does.
-    pub(super) fn record(&self, mesh: &Stored, frame: &Normalization, moves: bool) -> abi::Instance {
+    pub(super) fn record(
+        &self,
+        mesh: &Stored,
+        frame: &Normalization,
+        moves: bool,
+    ) -> abi::Instance {
         let columns = self.normalised(frame);
         let rows = columns.inverse().transpose();
         let center = frame.point(self.translation.to_array());
@@ -223,9 +228,8 @@ impl Placed {
     pub(super) fn box_of(&self, frame: &Normalization, motion: [f32; 3]) -> [[f32; 3]; 2] {
         let room = condition(self.normalised(frame)) / 524_288.0; // 2^-19
         let [lo, hi] = self.bounds.map(|corner| corner.to_array());
-        let at = |corner: [f64; 3], k: usize| {
-            libm::scalbn(corner[k] - frame.center[k], frame.exponent)
-        };
+        let at =
+            |corner: [f64; 3], k: usize| libm::scalbn(corner[k] - frame.center[k], frame.exponent);
         let motion = motion.map(f64::from);
         let way = |k: usize| motion[k].abs() / 4_194_304.0; // as of `Fragment::swept`
         let low = |k: usize| at(lo, k) + motion[k].min(0.0) - way(k) - room;

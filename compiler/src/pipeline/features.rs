@@ -108,7 +108,11 @@ pub(super) fn explain(features: &FeatureSet, lowered: &Lowered) -> (Reasons, Rea
         "things have an inside, or are thin".to_owned(),
     ));
     rows.push(row("sheets", features.sheets, "light goes straight through thin things".to_owned()));
-    rows.push(row("instances", features.instances, format!("{} of meshes", lowered.instances.len())));
+    rows.push(row(
+        "instances",
+        features.instances,
+        format!("{} of meshes", lowered.instances.len()),
+    ));
     rows.push(row("motion", features.motion, "things move while the shutter is open".to_owned()));
     let wide = features.layouts.contains(&NodeLayout::Wide);
     let n_wide = lowered.wide_nodes.len();

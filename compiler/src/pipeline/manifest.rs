@@ -62,8 +62,8 @@ impl Context<'_> {
         let bvh = (preset != Preset::default()).then(|| format!("--bvh {preset}"));
         let defines = self.options.defines.iter().map(|(n, v)| format!("-D {n}={v}"));
         let nodes = (layout != Layout::default()).then(|| format!("--nodes {layout}"));
-        let instances = (instancing != Instancing::default())
-            .then(|| format!("--instances {instancing}"));
+        let instances =
+            (instancing != Instancing::default()).then(|| format!("--instances {instancing}"));
         defines.chain(bvh).chain(nodes).chain(instances).collect()
     }
 

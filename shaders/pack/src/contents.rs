@@ -4,8 +4,8 @@
 //! through this view, so both check and derive the same things. It judges nothing.
 
 use crate::abi::{
-    Camera, Instance, Light, LightNode, Material, Medium, Node, Object, RenderSettings, Sky, Sphere,
-    Texture, TriShade, Triangle, WideNode,
+    Camera, Instance, Light, LightNode, Material, Medium, Node, Object, RenderSettings, Sky,
+    Sphere, Texture, TriShade, Triangle, WideNode,
 };
 use crate::error::PackError;
 use crate::kind::{Kind, PackRecord};

@@ -38,7 +38,12 @@ fn cases() -> Vec<Change> {
     let side = |i: usize, side: usize| 64 * i + side;
     let (left, right) = (12, 28);
     vec![
-        (instances, field(0, 0), f32::NAN.to_bits(), "INSTANCE[0] at byte 0x0: row_x is NaN, expected a finite number"),
+        (
+            instances,
+            field(0, 0),
+            f32::NAN.to_bits(),
+            "INSTANCE[0] at byte 0x0: row_x is NaN, expected a finite number",
+        ),
         (
             instances,
             field(1, COL_Y + 4),
@@ -75,7 +80,12 @@ fn cases() -> Vec<Change> {
             1,
             "INSTANCE[1] at byte 0x9c: object says that it does not move, but object 1 does",
         ),
-        (instances, field(0, 76), 1, "INSTANCE[0] at byte 0x4c: _pad0 is 0x1, unused fields must be zero"),
+        (
+            instances,
+            field(0, 76),
+            1,
+            "INSTANCE[0] at byte 0x4c: _pad0 is 0x1, unused fields must be zero",
+        ),
         (
             instances,
             field(0, ROOT),
@@ -161,12 +171,7 @@ fn cases() -> Vec<Change> {
             MOVES,
             "TRIANGLE[4] at byte 0xcc: id0 says that it moves, but object 2147483647 does not",
         ),
-        (
-            Kind::RENDER,
-            36,
-            5,
-            "RENDER[0] at byte 0x0: stack_need is 5, but the tree needs 6",
-        ),
+        (Kind::RENDER, 36, 5, "RENDER[0] at byte 0x0: stack_need is 5, but the tree needs 6"),
     ]
 }
 
@@ -208,9 +213,8 @@ fn deep(n: u32, m: u32) -> Scene {
     for triangle in &mut scene.triangles {
         (triangle.id0, triangle.id1, triangle.id2) = (0, 1, 2);
     }
-    let world = (0..n).map(|i| {
-        node(spheres(i, 1), if i + 1 == n { instance(0) } else { inner(i + 1) })
-    });
+    let world =
+        (0..n).map(|i| node(spheres(i, 1), if i + 1 == n { instance(0) } else { inner(i + 1) }));
     let mesh = (0..m).map(|i| {
         node(triangles(i, 1), if i + 1 == m { triangles(m, 1) } else { inner(n + i + 1) })
     });

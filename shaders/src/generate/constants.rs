@@ -2,8 +2,8 @@
 
 use crate::FeatureSet;
 use pack::abi::{
-    CHILD_DOOR, CHILD_INNER, CHILD_OUT, CHILD_SPHERES, ChildRef, LIGHT_LEAF, LightKind, MOVES, MaterialKind, NONE,
-    SamplerKind, SkyKind, TRI_SMOOTH, TextureFormat, Wrap, material_flag,
+    CHILD_DOOR, CHILD_INNER, CHILD_OUT, CHILD_SPHERES, ChildRef, LIGHT_LEAF, LightKind, MOVES,
+    MaterialKind, NONE, SamplerKind, SkyKind, TRI_SMOOTH, TextureFormat, Wrap, material_flag,
 };
 use std::fmt::Write as _;
 

@@ -116,7 +116,8 @@ pub(crate) fn door(features: &FeatureSet) -> String {
 
 /// What hits in instances look like. Each function depends on nothing but whether there are any.
 pub(crate) fn placed(features: &FeatureSet) -> String {
-    let mut text = String::from("// Generated: whether triangles of this scene are in instances.\n\n");
+    let mut text =
+        String::from("// Generated: whether triangles of this scene are in instances.\n\n");
     text += &imports([
         "scene/constants.wgsl",
         "shape/triangle.wgsl",

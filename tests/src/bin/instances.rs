@@ -120,7 +120,8 @@ fn row(
     for _ in 0..ROUNDS {
         for (way, how) in ways.into_iter().enumerate() {
             let start = ProcessTime::now();
-            let bytes = scene::bytes(&scene::compile_shared(dir, &text, (how, Layout::default()), |_| {}));
+            let bytes =
+                scene::bytes(&scene::compile_shared(dir, &text, (how, Layout::default()), |_| {}));
             compile[way].push(start.elapsed().as_secs_f64());
             sizes[way] = bytes.len();
             let scene = Scene::new(Pack::from_bytes(bytes)?);

@@ -74,9 +74,13 @@ fn moving_an_instance_builds_no_tree_of_a_mesh() {
     let moved = compile([places[0], other], "(9, 90, 9)");
     assert_eq!(trees(&moved), (2, 0, 2));
     assert_ne!(moved.lowered.instances, first.lowered.instances);
-    let of_mesh = |compiled: &Compiled| compiled.lowered.triangles[compiled.lowered.triangles.len() - 2 * n * n..].to_vec();
+    let of_mesh = |compiled: &Compiled| {
+        compiled.lowered.triangles[compiled.lowered.triangles.len() - 2 * n * n..].to_vec()
+    };
     let corners = |t: &pack::abi::Triangle| [t.v0, t.v1, t.v2];
-    let same = |a: &Compiled, b: &Compiled| of_mesh(a).iter().map(corners).eq(of_mesh(b).iter().map(corners));
+    let same = |a: &Compiled, b: &Compiled| {
+        of_mesh(a).iter().map(corners).eq(of_mesh(b).iter().map(corners))
+    };
     assert!(same(&moved, &first), "the mesh is stored as it was");
     // A scene of another size has another frame: the ground's tree is built again, the hills' is not.
     let larger = compile(places, "(13, 90, 9)");

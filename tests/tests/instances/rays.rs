@@ -137,7 +137,11 @@ fn no_ray_misses_what_trying_everything_finds() {
         let hit = kernel.trace(ray);
         let t = brute(&mut kernel, &triangles, ray);
         let found = if hit.prim == NONE { single::RAY_FAR } else { hit.t };
-        assert_eq!(found.to_bits(), t.to_bits(), "ray {k} from {origin} along {dir}: {hit:?}, but {t}");
+        assert_eq!(
+            found.to_bits(),
+            t.to_bits(),
+            "ray {k} from {origin} along {dir}: {hit:?}, but {t}"
+        );
         met += usize::from(hit.prim != NONE);
         in_instances += usize::from(hit.instance != NONE);
     }
@@ -205,7 +209,9 @@ fn surfaces_of_instances_are_where_and_as_the_map_says() {
         let close = again.prim != NONE && again.instance == instance && again.prim == prim;
         near += usize::from(close);
     }
-    console::line(&format!("{far:.3} of the offset off the surface; {own_hits} of {n} met their own triangle"));
+    console::line(&format!(
+        "{far:.3} of the offset off the surface; {own_hits} of {n} met their own triangle"
+    ));
     assert!(far < 0.5, "points are {far} of the offset off their surface");
     assert_eq!((own_hits, near), (0, 0));
 }
@@ -233,7 +239,10 @@ fn what_is_skipped_is_a_triangle_of_one_instance() {
         assert!(same.t > hit.t || same.prim == NONE);
         let other = (hit.instance + 1) % 8;
         let kept = kernel.trace(single::Ray { skip: UVec2::new(hit.prim, other), ..from });
-        assert_eq!((kept.prim, kept.instance, kept.t.to_bits()), (hit.prim, hit.instance, hit.t.to_bits()));
+        assert_eq!(
+            (kept.prim, kept.instance, kept.t.to_bits()),
+            (hit.prim, hit.instance, hit.t.to_bits())
+        );
         let world = kernel.trace(single::Ray { skip: UVec2::new(hit.prim, NONE), ..from });
         assert_eq!((world.prim, world.instance), (hit.prim, hit.instance));
     }

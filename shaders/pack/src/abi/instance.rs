@@ -56,7 +56,13 @@ impl Instance {
                 let dot: f32 = (0..3).map(|k| row[k] * col[k]).sum();
                 let error = (dot - if i == j { 1.0 } else { 0.0 }).abs();
                 // NaN, which comparisons do not see, is infinitely far away.
-                worst = if error <= worst { worst } else if error.is_nan() { f32::INFINITY } else { error };
+                worst = if error <= worst {
+                    worst
+                } else if error.is_nan() {
+                    f32::INFINITY
+                } else {
+                    error
+                };
             }
         }
         worst

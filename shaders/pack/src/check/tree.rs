@@ -232,7 +232,8 @@ impl Walk<'_> {
         let mut known = BTreeSet::new();
         for (index, instance) in self.contents.instances.iter().enumerate() {
             if known.insert(instance.root) {
-                let at = Place { kind: Kind::INSTANCE, index, offset: index * size_of::<Instance>() };
+                let at =
+                    Place { kind: Kind::INSTANCE, index, offset: index * size_of::<Instance>() };
                 self.mesh(instance.root).map_err(|fault| PackError::Bvh { at, fault })?;
             }
         }

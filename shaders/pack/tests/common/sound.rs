@@ -4,8 +4,8 @@
 
 use pack::Pack;
 use pack::abi::{
-    CHILD_OUT, ChildRef, Instance, Light, LightKind, Material, NONE, Node, Sphere, Texture, TriShade,
-    Triangle, WideNode,
+    CHILD_OUT, ChildRef, Instance, Light, LightKind, Material, NONE, Node, Sphere, Texture,
+    TriShade, Triangle, WideNode,
 };
 use pack::bvh::InnerNode;
 
