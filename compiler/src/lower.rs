@@ -32,6 +32,7 @@ mod sky;
 mod sky_table;
 mod stored;
 mod texture;
+mod thick;
 
 pub use assemble::{Counters, LowerError, Lowered, Times, Trees, lower};
 pub use geometry::Placement;

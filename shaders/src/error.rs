@@ -69,8 +69,10 @@ pub enum ShaderError {
         /// The kernel's root module.
         file: String,
     },
-    /// More storage bindings than every device offers.
-    #[error("the kernel needs {count} storage buffers, at most {limit} are portable")]
+    /// More storage bindings than devices offer.
+    #[error(
+        "the scene is too large: it needs {count} storage buffers of 128 MiB, and a kernel has {limit} at most"
+    )]
     TooManyBindings {
         /// Storage buffers, windows included.
         count: usize,

@@ -4,8 +4,12 @@ use crate::ShaderError;
 use pack::abi::{LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat};
 use std::collections::BTreeSet;
 
-/// Storage buffers that every WebGPU device offers, less one that is left for the host.
-const MAX_STORAGE: usize = 7;
+/// Storage buffers that every WebGPU device offers, less one that is left for the host. A scene that needs more
+/// of them renders on the CPU, and on devices that offer more.
+pub const PORTABLE_STORAGE: usize = 7;
+
+/// Most storage buffers of a kernel: what Metal and llvmpipe offer, less what the host may need.
+const MAX_STORAGE: usize = 30;
 
 /// The features of a kernel. Whatever is absent brings neither code nor a binding.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -199,8 +203,8 @@ impl FeatureSet {
         self.lights.iter().any(|kind| *kind != LightKind::Sky)
     }
 
-    /// The buffers that the linked kernel declares, by number. An error if they are more than every
-    /// device can bind.
+    /// The buffers that the linked kernel declares, by number. An error if they are more than any kernel may
+    /// have.
     pub fn bindings(&self) -> Result<Vec<Binding>, ShaderError> {
         let windows = &self.windows;
         let geometry = self.geometry();

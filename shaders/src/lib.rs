@@ -24,7 +24,7 @@ mod modules;
 mod validate;
 
 pub use error::{Location, ShaderError};
-pub use features::{Binding, FeatureSet, NodeLayout, Windows};
+pub use features::{Binding, FeatureSet, NodeLayout, PORTABLE_STORAGE, Windows};
 pub use generate::{WINDOW_WORDS, generated_texts, root_module};
 pub use layout::{LayoutError, abi_module, check_layouts};
 pub use link::{Linked, link, link_modules};

@@ -2,8 +2,7 @@
 //! side and turns the difference into rows of numbers; this one turns the rows into `docs/corrections.md`.
 //!
 //! Every number comes from a fixed seed, so the page is the same on every run. Our form is the kernel
-//! itself wherever the kernel has it; a [`Place::Twin`] says where it has not. Nothing here knows the
-//! scene language, but [`brightness`], which renders a scene.
+//! itself. Nothing here knows the scene language, but [`brightness`], which renders a scene.
 
 pub mod brightness;
 pub mod bump;
@@ -59,15 +58,6 @@ pub const TOPICS: &[Measure] = &[
     bump::topic,
 ];
 
-/// Where our form is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
-    /// A file of this repository that the program has run.
-    File(&'static str),
-    /// A file of this program: the kernel has no such thing yet, so a twin in Rust was run.
-    Twin(&'static str),
-}
-
 /// One line of the table.
 #[derive(Clone, Debug)]
 pub struct Row {
@@ -86,8 +76,8 @@ pub struct Topic {
     pub title: &'static str,
     /// Section numbers of the guide.
     pub section: &'static str,
-    /// Where our form is.
-    pub places: &'static [Place],
+    /// Files with our form, all of which the program has run.
+    pub places: &'static [&'static str],
     /// What was measured; never empty.
     pub rows: Vec<Row>,
     /// What the guide says.
@@ -144,7 +134,8 @@ fn table(topics: &[Topic], text: &mut String) {
 
 fn section(number: usize, topic: &Topic, text: &mut String) {
     let Topic { title, section, says, wrong, right, .. } = topic;
-    let places: Vec<String> = topic.places.iter().map(|place| place.describe()).collect();
+    let places: Vec<String> =
+        topic.places.iter().map(|path| format!("[`{path}`](../{path})")).collect();
     let _ = write!(
         text,
         "\n## <a id=\"{number}\"></a>{number}. {title}\n\n\
@@ -152,25 +143,6 @@ fn section(number: usize, topic: &Topic, text: &mut String) {
         **The guide.** {says}\n\n**The trouble.** {wrong}\n\n**The right form.** {right}\n",
         places.join(", "),
     );
-}
-
-impl Place {
-    fn describe(self) -> String {
-        match self {
-            Self::File(path) => format!("[`{path}`](../{path})"),
-            Self::Twin(path) => {
-                format!("[`{path}`](../{path}), a twin in Rust: the kernel has no such thing yet")
-            }
-        }
-    }
-
-    /// The file, relative to the root of the repository.
-    #[must_use]
-    pub fn path(self) -> &'static str {
-        match self {
-            Self::File(path) | Self::Twin(path) => path,
-        }
-    }
 }
 
 /// A mean and its standard error: four decimals, more where the error asks for them; the mean alone where

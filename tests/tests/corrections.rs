@@ -8,7 +8,8 @@ use tests::corrections::mixture;
 use tests::corrections::random_walk::{self, Medium, Steps};
 use tests::corrections::sphere_light::{self, Setting, Shadow};
 use tests::corrections::{
-    TOPICS, brightness, fresnel, fuzz, phase, refraction, seeds, slab, traversal, triangle,
+    TOPICS, brightness, bump, field, fog, fresnel, fuzz, offsets, phase, refraction, seeds, slab,
+    traversal, triangle,
 };
 use tests::statistics::Mean;
 
@@ -90,6 +91,31 @@ fn shared_edges_are_hit_once() {
     }
     let [guided, ours] = triangle::small(1e-7, 1000);
     assert_eq!((guided, ours), (1000, 0));
+}
+
+#[test]
+fn rays_leave_their_surface_and_nothing_else() {
+    let [own, _] = offsets::leave(1e5, 1e3, 1e3, 1000);
+    assert!(own[0] > 300 && own[1] == 0, "{own:?}");
+    let [_, missed] = offsets::leave(1.0, 0.1, 5e-4, 1000);
+    assert_eq!(missed, [1000, 0]);
+}
+
+#[test]
+fn fog_gives_what_it_takes() {
+    let [guided, ours] = fog::room(0.5, 1e-3, 40_000);
+    is(&ours, 1.0, "a white room in white fog");
+    assert!(guided.value() < 0.9, "{guided:?}");
+    let [guided, ours] = fog::share_errors(1e-6);
+    assert!(guided > 0.01 && ours < 1e-5, "{guided} {ours}");
+}
+
+#[test]
+fn patterns_stay_in_their_range_and_bumps_are_slopes() {
+    let [guided, ours] = [field::stone_guide, field::stone_ours].map(|f| field::sample(f, 20_000));
+    assert!(guided.range[1] > 1.5 && ours.range[0] > 0.0 && ours.range[1] < 1.0, "{ours:?}");
+    let [guided, ours] = bump::measure(10_000);
+    assert!(guided.error > 10.0 * ours.error, "{guided:?} {ours:?}");
 }
 
 #[test]

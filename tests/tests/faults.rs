@@ -3,7 +3,6 @@
 
 use std::path::Path;
 
-use compiler::bvh::{Layout, Preset};
 use compiler::cache::Cache;
 use compiler::import::Limits;
 use compiler::lower::Trees;
@@ -140,14 +139,19 @@ fn the_programs_end_with_the_exit_codes_that_they_document() {
     };
     assert_eq!(rtc(&[&path("good.rts"), "-o", &path("good.pack"), "--no-cache"]), 0);
     assert_eq!(rtc(&["inspect", &path("good.pack"), "--verify"]), 0);
-    let built_by = |name: &str| {
-        rtc(&[&path("good.rts"), "-o", &path("other.pack"), "--no-cache", "--bvh", name])
+    let built_with = |option: &str, name: &str| {
+        rtc(&[&path("good.rts"), "-o", &path("other.pack"), "--no-cache", option, name])
     };
     for name in ["fast", "default", "extreme", "object-median", "spatial-median"] {
-        assert_eq!(built_by(name), 0, "{name}");
+        assert_eq!(built_with("--bvh", name), 0, "{name}");
     }
-    for name in ["sbvh", "Fast", ""] {
-        assert_eq!(built_by(name), 2, "{name}");
+    for name in ["wide", "binary"] {
+        assert_eq!(built_with("--nodes", name), 0, "{name}");
+        assert_eq!(rtc(&["inspect", &path("other.pack"), "--verify"]), 0);
+    }
+    for (option, name) in [("--bvh", "sbvh"), ("--bvh", "Fast"), ("--bvh", ""), ("--nodes", "bvh8")]
+    {
+        assert_eq!(built_with(option, name), 2, "{option} {name}");
     }
     assert_eq!(rtc(&["check", &path("good.rts")]), 0);
     assert_eq!(rtc(&["fmt", "--check", &path("bad.rts")]), 1, "not tidy");

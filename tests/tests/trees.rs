@@ -206,15 +206,13 @@ fn both_layouts_give_every_ray_the_same_hit() {
     let (mut met, n) = (0, 200_000);
     for _ in 0..n {
         let (origin, way) = tight_ray(&mut stream, triangles);
-        let (t_max, none) = (single::RAY_FAR, single::NONE);
-        let ray =
-            single::Ray { origin, t_max, dir: way.normalize(), skip: none, light: none, time: 0.0 };
+        let ray = ray(origin, way.normalize());
         let hits = [wide.trace(ray), binary.trace(ray)];
         // Of a triangle in several leaves any place may be met first.
         let what = |hit: single::Hit| triangles.get(hit.prim as usize).ok_or(hit.prim);
         let bits = hits.map(|hit| (what(hit), hit.t.to_bits(), hit.b.to_array().map(f32::to_bits)));
         assert_eq!(bits[0], bits[1], "from {origin} along {way}");
-        met += usize::from(hits[0].prim != none);
+        met += usize::from(hits[0].prim != single::NONE);
     }
     assert!(met > n / 2, "{met} of {n} rays meet anything");
 }

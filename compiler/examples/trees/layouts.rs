@@ -33,7 +33,7 @@ pub(crate) struct Row {
 pub(crate) struct Rows {
     pub(crate) n_triangles: usize,
     pub(crate) n_rays: usize,
-    pub(crate) rows: Vec<Row>,
+    pub(crate) trees: Vec<Row>,
 }
 
 /// What a kernel reads of one layout.
@@ -47,12 +47,12 @@ struct Words {
 /// Both layouts of two trees.
 pub(crate) fn all(triangles: &[Tri]) -> Result<Rows, Box<dyn Error>> {
     let scaled: Vec<Tri> = triangles.iter().map(|t| t.map(|p| p.map(|x| x * SCALE))).collect();
-    let mut all = Rows { n_triangles: scaled.len(), n_rays: 0, rows: Vec::new() };
+    let mut all = Rows { n_triangles: scaled.len(), n_rays: 0, trees: Vec::new() };
     for preset in [Preset::Fast, Preset::Default] {
         let (tree, _) = build(preset, &scaled)?;
         let rays = rays(&tree, triangles);
         all.n_rays = rays.len();
-        all.rows.extend(compare(preset, &tree, &scaled, &rays)?);
+        all.trees.extend(compare(preset, &tree, &scaled, &rays)?);
     }
     Ok(all)
 }

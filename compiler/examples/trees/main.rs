@@ -131,7 +131,7 @@ fn nodes_section(all: &layouts::Rows) -> String {
         all.n_rays,
     );
     let per_ray = |n: u64| n as f64 / all.n_rays as f64;
-    for pair in all.rows.chunks(2) {
+    for pair in all.trees.chunks(2) {
         for row in pair {
             let _ = writeln!(
                 text,

@@ -120,7 +120,7 @@ pub(crate) fn walked(tree: &Joined) -> Walked {
 /// The same tree with wide nodes.
 pub(crate) fn walked_wide(nodes: &[WideNode], order: &[u32]) -> Walked {
     let children = |n: &WideNode| {
-        let words = n.children();
+        let words = n.words();
         [0, 1, 2, 3].map(|slot| child(n.corners(slot), words[slot]))
     };
     Walked { nodes: nodes.iter().map(children).collect(), order: order.to_vec() }

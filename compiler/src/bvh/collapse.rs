@@ -100,13 +100,9 @@ fn plan(node: &Node, plans: &[Plan]) -> Plan {
     let left = shared.map(|(_, left)| u8::try_from(left).expect("at most 3"));
     let own = sides[0].0.union(sides[1].0).half_area() + shared[2].0;
     let mut plan = Plan { cost: [own; 3], left, whole: [true; 2] };
-    for k in 0..2 {
-        if shared[k].0 < plan.cost[k] {
-            plan.cost[k + 1] = shared[k].0;
-            plan.whole[k] = false;
-        } else {
-            plan.cost[k + 1] = plan.cost[k];
-        }
+    for (k, (cost, _)) in shared.into_iter().enumerate().take(WIDTH - 2) {
+        plan.whole[k] = cost >= plan.cost[k];
+        plan.cost[k + 1] = cost.min(plan.cost[k]);
     }
     plan
 }

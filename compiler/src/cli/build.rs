@@ -15,6 +15,7 @@ use crate::import::Limits;
 use crate::lower::{Counters, Instancing, Trees, srgb_table};
 use crate::pipeline::{self, CompileError, Compiled, Options, Phase};
 use crate::report::Reporter;
+use shaders::ShaderError;
 
 #[derive(Debug, Args)]
 pub(super) struct BuildArgs {
@@ -167,7 +168,9 @@ fn compile(
 fn failed(error: &CompileError, reporter: &Reporter) -> u8 {
     match error {
         CompileError::Scene => SCENE,
-        CompileError::Lower(_) | CompileError::Pack(_) => {
+        CompileError::Lower(_)
+        | CompileError::Pack(_)
+        | CompileError::Shader(ShaderError::TooManyBindings { .. }) => {
             reporter.failure(&error.to_string());
             IO
         }

@@ -89,7 +89,7 @@ fn instances(pack: &Pack<Checked>) -> String {
 /// The layout of the nodes and how full they are.
 fn nodes(pack: &Pack<Checked>) -> String {
     let (binary, wide) = (pack.records::<Node>(), pack.records::<WideNode>());
-    let n_children: usize = wide.iter().map(|node| InnerNode::children(node).count()).sum();
+    let n_children: usize = wide.iter().map(|node| node.children().count()).sum();
     match (binary.len(), wide.len()) {
         (0, 0) => "none".to_owned(),
         (n, 0) => format!("{n} {}, 2 children each", Layout::Binary),

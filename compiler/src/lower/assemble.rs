@@ -19,7 +19,7 @@ use super::order::{Declared, Ordered, order};
 use super::share::Instancing;
 use super::sky::LoweredSky;
 use super::sky_table::SkyTable;
-use super::{Loaded, camera, closed, light_tree, medium, motion, power, sky};
+use super::{Loaded, camera, closed, light_tree, medium, motion, power, sky, thick};
 use crate::bvh::{self, BuildReport, BvhError, Joined, Layout, Preset, Primitives, Shared};
 use crate::cache::Cache;
 use crate::normalize::Normalization;
@@ -272,6 +272,7 @@ fn media(
     let around = medium::around(scene);
     let matters = medium::matters(scene, materials.records());
     closed::check(scene, loaded, matters, diagnostics);
+    thick::check(scene, loaded, diagnostics);
     if !matters {
         return ([NONE; 4], around);
     }

@@ -37,7 +37,7 @@ pub(crate) fn check(joined: &Joined) -> Vec<WideNode> {
     let mut seen = vec![0; wide.len()];
     seen[0] = 1;
     for (index, node) in (0..).zip(&wide) {
-        let children = node.children();
+        let children = node.words();
         let n = children.iter().filter(|word| **word != NONE).count();
         assert!(n >= 2 && children[n..].iter().all(|word| *word == NONE), "node {index}");
         for (slot, word) in children.into_iter().enumerate().take(n) {
@@ -51,7 +51,7 @@ pub(crate) fn check(joined: &Joined) -> Vec<WideNode> {
             let below = wide[child as usize];
             let [lo, mut hi] = node.corners(slot);
             (0..3).for_each(|k| hi[k] += below.scale[k]);
-            for slot in (0..WIDTH).filter(|slot| below.children()[*slot] != NONE) {
+            for slot in (0..WIDTH).filter(|slot| below.words()[*slot] != NONE) {
                 assert!(contains([lo, hi], below.corners(slot)), "node {child} sticks out");
             }
         }
@@ -141,7 +141,7 @@ fn cost_of(wide: &[WideNode], nodes: &[Node]) -> f64 {
     };
     let by_ends: BTreeMap<(u32, u32), u32> =
         (0..u32::try_from(nodes.len()).unwrap()).map(|i| (binary(i), i)).collect();
-    let last = |node: &WideNode| node.children().into_iter().rfind(|word| *word != NONE).unwrap();
+    let last = |node: &WideNode| node.words().into_iter().rfind(|word| *word != NONE).unwrap();
     let ends = |node: &WideNode| {
         let first = first_leaf(node.child0, &|i| wide[i as usize].child0);
         (first, first_leaf(last(node), &|i| last(&wide[i as usize])))

@@ -31,7 +31,7 @@ impl InnerNode for WideNode {
     const SIDES: &'static [&'static str] = &["child0", "child1", "child2", "child3"];
 
     fn child(&self, side: usize) -> u32 {
-        self.children()[side]
+        self.words()[side]
     }
 }
 

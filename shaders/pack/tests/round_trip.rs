@@ -112,16 +112,19 @@ fn the_render_id_names_the_picture_and_not_its_history() {
 #[test]
 fn features_are_those_of_the_contents() {
     let pack = Pack::from_bytes(Scene::full().bytes()).unwrap();
-    // A pack has one sky, and this one is no light; few lights need no tree; none is tinted; no
-    // mesh is stored once.
+    // A pack has one sky, and this one is no light; few lights need no tree; none is tinted. The nodes are
+    // binary, and no mesh is stored once.
     let absent = features::SKY_CONSTANT
         | features::SKY_IMAGE
         | features::LIGHT_SKY
         | features::LIGHT_TREE
         | features::TINT
         | features::INSTANCES
+        | features::WIDE_NODES
         | features::SAMPLER_PCG;
     assert_eq!(pack.features(), features::KNOWN & !absent);
+    let wide = Pack::from_bytes(Scene::wide().bytes()).unwrap();
+    assert_eq!(wide.features(), pack.features() | features::WIDE_NODES);
     let mut scene = Scene::empty();
     assert_eq!(Pack::from_bytes(scene.bytes()).unwrap().features(), features::LENS);
     scene.camera.lens_radius = 0.0;
@@ -139,8 +142,21 @@ fn absent_kinds_bring_no_section() {
         describe(&pack).into_iter().map(|row| row.kind).collect()
     };
     assert_eq!(kinds(&Scene::empty()), ["RENDER", "CAMERA", "KERNEL"]);
-    let all: Vec<String> = pack::SECTIONS.iter().map(|spec| spec.kind.to_string()).collect();
-    assert_eq!(kinds(&Scene::with_light_tree().and_instances()), all);
+    // Nodes are of one layout.
+    let but = |absent: Kind| -> Vec<String> {
+        let there = pack::SECTIONS.iter().filter(|spec| spec.kind != absent);
+        there.map(|spec| spec.kind.to_string()).collect()
+    };
+    assert_eq!(kinds(&Scene::with_light_tree().and_instances()), but(Kind::WIDENODE));
+    let Scene { render, wide_nodes, nodes, .. } = Scene::wide();
+    let render = pack::abi::RenderSettings {
+        stack_need: render.stack_need,
+        ..Scene::with_light_tree().render
+    };
+    let wide = Scene { render, nodes, wide_nodes, ..Scene::with_light_tree() };
+    let mut others = but(Kind::NODE);
+    others.retain(|kind| *kind != Kind::INSTANCE.to_string());
+    assert_eq!(kinds(&wide), others);
 }
 
 #[test]

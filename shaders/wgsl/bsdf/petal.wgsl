@@ -1,10 +1,12 @@
 // A petal: fuzz on the surface, a waxy skin, and a thin slab that scatters light under it.
 //   fuzz   q metal_density(radius fuzz)                     q: share of the fuzz
-//   wax    (1 - q) F(cos_o) metal_density(radius roughness)
-//   slab   (1 - q) (1 - F(cos_o)) color (unscattered + scattered)
+//   wax    (1 - q) (F(cos_o) + (1 - F(cos_o)) color back) metal_density(radius roughness)
+//   slab   (1 - q) (1 - F(cos_o)) color (through + scattered)
+// `through` and `back` cross the slab unscattered; what its far side mirrors comes back by the same skin as what
+// the near side does, and is as blurred. As a mirror it would be light that no shadow ray finds.
 // Each lobe integrates to its share at most, so a white petal reflects and lets through all it gets, less what
 // the first two lobes lose at the horizon. The slab is found by a random walk (`slab.wgsl`), so `petal_eval` is
-// an unbiased estimate; the density of `petal_sample` is exact. Light that crosses the slab unscattered keeps
+// an unbiased estimate; the density of `petal_sample` is exact. Light that goes through the slab unscattered keeps
 // its direction: a delta lobe, and what a shadow ray finds.
 // Only the slab is reciprocal: the lobes of fuzz and wax are those of `metal.wgsl`.
 
@@ -21,10 +23,10 @@
 // How a petal divides the light from one direction. All are shares; their sum is 1.
 struct PetalShares {
     fuzz: f32,
+    // Both sides of the slab.
     wax: f32,
-    // Through the slab and back from it, unscattered.
+    // Through the slab, unscattered.
     through: f32,
-    back: f32,
     // Scattered in the slab, or absorbed.
     slab: f32,
 }
@@ -55,7 +57,7 @@ fn petal_shares(s: Scatter, slab: Slab, wo: vec3f) -> PetalShares {
     let inner = (1.0 - fuzz) * (1.0 - f);
     let through = inner * vector_max(passage.through);
     let back = inner * vector_max(passage.back);
-    return PetalShares(fuzz, (1.0 - fuzz) * f, through, back, max(inner - through - back, 0.0));
+    return PetalShares(fuzz, (1.0 - fuzz) * f + back, through, max(inner - through - back, 0.0));
 }
 
 // Samples `wi`. `u`: direction, `v`: which lobe, `w`: radius in the ball; all in [0, 1 - 2^-24].
@@ -65,11 +67,6 @@ fn petal_sample(s: Scatter, wo: vec3f, u: vec2f, v: f32, w: f32) -> Scattered {
     let skin = p.fuzz + p.wax;
     if (v >= skin && v < skin + p.through) {
         return Scattered(-wo, 0.0, petal_through(s, wo) / p.through, 1.0);
-    }
-    if (v >= skin && v < skin + p.through + p.back) {
-        let passage = slab_passage(slab, min(dot(s.ns, wo), 1.0));
-        let inner = (1.0 - p.fuzz) * (1.0 - petal_fresnel(s, wo));
-        return Scattered(scatter_mirror(s, wo), 0.0, s.color * passage.back * (inner / p.back), 1.0);
     }
     var wi: vec3f;
     if (v < skin) {
@@ -88,7 +85,7 @@ fn petal_sample(s: Scatter, wo: vec3f, u: vec2f, v: f32, w: f32) -> Scattered {
     return Scattered(wi, pdf, petal_eval(s, wo, wi) / pdf, 1.0);
 }
 
-// f |cos|, the unscattered light left out; an unbiased estimate.
+// f |cos|, what goes through unscattered left out; an unbiased estimate.
 fn petal_eval(s: Scatter, wo: vec3f, wi: vec3f) -> vec3f {
     let slab = petal_slab(s);
     let fuzz = load_material_weight(s.material);
@@ -100,8 +97,9 @@ fn petal_eval(s: Scatter, wo: vec3f, wi: vec3f) -> vec3f {
     var sum = vec3f(0.0);
     if (above) {
         let r = scatter_mirror(s, wo);
-        let wax = (1.0 - fuzz) * f * metal_density(wi, r, petal_radius(s.roughness));
-        sum = vec3f(fuzz * metal_density(wi, r, petal_radius(s.fuzz)) + wax);
+        let back = s.color * slab_passage(slab, min(dot(s.ns, wo), 1.0)).back;
+        let wax = (vec3f(f) + back * (1.0 - f)) * ((1.0 - fuzz) * metal_density(wi, r, petal_radius(s.roughness)));
+        sum = vec3f(fuzz * metal_density(wi, r, petal_radius(s.fuzz))) + wax;
     }
     if (above || (i.z > 0.0 && dot(wi, s.ng) < 0.0)) {
         sum += s.color * slab_scattered(slab, o, i, s.key) * ((1.0 - fuzz) * (1.0 - f));
@@ -109,7 +107,7 @@ fn petal_eval(s: Scatter, wo: vec3f, wi: vec3f) -> vec3f {
     return sum;
 }
 
-// Density of `petal_sample`, per steradian of `wi`, the deltas left out.
+// Density of `petal_sample`, per steradian of `wi`, the delta left out.
 fn petal_pdf(s: Scatter, wo: vec3f, wi: vec3f) -> f32 {
     let slab = petal_slab(s);
     let p = petal_shares(s, slab, wo);

@@ -6,6 +6,10 @@
 #import "shape/triangle.wgsl"
 #import "trace/ray.wgsl"
 
+// Bit 31 of `Hit::prim`: no triangle, whatever else it is. `NONE` has it, too. The name of what else there may be
+// is not for scenes that have only triangles.
+const PRIM_OTHER: u32 = 0x80000000u;
+
 // The better of `best` and the hits of triangles `first .. first + count`.
 fn triangles_trace(first: u32, count: u32, ray: Ray, shear: TriangleShear, best: Hit) -> Hit {
     var hit = best;
@@ -27,13 +31,13 @@ fn triangles_trace(first: u32, count: u32, ray: Ray, shear: TriangleShear, best:
 // Whether triangle `i` of `instance` at distance `t` replaces the best hit so far. Of equal distances a triangle
 // goes before a sphere, one of an instance before those of later instances and of none, and the first of two
 // triangles of one frame in the order of what they are: never in the order of their places, of which one that
-// was split has several. `NONE` has the bit of spheres.
+// was split has several.
 fn triangles_accept(best: Hit, t: f32, i: u32, instance: u32) -> bool {
     if (t != best.t) {
         return t > 0.0 && t < best.t;
     }
-    if ((best.prim & PRIM_SPHERE) != 0u || instance != best.instance) {
-        return t > 0.0 && ((best.prim & PRIM_SPHERE) != 0u || instance < best.instance);
+    if ((best.prim & PRIM_OTHER) != 0u || instance != best.instance) {
+        return t > 0.0 && ((best.prim & PRIM_OTHER) != 0u || instance < best.instance);
     }
     return t > 0.0 && triangles_before(i, best.prim);
 }
@@ -48,7 +52,7 @@ fn triangles_same(i: u32, j: u32) -> bool {
     if (i == j) {
         return true;
     }
-    if ((j & PRIM_SPHERE) != 0u || load_triangle_id0(i) != load_triangle_id0(j)) {
+    if ((j & PRIM_OTHER) != 0u || load_triangle_id0(i) != load_triangle_id0(j)) {
         return false;
     }
     return load_triangle_id1(i) == load_triangle_id1(j) && load_triangle_id2(i) == load_triangle_id2(j)

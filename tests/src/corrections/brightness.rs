@@ -2,7 +2,7 @@
 
 use pack::Pack;
 
-use super::{Place, Topic, percent, row};
+use super::{Topic, percent, row};
 use crate::picture::{self, Estimate};
 use crate::scene;
 
@@ -58,7 +58,7 @@ pub fn topic() -> Topic {
     Topic {
         title: "Brighter lamps are not less noisy",
         section: "6.2",
-        places: &[Place::File("shaders/wgsl/kernel/direct.wgsl")],
+        places: &["shaders/wgsl/kernel/direct.wgsl"],
         rows: vec![
             row("noise of a pixel, lamp of strength 1", figure(faint), figure(sampled[0])),
             row("noise of a pixel, lamp of strength 1024", figure(bright), figure(sampled[1])),

@@ -1,27 +1,19 @@
 //! A bump from the difference of two different fields (the guide), and of one field (ours).
 
-use glam::Vec3;
+use glam::{DVec3, Vec3, Vec4};
+use pack::abi::{MaterialKind, Object};
+use runtime::kernel::f32::Kernel;
 
-use super::field::fbm;
-use super::{Place, Topic, row};
+use super::{Topic, row};
+use crate::kernel::{Bench, Lobe};
 use crate::statistics::Mean;
 use crate::statistics::stream::Stream;
-
-/// The guide's weave: the field whose value the bump is given, its step and its strength.
-fn weave(p: Vec3) -> f32 {
-    fbm(p * 15.0 + Vec3::new(0.7, 1.3, 0.3), 2)
-}
 
 const STEP: f32 = 0.010;
 const STRENGTH: f32 = 0.02;
 
-/// The normal tilted against the gradient of differences `value` - `field` one step back along each axis.
-fn tilted(p: Vec3, n: Vec3, value: f32, field: fn(Vec3) -> f32) -> Vec3 {
-    let back = |axis: Vec3| value - field(p - axis * STEP);
-    let gradient = Vec3::new(back(Vec3::X), back(Vec3::Y), back(Vec3::Z));
-    let flat = gradient - n * n.dot(gradient);
-    (n - flat * (STRENGTH / STEP)).normalize()
-}
+/// Key of the fabric.
+const KEY: u32 = 1;
 
 /// What a bump does to a normal.
 #[derive(Clone, Copy, Debug)]
@@ -32,32 +24,62 @@ pub struct Tilt {
     pub tilt: f64,
 }
 
-/// The guide's bump and ours on a floor, against the gradient of the weave by central differences of double
-/// the accuracy.
+/// A floor of fabric.
+fn floor() -> Lobe {
+    Lobe { normal: DVec3::Y, ..Lobe::new(MaterialKind::Fabric) }
+}
+
+/// The floor's normal as the kernel tilts it by `values` of a field: one step back along each axis, and at the
+/// point.
+fn tilted(kernel: &mut Kernel<'_>, values: Vec4) -> Vec3 {
+    let mut scatter = floor().single();
+    kernel.bump_tilt(&mut scatter, 0, values, Vec3::Y);
+    scatter.ns
+}
+
+/// The bumps of the guide and of the kernel on a floor, against the gradient of the fabric's field by central
+/// differences in double precision.
 #[must_use]
 pub fn measure(n: u64) -> [Tilt; 2] {
+    let record = floor().record();
+    let axis = |k: usize| DVec3::AXES[k].as_vec3().to_array();
+    let object = Object { row_x: axis(0), row_y: axis(1), row_z: axis(2), ..Object::default() };
+    let material = pack::abi::Material {
+        bump_step: STEP,
+        bump_height: STRENGTH,
+        pattern_scale: 1.0,
+        ..record
+    };
+    let bench = Bench::new().materials(&[material]).objects(&[object]);
+    let mut kernel = bench.single();
     let mut stream = Stream::new(199, 0);
-    let normal = Vec3::Y;
     let mut sums = [[Mean::default(); 2]; 2];
     for _ in 0..n {
         let p = Vec3::from([0; 3].map(|_| 8.0 * stream.unit24()));
-        let exact = exact(p, normal);
-        let found =
-            [tilted(p, normal, weave(p), |p| fbm(p, 4)), tilted(p, normal, weave(p), weave)];
-        for (sum, found) in sums.iter_mut().zip(found) {
+        let exact = exact(&bench, p.as_dvec3());
+        let value = kernel.fabric_field(p, 1.0, KEY);
+        let back = [0, 1, 2].map(|k| kernel.bump_point(p, STEP, k));
+        let guided = back.map(|q| kernel.fbm_value(q, 4, KEY));
+        let ours = back.map(|q| kernel.fabric_field(q, 1.0, KEY));
+        for (sum, [x, y, z]) in sums.iter_mut().zip([guided, ours]) {
+            let found = tilted(&mut kernel, Vec4::new(x, y, z, value));
             sum[0].add(f64::from(found.angle_between(exact)).to_degrees());
-            sum[1].add(f64::from(found.angle_between(normal)).to_degrees());
+            sum[1].add(f64::from(found.angle_between(Vec3::Y)).to_degrees());
         }
     }
     sums.map(|[error, tilt]| Tilt { error: error.value(), tilt: tilt.value() })
 }
 
-/// The normal of the weave's gradient, by differences over a tenth of the step to both sides.
-fn exact(p: Vec3, n: Vec3) -> Vec3 {
-    let h = 0.1 * STEP;
-    let slope = |axis: Vec3| (weave(p + axis * h) - weave(p - axis * h)) / (2.0 * h);
-    let gradient = Vec3::new(slope(Vec3::X), slope(Vec3::Y), slope(Vec3::Z));
-    (n - (gradient - n * n.dot(gradient)) * STRENGTH).normalize()
+/// The floor's normal tilted by the slope of the fabric's field.
+fn exact(bench: &Bench, p: DVec3) -> Vec3 {
+    let mut kernel = bench.double();
+    let h = 1e-5;
+    let mut slope = |axis: DVec3| {
+        let [a, b] = [1.0, -1.0].map(|side| kernel.fabric_field(p + axis * (side * h), 1.0, KEY));
+        (a - b) / (2.0 * h)
+    };
+    let gradient = DVec3::new(slope(DVec3::X), 0.0, slope(DVec3::Z));
+    (DVec3::Y - gradient * f64::from(STRENGTH)).normalize().as_vec3()
 }
 
 /// Measures the topic.
@@ -68,7 +90,7 @@ pub fn topic() -> Topic {
     Topic {
         title: "A bump is the slope of one field",
         section: "4.5.3, 5.2.3, 5.2.5",
-        places: &[Place::Twin("tests/src/corrections/bump.rs")],
+        places: &["shaders/wgsl/bsdf/fabric.wgsl", "shaders/wgsl/pattern/bump.wgsl"],
         rows: vec![
             row(
                 "angle between the bumped normal and the exact one, fabric",

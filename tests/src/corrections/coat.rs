@@ -4,7 +4,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::{Place, Topic, fresnel, off, row};
+use super::{Topic, fresnel, off, row};
 use crate::kernel::{Bench, Lobe};
 
 /// White share of the highlight as the guide's sentence has it; its listing has the rest.
@@ -85,7 +85,7 @@ pub fn topic() -> Topic {
     Topic {
         title: "A coat is a layer, not an average",
         section: "5.2.1",
-        places: &[Place::File("shaders/wgsl/bsdf/principled.wgsl")],
+        places: &["shaders/wgsl/bsdf/principled.wgsl"],
         rows: vec![
             row(
                 format!("colour of the highlight on dark wood (0.04); {promised:.3} is announced"),

@@ -1,66 +1,31 @@
 //! A rough field of three octave sums: offsets added to results (the guide) or to points (ours).
-//!
-//! The noise is a value noise of [0, 1] with cubic blending on a hashed lattice; any such noise shows the
-//! same.
 
-use glam::{IVec3, Vec3};
+use glam::Vec3;
+use runtime::kernel::f32::Kernel;
 
-use super::{Place, Topic, percent, row};
+use super::{Topic, percent, row};
+use crate::kernel::Bench;
 use crate::statistics::Mean;
 use crate::statistics::stream::Stream;
 
-/// A number in [0, 1] for a lattice point.
-fn lattice(p: IVec3) -> f32 {
-    let mut h = (p.x as u32).wrapping_mul(0x8da6_b343)
-        ^ (p.y as u32).wrapping_mul(0xd816_3841)
-        ^ (p.z as u32).wrapping_mul(0xcb1a_b31f);
-    h = (h ^ (h >> 16)).wrapping_mul(0x7feb_352d);
-    h = (h ^ (h >> 15)).wrapping_mul(0x846c_a68b);
-    ((h ^ (h >> 16)) >> 8) as f32 / 16_777_215.0
-}
+/// Key of the noise.
+const KEY: u32 = 1;
 
-/// Value noise in [0, 1].
+/// The guide's stone over the kernel's noise, its vector offsets read as numbers: they are added to the octave
+/// sums.
 #[must_use]
-pub fn noise(p: Vec3) -> f32 {
-    let cell = p.floor();
-    let f = p - cell;
-    let w = f * f * (3.0 - 2.0 * f);
-    let at = |i: i32| {
-        let corner = IVec3::new(i & 1, (i >> 1) & 1, i >> 2);
-        let side = |w: f32, far: i32| if far == 1 { w } else { 1.0 - w };
-        let weight = side(w.x, corner.x) * side(w.y, corner.y) * side(w.z, corner.z);
-        weight * lattice(cell.as_ivec3() + corner)
-    };
-    (0..8).map(at).sum()
+pub fn stone_guide(kernel: &mut Kernel<'_>, p: Vec3) -> f32 {
+    let blocks = kernel.fbm_value(p * 3.0, 3, KEY);
+    let fine = kernel.fbm_value(p * 11.0, 3, KEY) + 1.7;
+    let cracks = kernel.fbm_value(p * 25.0, 2, KEY) + 3.1;
+    blocks * 0.5 + fine * 0.3 + cracks * 0.2
 }
 
-/// The mean of `octaves` octaves, each of twice the frequency and half the weight, in [0, 1].
+/// The kernel's stone.
 #[must_use]
-pub fn fbm(p: Vec3, octaves: i32) -> f32 {
-    let weight = |i: i32| 0.5_f32.powi(i);
-    let sum: f32 = (0..octaves).map(|i| weight(i) * noise(p * 2.0_f32.powi(i))).sum();
-    sum / (0..octaves).map(weight).sum::<f32>()
-}
-
-/// Offsets of the second and third layer.
-const OFFSETS: [f32; 2] = [1.7, 3.1];
-
-fn weigh(layers: [f32; 3]) -> f32 {
-    layers[0] * 0.5 + layers[1] * 0.3 + layers[2] * 0.2
-}
-
-/// The guide's stone, its vector offsets read as numbers: they are added to the octave sums.
-#[must_use]
-pub fn stone_guide(p: Vec3) -> f32 {
-    let [fine, cracks] = OFFSETS;
-    weigh([fbm(p * 3.0, 3), fbm(p * 11.0, 3) + fine, fbm(p * 25.0, 2) + cracks])
-}
-
-/// The same with the offsets added to the points.
-#[must_use]
-pub fn stone_ours(p: Vec3) -> f32 {
-    let [fine, cracks] = OFFSETS.map(Vec3::splat);
-    weigh([fbm(p * 3.0, 3), fbm(p * 11.0 + fine, 3), fbm(p * 25.0 + cracks, 2)])
+pub fn stone_ours(kernel: &mut Kernel<'_>, p: Vec3) -> f32 {
+    let bands = kernel.stone_bands(p, 1.0, KEY);
+    kernel.stone_field(bands)
 }
 
 /// What a field does.
@@ -76,13 +41,15 @@ pub struct Field {
 
 /// Samples a field in a box of side 8.
 #[must_use]
-pub fn sample(field: fn(Vec3) -> f32, n: u64) -> Field {
+pub fn sample(field: fn(&mut Kernel<'_>, Vec3) -> f32, n: u64) -> Field {
+    let bench = Bench::new();
+    let mut kernel = bench.single();
     let mut stream = Stream::new(197, 0);
     let start = [f32::MAX, f32::MIN];
     let mut found = Field { range: start, roughness: 0.0, beyond: Mean::default() };
     for _ in 0..n {
         let p = Vec3::from([0; 3].map(|_| 8.0 * stream.unit24()));
-        let f = field(p);
+        let f = field(&mut kernel, p);
         found.range = [found.range[0].min(f), found.range[1].max(f)];
         let roughness = 0.4 + 0.35 * f;
         found.roughness = found.roughness.max(roughness);
@@ -99,7 +66,7 @@ pub fn topic() -> Topic {
     Topic {
         title: "Offsets go into the noise, not onto it",
         section: "5.2.2",
-        places: &[Place::Twin("tests/src/corrections/field.rs")],
+        places: &["shaders/wgsl/bsdf/stone.wgsl"],
         rows: vec![
             row("values of the stone's field; [0, 1] is announced", range(&guided), range(&ours)),
             row(
@@ -115,6 +82,8 @@ pub fn topic() -> Topic {
             vector added to a number, it does not compile; with numbers, the layers still share \
             their lattice, and the field lies above 1 everywhere, so the roughness leaves its range."
             .into(),
-        right: "fbm(p * 11 + offset): another part of the same noise. (The guide's wood has it right.)".into(),
+        right: "fbm(p * 11 + offset), and another key for each layer: other parts of other noises. (The guide's \
+            wood has the offsets right.)"
+            .into(),
     }
 }

@@ -2,39 +2,41 @@
 
 #![expect(clippy::cast_possible_truncation, reason = "both forms compute in f32")]
 
-use super::{Place, Topic, estimate, percent, row};
+use glam::Vec3;
+use runtime::kernel::f32::{Medium, Path};
+
+use super::{Topic, estimate, percent, row};
+use crate::kernel::Bench;
 use crate::statistics::Mean;
 use crate::statistics::stream::Stream;
 
-/// Where fog adds its own light.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Glow {
-    /// Where a path reaches the sky only: the guide.
-    SkyOnly,
-    /// On every segment.
-    EverySegment,
+/// Radiance of a closed room of reflectance `rho` whose walls emit 1 - rho, filled with fog of radiance 1
+/// and of `density` per metre, walls some 50 to 150 m apart: exactly 1. The guide's fog only takes, as the sky
+/// is not to be seen; then the kernel's.
+#[must_use]
+pub fn room(rho: f32, density: f32, n: u64) -> [Mean; 2] {
+    let fog = Medium { sigma_a: Vec3::splat(density), color: Vec3::ONE, ..Medium::ZERO };
+    let bench = Bench::new();
+    let mut kernel = bench.single();
+    let guide = |path: &mut Path, length: f32| path.throughput *= (-density * length).exp();
+    let ours = |path: &mut Path, length: f32| kernel.veil_add(path, fog, length);
+    [bounced(rho, n, guide), bounced(rho, n, ours)]
 }
 
-/// Radiance of a closed room of reflectance `rho` whose walls emit 1 - rho, filled with fog of radiance 1
-/// and of `density` per metre, walls some 50 to 150 m apart: exactly 1.
-#[must_use]
-pub fn room(rho: f64, density: f64, glow: Glow, n: u64) -> Mean {
+/// Radiance in the room if `pass` is what a segment of so many metres does to a path.
+fn bounced(rho: f32, n: u64, mut pass: impl FnMut(&mut Path, f32)) -> Mean {
     let mut mean = Mean::default();
     for i in 0..n {
         let mut stream = Stream::new(193, i);
-        let (mut radiance, mut throughput) = (0.0, 1.0);
-        while throughput > 0.0 {
-            let optical = density * stream.between(50.0, 150.0);
-            if glow == Glow::EverySegment {
-                radiance -= throughput * (-optical).exp_m1();
-            }
-            throughput *= (-optical).exp();
-            radiance += throughput * (1.0 - rho);
-            throughput *= rho;
-            let q = throughput.min(1.0);
-            throughput = if stream.unit() < q { throughput / q } else { 0.0 };
+        let mut path = Path { throughput: Vec3::ONE, ..Path::ZERO };
+        while path.throughput.x > 0.0 {
+            pass(&mut path, stream.between(50.0, 150.0) as f32);
+            path.radiance += path.throughput * (1.0 - rho);
+            path.throughput *= rho;
+            let q = path.throughput.x.min(1.0);
+            path.throughput = if stream.unit24() < q { path.throughput / q } else { Vec3::ZERO };
         }
-        mean.add(radiance);
+        mean.add(f64::from(path.radiance.x));
     }
     mean
 }
@@ -45,20 +47,18 @@ pub fn share_guide(x: f32) -> f32 {
     1.0 - (-x).exp()
 }
 
-/// 1 - e^-x for x >= 0: below 1/100 by three terms of its series, whose rest is below 4e-8 of it.
-#[must_use]
-pub fn share_ours(x: f32) -> f32 {
-    if x < 0.01 { x * (1.0 - x * (0.5 - x / 6.0)) } else { 1.0 - (-x).exp() }
-}
-
 /// Largest relative error of both around `x`.
 #[must_use]
 pub fn share_errors(x: f64) -> [f64; 2] {
+    let bench = Bench::new();
+    let mut kernel = bench.single();
     let mut worst = [0.0_f64; 2];
     for i in 0..1000 {
         let x = (x * (1.0 + f64::from(i) / 1000.0)) as f32;
         let exact = -(-f64::from(x)).exp_m1();
-        for (worst, found) in worst.iter_mut().zip([share_guide(x), share_ours(x)]) {
+        let left = kernel.beer_left(Vec3::splat(x));
+        let ours = kernel.beer_lost(Vec3::splat(x), left).x;
+        for (worst, found) in worst.iter_mut().zip([share_guide(x), ours]) {
             *worst = worst.max((f64::from(found) / exact - 1.0).abs());
         }
     }
@@ -75,11 +75,12 @@ pub fn water_guide(sigma: f64, distance: f64) -> f64 {
 /// Measures the topic.
 #[must_use]
 pub fn topic() -> Topic {
-    let room_row = |rho: f64, density: f64| {
+    let room_row = |rho: f32, density: f32| {
+        let [guided, ours] = room(rho, density, 400_000);
         row(
             format!("white room of reflectance {rho} in white fog of {density} per metre"),
-            estimate(&room(rho, density, Glow::SkyOnly, 400_000)),
-            estimate(&room(rho, density, Glow::EverySegment, 400_000)),
+            estimate(&guided),
+            estimate(&ours),
         )
     };
     let small = |x: f64| {
@@ -93,7 +94,7 @@ pub fn topic() -> Topic {
     Topic {
         title: "Fog that only takes",
         section: "4.3, 4.3.1",
-        places: &[Place::Twin("tests/src/corrections/fog.rs")],
+        places: &["shaders/wgsl/kernel/veil.wgsl", "shaders/wgsl/math/beer.wgsl"],
         rows: vec![
             room_row(0.5, 1e-3),
             room_row(0.9, 1e-3),

@@ -3,7 +3,7 @@
 
 #![expect(clippy::cast_possible_truncation, reason = "all forms but the truth compute in f32")]
 
-use super::{Place, Topic, percent, row, tiny};
+use super::{Topic, percent, row, tiny};
 use crate::kernel::Bench;
 
 /// Unpolarised reflectance in double precision. `c`: cosine of the incident angle; `m`: index behind over
@@ -103,7 +103,7 @@ pub fn topic() -> Topic {
     Topic {
         title: "How much an interface reflects",
         section: "4.2, 5.3",
-        places: &[Place::File("shaders/wgsl/bsdf/fresnel.wgsl")],
+        places: &["shaders/wgsl/bsdf/fresnel.wgsl"],
         rows: vec![
             row(
                 "largest error, into glass of index 1.5",

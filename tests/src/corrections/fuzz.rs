@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 use glam::{DVec3, Vec3};
 use runtime::kernel::f32 as single;
 
-use super::{Place, Topic, estimate, row};
+use super::{Topic, estimate, row};
 use crate::kernel::{Bench, Lobe};
 use crate::statistics::Mean;
 use crate::statistics::stream::Stream;
@@ -134,7 +134,7 @@ pub fn topic() -> Topic {
     Topic {
         title: "The fuzzy metal has a density",
         section: "4.5.2",
-        places: &[Place::File("shaders/wgsl/bsdf/metal.wgsl")],
+        places: &["shaders/wgsl/bsdf/metal.wgsl"],
         rows: vec![
             row(
                 "noise of a light of half angle 0.01 in a metal of fuzz 0.6",

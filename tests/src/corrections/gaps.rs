@@ -4,7 +4,7 @@
 use glam::{DVec3, Vec2, Vec3};
 use runtime::kernel::f32 as single;
 
-use super::{Place, Topic, field, row, share, triangle};
+use super::{Topic, row, share, triangle};
 use crate::kernel::Bench;
 use crate::statistics::stream::Stream;
 
@@ -20,11 +20,11 @@ fn guide_hole(p: Vec3) -> bool {
 }
 
 /// A mask of 64 x 64 texels with holes of a few texels, looked up between them; below one half is a hole.
-fn mask_hole(uv: Vec2) -> bool {
-    let texel = |x: f32, y: f32| field::noise(Vec3::new(x * 0.4, y * 0.4, 0.5));
+fn mask_hole(kernel: &mut single::Kernel<'_>, uv: Vec2) -> bool {
+    let mut texel = |x: f32, y: f32| kernel.fbm_value(Vec3::new(x * 0.4, y * 0.4, 0.5), 1, 0);
     let at = uv * 64.0 - Vec2::splat(0.5);
     let (cell, f) = (at.floor(), at - at.floor());
-    let row = |y: f32| texel(cell.x, y) * (1.0 - f.x) + texel(cell.x + 1.0, y) * f.x;
+    let mut row = |y: f32| texel(cell.x, y) * (1.0 - f.x) + texel(cell.x + 1.0, y) * f.x;
     row(cell.y) * (1.0 - f.y) + row(cell.y + 1.0) * f.y < 0.48
 }
 
@@ -66,7 +66,7 @@ pub fn measure(n: usize) -> Seen {
             let t = triangle::guide(corners, origin, dir, 1e-6).expect("aimed well inside");
             let shear = kernel.triangle_shear(dir);
             let hit = kernel.triangle_intersect(tri, origin, shear);
-            [guide_hole(origin + dir * t), mask_hole(Vec2::new(hit.y, hit.z))]
+            [guide_hole(origin + dir * t), mask_hole(&mut kernel, Vec2::new(hit.y, hit.z))]
         });
         seen.points += 1;
         let [first, second] = found;
@@ -86,7 +86,7 @@ pub fn topic() -> Topic {
     Topic {
         title: "Holes that all rays agree on",
         section: "5.2.4",
-        places: &[Place::File("shaders/wgsl/trace/alpha.wgsl")],
+        places: &["shaders/wgsl/trace/alpha.wgsl"],
         rows: vec![
             row(
                 "points that a camera ray passes and a shadow ray does not, holes skipped in the path loop",

@@ -6,7 +6,7 @@
 use glam::{DVec3, Vec3};
 
 use super::sphere_light::Setting;
-use super::{Place, Topic, estimate, row};
+use super::{Topic, estimate, row};
 use crate::kernel::{Bench, Lobe};
 use crate::statistics::Mean;
 use crate::statistics::stream::Stream;
@@ -88,7 +88,7 @@ pub fn topic() -> Topic {
     Topic {
         title: "Weights of two strategies",
         section: "1.4, 6.1",
-        places: &[Place::File("shaders/wgsl/kernel/direct.wgsl")],
+        places: &["shaders/wgsl/kernel/direct.wgsl"],
         rows: vec![
             row("radius / distance 0.8: weight on the light sample only", estimate(&sums.light_only), ours.clone()),
             row("no weights at all", estimate(&sums.neither), ours.clone()),

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec2, Vec3};
 use pack::abi::Triangle;
 use runtime::kernel::f32 as single;
 
-use super::{Place, Row, Topic, row, share, triangle};
+use super::{Row, Topic, row, share, triangle};
 use crate::kernel::{self, Bench, skip};
 use crate::statistics::stream::Stream;
 
@@ -54,9 +54,10 @@ fn weights(stream: &mut Stream) -> Vec2 {
     b * 0.7 + Vec2::splat(0.1)
 }
 
-fn record(corners: [DVec3; 3]) -> Triangle {
+/// A triangle whose vertices are `first` and the next two: two triangles of the same vertices are one to the kernel.
+fn record(first: u32, corners: [DVec3; 3]) -> Triangle {
     let [v0, v1, v2] = corners.map(|v| v.as_vec3().to_array());
-    Triangle { v0, id0: 0, v1, id1: 1, v2, id2: 2 }
+    Triangle { v0, id0: first, v1, id1: first + 1, v2, id2: first + 2 }
 }
 
 /// The kernel's scale for coordinates up to `reach`: the power of two that brings them below 1.
@@ -105,8 +106,10 @@ fn guide_start(place: &Place3, from: DVec3, aim: DVec3) -> Option<Vec3> {
 
 /// Whether the kernel's ray hits its own triangle, whether it hits the lid.
 fn kernel_hits(place: &Place3, lid: [DVec3; 3], b: Vec2, dir: Vec3, scale: f64) -> [bool; 2] {
-    let bench = Bench::new()
-        .triangles(&[record(place.corners.map(|c| c * scale)), record(lid.map(|c| c * scale))]);
+    let bench = Bench::new().triangles(&[
+        record(0, place.corners.map(|c| c * scale)),
+        record(3, lid.map(|c| c * scale)),
+    ]);
     let mut kernel = bench.single();
     let s = kernel.triangle_flat_surface(0, b, -place.normal.as_vec3());
     let origin = kernel.state_origin(s.p, s.ng * s.gap, dir);
@@ -144,8 +147,8 @@ pub fn topic() -> Topic {
         title: "Where a ray starts",
         section: "4.5.2, 5.2.4, 6.1",
         places: &[
-            Place::File("shaders/wgsl/surface/surface.wgsl"),
-            Place::File("shaders/wgsl/kernel/state.wgsl"),
+            "shaders/wgsl/surface/surface.wgsl",
+            "shaders/wgsl/kernel/state.wgsl",
         ],
         rows: rows(),
         says: "The hit point is moved along the normal, by 0.001 units for shadow rays and 0.002 for others, \

@@ -1,7 +1,10 @@
 //! Sampling Henyey and Greenstein's phase function: the guide's inverse with its guard, and a form without
 //! a division by g.
 
-use super::{Place, Topic, row, share};
+use glam::{DVec3, Vec2, Vec3};
+
+use super::{Topic, row, share};
+use crate::kernel::Bench;
 use crate::statistics::Mean;
 use crate::statistics::stream::Stream;
 
@@ -13,23 +16,6 @@ pub fn guide(g: f32, u: f32) -> f32 {
     }
     let term = (1.0 - g * g) / (1.0 - g + 2.0 * g * u);
     (1.0 + g * g - term * term) / (2.0 * g.max(0.001))
-}
-
-/// Ours: cosine and sine to the forward direction, and density per steradian; `u` in [0, 1), |g| below 1.
-/// With D = 1 - a + 2 a u and a = |g|, 1 - cos = 2 (1 - a)^2 (1 - u) (1 + a u) / D^2 and
-/// 1 + cos = 2 (1 + a)^2 u (1 - a + a u) / D^2: positive factors throughout.
-#[must_use]
-pub fn ours(g: f32, u: f32) -> [f32; 3] {
-    let a = g.abs();
-    let om = 1.0 - a;
-    let d = om + 2.0 * a * u;
-    let k = 2.0 / (d * d);
-    let less = k * om * om * (1.0 - u) * (1.0 + a * u);
-    let more = k * (1.0 + a) * (1.0 + a) * u * (om + a * u);
-    let cos = if less < 1.0 { 1.0 - less } else { more - 1.0 };
-    let q = om * (1.0 + a);
-    let pdf = d * d * d / (4.0 * std::f32::consts::PI * q * q);
-    [if g < 0.0 { -cos } else { cos }, (less * more).sqrt(), pdf]
 }
 
 /// The cosine in double precision, by the guide's inverse without its guard; for g < 0 with u counted from
@@ -62,9 +48,12 @@ pub fn sample(g: f32, n: usize) -> [Sampled; 2] {
         Sampled { range: [f32::MAX, f32::MIN], outside: 0, mean: Mean::default(), error: 0.0 };
     let mut found = [start; 2];
     let mut stream = Stream::new(179, u64::from(g.to_bits()));
+    let bench = Bench::new();
+    let mut kernel = bench.single();
     for _ in 0..n {
         let u = stream.unit24();
-        let cosines = [(guide(g, u), false), (ours(g, u)[0], true)];
+        let cosines =
+            [(guide(g, u), false), (kernel.hg_sample(Vec3::Z, g, Vec2::new(u, 0.3)).z, true)];
         for (sampled, (cos, backward)) in found.iter_mut().zip(cosines) {
             sampled.range = [sampled.range[0].min(cos), sampled.range[1].max(cos)];
             sampled.outside += usize::from(cos.abs() > 1.0 + 1e-5);
@@ -76,18 +65,22 @@ pub fn sample(g: f32, n: usize) -> [Sampled; 2] {
     found
 }
 
-/// Largest relative error of the twin's density against the phase function at the exact cosine.
+/// Largest relative error of the kernel's density against the phase function at the exact cosine.
 #[must_use]
 pub fn density_error(g: f32, n: usize) -> f64 {
     let mut stream = Stream::new(181, u64::from(g.to_bits()));
     let wide = f64::from(g);
+    let bench = Bench::new();
+    let mut kernel = bench.single();
     let mut worst = 0.0_f64;
     for _ in 0..n {
-        let u = stream.unit24();
-        let d = 1.0 - wide.abs() + 2.0 * wide.abs() * f64::from(u);
-        let base = ((1.0 - wide * wide) / d).powi(2);
-        let exact = (1.0 - wide * wide) / (4.0 * std::f64::consts::PI * base.powf(1.5));
-        worst = worst.max((f64::from(ours(g, u)[2]) / exact - 1.0).abs());
+        let wi = kernel.hg_sample(Vec3::Z, g, Vec2::new(stream.unit24(), stream.unit24()));
+        // From the chord to the axis: near the peak the cosine has lost what the density depends on.
+        let axis = if g < 0.0 { DVec3::NEG_Z } else { DVec3::Z };
+        let a = wide.abs();
+        let base = (1.0 - a).powi(2) + a * (wi.as_dvec3() - axis).length_squared();
+        let exact = (1.0 - a * a) / (4.0 * std::f64::consts::PI * base.powf(1.5));
+        worst = worst.max((f64::from(kernel.hg_pdf(Vec3::Z, g, wi)) / exact - 1.0).abs());
     }
     worst
 }
@@ -119,7 +112,7 @@ pub fn topic() -> Topic {
     Topic {
         title: "Henyey-Greenstein backwards",
         section: "4.4.3",
-        places: &[Place::Twin("tests/src/corrections/phase.rs")],
+        places: &["shaders/wgsl/bsdf/hg.wgsl"],
         rows,
         says: "The closed inverse for the cosine, isotropic for |g| < 0.001, and max(g, 0.001) in the \
             divisor."
@@ -131,9 +124,8 @@ pub fn topic() -> Topic {
             not its neighbourhood: at g = 0.001 a tenth of what g does is rounding."
             .into(),
         right: "1 - cos and 1 + cos have closed forms whose factors are all positive; the smaller of \
-            them gives the cosine, their product the sine, and D³ the density. No branch and no division \
-            by g; backward scattering is forward scattering turned round. Its place in the kernel is \
-            `shaders/wgsl/bsdf/phase.wgsl`."
+            them gives the cosine, their product the sine. No branch and no division \
+            by g; backward scattering is forward scattering turned round."
             .into(),
     }
 }

@@ -2,9 +2,13 @@
 //!
 //! Isotropic scattering, no interface, light at normal incidence, as in `slab`.
 
-use glam::DVec3;
+#![expect(clippy::cast_possible_truncation, reason = "the kernel computes in f32")]
 
-use super::{Place, Row, Topic, estimate, off, row, slab};
+use glam::{DVec3, Vec2};
+use runtime::kernel::f32::{Kernel, Medium as Record};
+
+use super::{Row, Topic, estimate, off, row, slab};
+use crate::kernel::Bench;
 use crate::statistics::Mean;
 use crate::statistics::stream::Stream;
 
@@ -37,7 +41,7 @@ impl Medium {
 pub enum Steps {
     /// The mean of `sigma_t`, and absorption both along the step and at its end.
     Guide,
-    /// One channel's `sigma_t`, the weights of all three by the balance heuristic of one sample.
+    /// The kernel's: one channel's `sigma_t`, the weights of all three by the balance heuristic of one sample.
     Ours,
 }
 
@@ -45,49 +49,43 @@ fn exp(v: DVec3) -> DVec3 {
     DVec3::new(v.x.exp(), v.y.exp(), v.z.exp())
 }
 
-fn free_path(u: f64) -> f64 {
-    -(-u).ln_1p()
-}
-
 /// A step from `depth` along cosine `mu`: the new depth, inside or out, and the factor of the throughput.
 fn step(
     medium: &Medium,
-    steps: Steps,
+    kernel: Option<&mut Kernel<'_>>,
     (depth, mu): (f64, f64),
     throughput: DVec3,
     stream: &mut Stream,
 ) -> (f64, DVec3) {
-    let sigma_t = medium.sigma_t();
-    let albedo = medium.sigma_s / sigma_t;
     let edge = if mu < 0.0 { -depth / mu } else { (medium.thickness - depth) / mu };
-    let free = free_path(stream.unit());
-    if steps == Steps::Guide {
-        let d = free * 3.0 / sigma_t.element_sum();
-        let stays = d < edge;
-        let factor = exp(-medium.sigma_a * d) * albedo;
-        return (depth + d * mu, if stays { factor } else { DVec3::ONE });
-    }
-    let mut share = throughput * albedo;
-    share /= share.element_sum();
-    let u = stream.unit();
-    let k = usize::from(u >= share.x) + usize::from(u >= share.x + share.y);
-    let d = free / sigma_t[k];
-    // The smallest coefficient is a common factor: without it nothing underflows.
-    let excess = sigma_t - sigma_t.min_element();
-    if d < edge {
-        let e = exp(-excess * d);
-        (depth + d * mu, medium.sigma_s * e / share.dot(sigma_t * e))
-    } else {
-        let e = exp(-excess * edge);
-        (depth + d * mu, e / share.dot(e))
-    }
+    let Some(kernel) = kernel else {
+        let sigma_t = medium.sigma_t();
+        let d = -(-stream.unit()).ln_1p() * 3.0 / sigma_t.element_sum();
+        let factor = exp(-medium.sigma_a * d) * (medium.sigma_s / sigma_t);
+        return (depth + d * mu, if d < edge { factor } else { DVec3::ONE });
+    };
+    let record = Record {
+        sigma_a: medium.sigma_a.as_vec3(),
+        sigma_s: medium.sigma_s.as_vec3(),
+        ..Record::ZERO
+    };
+    let u = Vec2::new(stream.unit24(), stream.unit24());
+    let found = kernel.homogeneous_sample(record, throughput.as_vec3(), edge as f32, u);
+    // What passes is beyond the edge, by how much does not matter.
+    let d = if found.scatters { f64::from(found.t) } else { f64::INFINITY };
+    (depth + d * mu, found.weight.as_dvec3())
 }
 
 /// What one walk brings back through the front, and through the back.
-fn walk(medium: &Medium, steps: Steps, most: u32, stream: &mut Stream) -> [DVec3; 2] {
+fn walk(
+    medium: &Medium,
+    mut kernel: Option<&mut Kernel<'_>>,
+    most: u32,
+    stream: &mut Stream,
+) -> [DVec3; 2] {
     let (mut depth, mut mu, mut throughput) = (0.0, 1.0, DVec3::ONE);
     for _ in 0..most {
-        let (to, factor) = step(medium, steps, (depth, mu), throughput, stream);
+        let (to, factor) = step(medium, kernel.as_deref_mut(), (depth, mu), throughput, stream);
         throughput *= factor;
         if to < 0.0 {
             return [throughput, DVec3::ZERO];
@@ -108,10 +106,12 @@ fn walk(medium: &Medium, steps: Steps, most: u32, stream: &mut Stream) -> [DVec3
 /// Reflectance and transmittance of one channel by `n` walks of at most `most` steps.
 #[must_use]
 pub fn measure(medium: &Medium, steps: Steps, most: u32, channel: usize, n: u64) -> [Mean; 2] {
+    let bench = Bench::new();
+    let mut kernel = (steps == Steps::Ours).then(|| bench.single());
     let mut sums = [Mean::default(); 2];
     for i in 0..n {
         let mut stream = Stream::new(191, i);
-        let out = walk(medium, steps, most, &mut stream);
+        let out = walk(medium, kernel.as_mut(), most, &mut stream);
         for (sum, light) in sums.iter_mut().zip(out) {
             sum.add(light[channel]);
         }
@@ -168,7 +168,7 @@ pub fn topic() -> Topic {
     Topic {
         title: "A walk that is absorbed once",
         section: "4.4.2, 5.2.4",
-        places: &[Place::Twin("tests/src/corrections/random_walk.rs")],
+        places: &["shaders/wgsl/media/homogeneous.wgsl"],
         rows: rows(),
         says: "Free paths with the mean of the three extinction coefficients; at each step the throughput is \
             multiplied by e^(-σa d) and by the albedo; at most 20 steps for petals."
@@ -180,7 +180,7 @@ pub fn topic() -> Topic {
             in such a material, is gone. And twenty steps are few where paths take thousands: what \
             has not come out by then is lost."
             .into(),
-        right: "Draw the channel with the probability of its share of throughput times albedo, the distance \
+        right: "Draw the channel with the probability of its share of throughput times albedo (at least 0.05), the distance \
             with that channel's σt, and divide by the mean of the three densities: each channel's weight is \
             bounded, and in a grey medium it is exactly the albedo. End walks by roulette only. The smallest \
             σt is taken out of the exponents, so that nothing underflows."

@@ -5,7 +5,7 @@
 use glam::{DVec3, Vec3};
 use pack::abi::MaterialKind;
 
-use super::{Place, Topic, row, share};
+use super::{Topic, row, share};
 use crate::kernel::{Bench, Lobe};
 use crate::statistics::stream::Stream;
 
@@ -69,7 +69,7 @@ pub fn topic() -> Topic {
     Topic {
         title: "Refraction past the critical angle",
         section: "4.1",
-        places: &[Place::File("shaders/wgsl/bsdf/dielectric.wgsl")],
+        places: &["shaders/wgsl/bsdf/dielectric.wgsl"],
         rows: vec![
             row("length of the direction, out of index 1.5", lengths(&guided), lengths(&ours)),
             row(

@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 use runtime::kernel::f32 as single;
 
-use super::{Place, Topic, estimate, row};
+use super::{Topic, estimate, row};
 use crate::kernel::Bench;
 use crate::statistics::Mean;
 use crate::statistics::stream::Stream;
@@ -97,7 +97,7 @@ pub fn topic() -> Topic {
     Topic {
         title: "Russian roulette without caps and cuts",
         section: "1.5, 4.4.2",
-        places: &[Place::File("shaders/wgsl/kernel/vertex.wgsl")],
+        places: &["shaders/wgsl/kernel/vertex.wgsl"],
         rows: rows.into_iter().chain([cut_row]).collect(),
         says: "A path survives with the probability of its largest throughput: right. The walk inside a \
             medium also ends when the throughput is below a threshold. Many renderers, not the guide, also \

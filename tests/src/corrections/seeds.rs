@@ -3,7 +3,7 @@
 use glam::UVec2;
 use runtime::kernel::f32 as single;
 
-use super::{Place, Topic, grouped, row};
+use super::{Topic, grouped, row};
 use crate::kernel::Bench;
 
 /// Pixels of an image of 7680 x 4320.
@@ -87,7 +87,7 @@ pub fn topic() -> Topic {
     Topic {
         title: "Seeds that repeat",
         section: "2.2.5, 2.4",
-        places: &[Place::File("shaders/wgsl/sampler/pcg.wgsl")],
+        places: &["shaders/wgsl/sampler/pcg.wgsl"],
         rows: vec![
             row(
                 format!("samples that share a seed, 7680 x 4320 pixels, {SAMPLES} samples each"),

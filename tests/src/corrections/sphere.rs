@@ -5,7 +5,7 @@
 use glam::{DVec3, Vec3};
 use runtime::kernel::f32 as single;
 
-use super::{Place, Row, Topic, row, share};
+use super::{Row, Topic, row, share};
 use crate::kernel::Bench;
 use crate::statistics::stream::Stream;
 
@@ -128,8 +128,8 @@ pub fn topic() -> Topic {
         title: "Spheres that are far or huge",
         section: "3.2",
         places: &[
-            Place::File("shaders/wgsl/shape/sphere.wgsl"),
-            Place::File("shaders/wgsl/shape/triangle.wgsl"),
+            "shaders/wgsl/shape/sphere.wgsl",
+            "shaders/wgsl/shape/triangle.wgsl",
         ],
         rows: rows(),
         says: "The quadratic formula of school, b² - ac under the root. Pictures of this tradition stand on \

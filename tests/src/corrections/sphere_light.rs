@@ -10,7 +10,7 @@ use std::f32::consts::PI;
 use glam::{DVec3, Vec3};
 use runtime::kernel::f32 as single;
 
-use super::{Place, Row, Topic, estimate, row};
+use super::{Row, Topic, estimate, row};
 use crate::kernel::{Bench, Lobe};
 use crate::statistics::Mean;
 use crate::statistics::stream::Stream;
@@ -212,9 +212,9 @@ pub fn topic() -> Topic {
         title: "Sampling a spherical light",
         section: "6.1",
         places: &[
-            Place::File("shaders/wgsl/light/sphere.wgsl"),
-            Place::File("shaders/wgsl/kernel/direct.wgsl"),
-            Place::File("shaders/wgsl/light/choose.wgsl"),
+            "shaders/wgsl/light/sphere.wgsl",
+            "shaders/wgsl/kernel/direct.wgsl",
+            "shaders/wgsl/light/choose.wgsl",
         ],
         rows: rows(),
         says: "A uniform point of the whole sphere, whose area density is turned into a density of \

@@ -11,7 +11,7 @@ use pack::abi::{NONE, Triangle};
 use runtime::kernel::f32 as single;
 
 use super::guide_tree::{Corners, GuideTree};
-use super::{Place, Row, Topic, row, share};
+use super::{Row, Topic, row, share};
 use crate::kernel::Bench;
 use crate::statistics::stream::Stream;
 
@@ -148,8 +148,8 @@ pub fn topic() -> Topic {
         title: "A tree is walked to its end",
         section: "2.2.4, 3.4.1, 3.4.2",
         places: &[
-            Place::File("shaders/wgsl/trace/bvh.wgsl"),
-            Place::File("compiler/src/bvh/build.rs"),
+            "shaders/wgsl/trace/bvh.wgsl",
+            "compiler/src/bvh/build.rs",
         ],
         rows: rows(),
         says: "A stack of 256 node numbers as the proven size; what does not fit is dropped or searched \

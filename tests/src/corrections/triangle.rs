@@ -6,7 +6,7 @@
 use glam::{DVec3, Vec3};
 use runtime::kernel::f32 as single;
 
-use super::{Place, Row, Topic, row, share};
+use super::{Row, Topic, row, share};
 use crate::kernel::Bench;
 use crate::statistics::stream::Stream;
 
@@ -180,7 +180,7 @@ pub fn topic() -> Topic {
     Topic {
         title: "Triangles without cracks",
         section: "3.3.2, 3.3.3",
-        places: &[Place::File("shaders/wgsl/shape/triangle.wgsl")],
+        places: &["shaders/wgsl/shape/triangle.wgsl"],
         rows: rows(),
         says: "The Möller-Trumbore test; a determinant below 1e-12 means parallel; barycentric weights may \
             be out of range by 1e-6, or else there are cracks along shared edges."

@@ -158,7 +158,7 @@ abi_struct! {
 impl WideNode {
     /// The `ChildRef` words of all four places; those that are not there are `NONE`.
     #[must_use]
-    pub fn children(&self) -> [u32; WIDTH] {
+    pub fn words(&self) -> [u32; WIDTH] {
         [self.child0, self.child1, self.child2, self.child3]
     }
 
