@@ -97,7 +97,7 @@ fn dump(tree: &Joined) -> Vec<u8> {
                 stack.push((n.left, first));
             }
             ChildRef::Triangles { first, count } => (nodes[at].2, nodes[at].3) = (first, count),
-            ChildRef::Spheres { .. } | ChildRef::Empty => {}
+            ChildRef::Spheres { .. } | ChildRef::Instance(_) | ChildRef::Empty => {}
         }
     }
     let mut out = Vec::new();

@@ -36,11 +36,11 @@ use thiserror::Error;
 
 pub use check::TreeFault;
 pub use fragment::{Bounds, COORD_MAX, Fragment, MAX_PRIMITIVES};
-pub use join::{Group, GroupKind, Joined, join};
+pub use join::{Group, GroupKind, Joined, join, stack_need};
 pub use pieces::Split;
 pub use preset::{Preset, UnknownPreset};
-pub use scene::{BuildReport, Primitives, SMALL_MESH, build_scene, plan};
-pub use wide::{Layout, UnknownLayout, widen};
+pub use scene::{BuildReport, Primitives, SMALL_MESH, Shared, build_instanced, build_scene, plan};
+pub use wide::{Layout, UnknownLayout, widen, widen_all};
 
 /// The tree of one group of primitives, with indices local to the group. Leaves are written as
 /// triangles whatever they hold.
@@ -65,7 +65,10 @@ pub struct Tree {
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum BvhError {
     /// More primitives than leaf references can address.
-    #[error("{count} primitives of one kind, but at most {MAX_PRIMITIVES} are possible")]
+    #[error(
+        "{count} primitives of one kind are too many; {MAX_PRIMITIVES} triangles and half as many spheres are \
+         possible"
+    )]
     TooMany {
         /// How many there are.
         count: usize,

@@ -26,14 +26,18 @@ mod order;
 mod pieces;
 mod power;
 mod principled;
+mod share;
 mod sheet;
 mod sky;
 mod sky_table;
+mod stored;
 mod texture;
 mod thick;
 
 pub use assemble::{Counters, LowerError, Lowered, Times, Trees, lower};
 pub use geometry::Placement;
+pub use share::{Instancing, MIN_SAVED, MIN_TRIANGLES, UnknownInstancing};
+pub use stored::{Placed, Stored};
 pub use texture::{TextureTable, srgb_table};
 
 use std::sync::Arc;

@@ -156,6 +156,7 @@ impl Compiled {
             .records(&lowered.spheres)
             .records(&lowered.materials)
             .records(&lowered.objects)
+            .records(&lowered.instances)
             .records(&lowered.media)
             .records(&lowered.lights)
             .records(&lowered.light_nodes)

@@ -44,6 +44,7 @@ pub(crate) fn table() -> Result<String, Box<dyn Error>> {
         trees(),
         layers(),
         motion(),
+        instances(),
         layouts(),
     ];
     let mut declarations: BTreeMap<String, Texts> = BTreeMap::new();
@@ -273,6 +274,15 @@ fn motion() -> Family {
     let members =
         members.map(|(bits, motion)| (bits, FeatureSet { motion, ..FeatureSet::full() })).collect();
     Family { mask: bit::MOTION, members }
+}
+
+/// Whether meshes have instances.
+fn instances() -> Family {
+    let member = |instances| {
+        let bits = if instances { bit::INSTANCES } else { 0 };
+        (bits, FeatureSet { instances, ..FeatureSet::full() })
+    };
+    Family { mask: bit::INSTANCES, members: [false, true].map(member).into() }
 }
 
 /// How nodes are stored.

@@ -21,7 +21,7 @@ const BOUND: [(u32, Kind); 6] = [
 ];
 
 /// Small tables that share one buffer, in this order.
-const HEAP: [Kind; 10] = [
+const HEAP: [Kind; 11] = [
     Kind::CAMERA,
     Kind::SKY,
     Kind::MATERIAL,
@@ -32,6 +32,7 @@ const HEAP: [Kind; 10] = [
     Kind::SRGBLUT,
     Kind::SKYTABLE,
     Kind::LIGHTNODE,
+    Kind::INSTANCE,
 ];
 
 /// Bytes of one window of a section: the largest binding that every device has. Window `w` of binding
@@ -120,6 +121,7 @@ impl Scene {
             srgb_at,
             sky_table_at,
             light_tree_at,
+            instance_at,
         ] = at;
         // The full kernel asks this number whether there is a sky; a specialised one knows.
         let sky_at = if self.pack.sky().is_some() { sky_at } else { NONE };
@@ -144,6 +146,7 @@ impl Scene {
             srgb_at,
             sky_table_at,
             light_tree_at,
+            instance_at,
             root: settings.root,
             estimator: job.estimator,
             sampler: settings.sampler,

@@ -63,6 +63,8 @@ pub struct FeatureSet {
     pub principled_transmission: bool,
     /// Some object moves while the shutter is open.
     pub motion: bool,
+    /// There are instances; only with `triangles`.
+    pub instances: bool,
     /// Layouts of nodes; a scene has one.
     pub layouts: BTreeSet<NodeLayout>,
     /// Entries of the traversal stack, at least 1: `RenderSettings::stack_need`.
@@ -142,6 +144,7 @@ impl FeatureSet {
             principled_coat: false,
             principled_transmission: false,
             motion: false,
+            instances: false,
             layouts: [NodeLayout::Binary].into(),
             stack_size: 1,
             windows: Windows::default(),
@@ -181,6 +184,7 @@ impl FeatureSet {
             principled_coat: true,
             principled_transmission: true,
             motion: true,
+            instances: true,
             layouts: [NodeLayout::Binary, NodeLayout::Wide].into(),
             stack_size: 96,
             windows: Windows::default(),

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use compiler::bvh::Layout;
+use compiler::lower::Instancing;
 use compiler::pipeline::Compiled;
 use lang::scene::Scene;
 use pack::{Checked, Pack};
@@ -131,6 +133,26 @@ pub const CASES: &[Case] = &[
     case("alpha on triangles", &[GRADIENT, SPHERE_LIGHT, WEAR, LACE, TENT, FLOOR]),
     case("smooth normals", &[GRADIENT, SPHERE_LIGHT, PLASTIC, TENT, FLOOR]),
     case("mirrored instances", &[GRADIENT, SPHERE_LIGHT, PLASTIC, MIRRORED, FLOOR]),
+    // Meshes that are stored once: mirrored, sheared, alone, and with everything that can be hit in the world.
+    case("instances", &[GRADIENT, SPHERE_LIGHT, PLASTIC, BEADS, FLOOR]),
+    case("instances alone", &[SKY, CLAY, BEADS]),
+    case(
+        "instances, brushed and of their own material",
+        &[GRADIENT, BRUSHED, BEADS, PLAIN_BEAD, BALL],
+    ),
+    case(
+        "instances with normal maps",
+        &[GRADIENT, SPHERE_LIGHT, BUMPS, BUMPY_PLASTIC, BEADS, QUILT, FLOOR],
+    ),
+    case("cut-out instances", &[SKY, SPHERE_LIGHT, WEAR, LACE, BEADS, FLOOR]),
+    case("instances of wood", &[GRADIENT, SPHERE_LIGHT, WOOD_X, BEADS, FLOOR]),
+    case("instances of glass, filled", &[GRADIENT, SPHERE_LIGHT, INK, FILLED, BEADS, FLOOR]),
+    case("instances inside each other", &[GRADIENT, SPHERE_LIGHT, INK, MILK, NESTED_BEADS, FLOOR]),
+    case("instances of petals", &[GRADIENT, SPHERE_LIGHT, FLAT_PETAL, BEADS, FLOOR]),
+    Case {
+        camera: SHUTTER,
+        ..case("moving instances", &[GRADIENT, SPHERE_LIGHT, PLASTIC, MOVING_BEADS, FLOOR])
+    },
     // Layers of principled surfaces, smooth and rough, with and without textures.
     case("coat", &[GRADIENT, SPHERE_LIGHT, COATED, BALL, TENT, FLOOR]),
     case("smooth coat", &[GRADIENT, SPHERE_LIGHT, VARNISH, BALL, FLOOR]),
@@ -203,6 +225,7 @@ const ALL: &[&str] = &[
     NESTED_BALLS,
     MIST,
     POND,
+    ALL_BEADS,
     FLOOR,
 ];
 
@@ -303,6 +326,36 @@ instance canvas { shape = tent, material = m, at = (1.2, 0, 1.6)m, scale = (1, 1
 const BOX: &str = "instance crate { shape = box(size: (1, 1, 1)m), material = m, rotate = (0, 30, 0)deg, at = (0, 0.7, 1)m }\n";
 const TENT: &str = "asset tent = obj(\"tent.obj\", unit: m, up: +y)
 instance canvas { shape = tent, material = m, at = (1.2, 0, 1.6)m, scale = (1, 1.5, 1) }\n";
+/// A ball of 432 triangles, stored once: turned, stretched, mirrored, sheared.
+const BEADS: &str = "asset bead = obj(\"bead.obj\", unit: m, up: +y)
+object bent { shape = bead, rotate = (0, 30, 40)deg, scale = (0.5, 0.4, 0.7) }
+instance bead_a { shape = bead, material = m, rotate = (20, 40, 0)deg, at = (-1.4, 0.7, 0)m, scale = (0.7, 0.5, 0.9) }
+instance bead_b { shape = bead, material = m, rotate = (0, -70, 30)deg, at = (1, 0.8, 0.6)m, scale = (-0.6, 0.8, 0.4) }
+instance bead_c { shape = bead, material = m, at = (-0.2, 0.5, 1.4)m, scale = 0.5 }
+instance bead_d { shape = bent, material = m, rotate = (15, 0, 5)deg, at = (0.3, 1.5, -0.6)m, scale = (1.4, -0.8, 1) }\n";
+const PLAIN_BEAD: &str =
+    "instance bead_e { shape = bead, at = (1.2, 0.4, 1.6)m, scale = (0.4, 0.3, -0.5) }\n";
+const MOVING_BEADS: &str = "asset bead = obj(\"bead.obj\", unit: m, up: +y)
+instance bead_a { shape = bead, material = m, rotate = (20, 40, 0)deg, at = (-1.4, 0.7, 0)m, scale = (0.7, 0.5, 0.9), velocity = (50, 10, 0)m/s }
+instance bead_b { shape = bead, material = m, rotate = (0, -70, 30)deg, at = (1, 0.8, 0.6)m, scale = (-0.6, 0.8, 0.4), velocity = (0, 30, -40)m/s }
+instance bead_c { shape = bead, material = m, at = (-0.2, 0.5, 1.4)m, scale = 0.5 }
+instance bead_d { shape = bead, material = m, at = (0.4, 1.7, 0)m, scale = 0.3 }\n";
+const NESTED_BEADS: &str = "asset bead = obj(\"bead.obj\", unit: m, up: +y)
+material m: dielectric { ior = 1.5, interior = ink, priority = 2 }
+material n: dielectric { ior = 1.33, interior = milk, priority = 1 }
+material o: dielectric { ior = 1, priority = 3 }
+instance bead_a { shape = bead, material = n, at = (0, 1, 0)m }
+instance bead_b { shape = bead, material = m, rotate = (0, 30, 0)deg, at = (0, 0.5, 0.6)m, scale = (-0.9, 0.4, 0.7) }
+instance bead_c { shape = bead, material = o, at = (0.3, 1.3, 0.4)m, scale = 0.3 }
+instance bead_d { shape = bead, material = n, at = (1.7, 0.4, 0)m, scale = (0.3, 0.4, 0.3) }\n";
+/// No petal of it leans, so that all of them are alike.
+const FLAT_PETAL: &str =
+    "material m: petal { color = linear(0.9, 0.5, 0.6), pillow = 0, tilt = 0 }\n";
+const ALL_BEADS: &str = "asset bead = obj(\"bead.obj\", unit: m, up: +y)
+instance bead_a { shape = bead, material = steel, rotate = (20, 40, 0)deg, at = (-1.9, 0.5, 1.6)m, scale = (0.2, 0.3, -0.25) }
+instance bead_b { shape = bead, material = glass, rotate = (0, -70, 30)deg, at = (1, 0.3, 1.9)m, scale = (0.3, 0.2, 0.25), velocity = (10, 20, 0)m/s }
+instance bead_c { shape = bead, material = n, at = (1.9, 0.4, 1.2)m, scale = 0.25 }
+instance bead_d { shape = bead, at = (1.4, 1.3, 0.6)m, scale = 0.25 }\n";
 const MIRRORED: &str = "asset tent = obj(\"tent.obj\", unit: m, up: +y)
 instance one { shape = tent, material = m, at = (1.2, 0, 1)m, scale = (1, 1.5, -1), rotate = (0, 20, 0)deg }
 instance two { shape = tent, material = m, at = (-1, 0.9, 1)m, scale = (-1.5, -1, -1.2) }\n";
@@ -446,6 +499,40 @@ const QUILT_OBJ: &str = "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1
 vt -1.4 -1.2\nvt 2.3 -1.2\nvt 2.3 2.1\nvt -1.4 2.1
 f 1/1 2/2 3/3 4/4\n";
 
+/// A ball of 18 by 13 bands with normals and texture coordinates; places are multiples of 2^-10, so that they can
+/// be shifted without a loss.
+fn bead_obj() -> String {
+    use std::f64::consts::PI;
+    use std::fmt::Write as _;
+    let (n, m) = (18_u32, 13_u32);
+    let mut text = String::new();
+    for j in 0..=m {
+        for i in 0..=n {
+            let (u, v) = (f64::from(i) / f64::from(n), f64::from(j) / f64::from(m));
+            // The seam has the same places on both sides, and so have the poles.
+            let (sin, cos) = (2.0 * PI * f64::from(i % n) / f64::from(n)).sin_cos();
+            let radius = if j % m == 0 { 0.0 } else { (PI * v).sin() };
+            let p = [radius * cos, -(PI * v).cos(), radius * sin]
+                .map(|x| (x * 1024.0).round() / 1024.0);
+            let [x, y, z] = p;
+            writeln!(text, "v {x} {y} {z}\nvn {x} {y} {z}\nvt {u} {v}").expect("strings take all");
+        }
+    }
+    for j in 0..m {
+        for i in 0..n {
+            let at = |i: u32, j: u32| j * (n + 1) + i + 1;
+            let [a, b, c, d] = [at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)];
+            if j > 0 {
+                writeln!(text, "f {a}/{a}/{a} {c}/{c}/{c} {d}/{d}/{d}").expect("strings take all");
+            }
+            if j + 1 < m {
+                writeln!(text, "f {a}/{a}/{a} {b}/{b}/{b} {c}/{c}/{c}").expect("strings take all");
+            }
+        }
+    }
+    text
+}
+
 /// The case with this name.
 ///
 /// # Panics
@@ -470,6 +557,19 @@ pub fn compiled(case: &Case) -> Compiled {
 /// When the case is not a scene.
 #[must_use]
 pub fn changed(case: &Case, change: impl FnOnce(&mut Scene)) -> Compiled {
+    with(case, (Instancing::default(), Layout::default()), change)
+}
+
+/// Compiles a case with or without meshes that are stored once, and with this layout of nodes.
+///
+/// # Panics
+/// When the case is not a scene.
+#[must_use]
+pub fn shared(case: &Case, instancing: Instancing, layout: Layout) -> Compiled {
+    with(case, (instancing, layout), |_| {})
+}
+
+fn with(case: &Case, how: (Instancing, Layout), change: impl FnOnce(&mut Scene)) -> Compiled {
     let dir = tempfile::tempdir().expect("a temporary directory can be made");
     write_files(dir.path());
     let Case { parts, camera, render, .. } = case;
@@ -486,7 +586,7 @@ camera eye: perspective {{
 film small {{ size = (40, 30)px }}
 render main: path {{ camera = eye, film = small, samples = 8, depth = 8, seed = 7{render}{air} }}\n",
     );
-    crate::scene::compile_changed(dir.path(), &text, change)
+    crate::scene::compile_shared(dir.path(), &text, how, change)
 }
 
 /// Compiles a case into a checked pack.
@@ -516,7 +616,8 @@ fn write_files(dir: &Path) {
     };
     exr::prelude::write_rgb_file(dir.join("panorama.exr"), 16, 8, sun)
         .expect("an image can be written");
-    for (name, text) in [("tent.obj", TENT_OBJ), ("quilt.obj", QUILT_OBJ)] {
+    let bead = bead_obj();
+    for (name, text) in [("tent.obj", TENT_OBJ), ("quilt.obj", QUILT_OBJ), ("bead.obj", &bead)] {
         std::fs::write(dir.join(name), text).expect("a mesh can be written");
     }
 }

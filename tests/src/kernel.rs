@@ -3,7 +3,7 @@
 use crate::layers::Layers;
 use bytemuck::Pod;
 use compiler::lower::Lowered;
-use glam::{DVec2, DVec3, UVec4, Vec3};
+use glam::{DVec2, DVec3, UVec2, UVec4, Vec3};
 use pack::abi::{
     Camera, Frame, Light, LightNode, Material, MaterialKind, Medium, NONE, Node, Object,
     SamplerKind, Sky, Sphere, TriShade, Triangle,
@@ -21,6 +21,28 @@ pub struct Bench {
     triangles: Vec<UVec4>,
     shades: Vec<UVec4>,
     spheres: Vec<UVec4>,
+}
+
+/// A ray of the world for the kernel in single precision: to the nearest hit, from no surface, when the shutter opens.
+#[must_use]
+pub fn ray(origin: Vec3, dir: Vec3) -> single::Ray {
+    let skip = UVec2::splat(NONE);
+    let t_max = single::RAY_FAR;
+    single::Ray { origin, t_max, dir, skip, light: NONE, time: 0.0, instance: NONE }
+}
+
+/// As [`ray`], in double precision.
+#[must_use]
+pub fn ray_double(origin: DVec3, dir: DVec3) -> double::Ray {
+    let skip = UVec2::splat(NONE);
+    let t_max = double::RAY_FAR;
+    double::Ray { origin, t_max, dir, skip, light: NONE, time: 0.0, instance: NONE }
+}
+
+/// What a ray skips that starts on primitive `prim` of the world.
+#[must_use]
+pub fn skip(prim: u32) -> UVec2 {
+    UVec2::new(prim, NONE)
 }
 
 fn words<R: Pod>(records: &[R]) -> Vec<UVec4> {
@@ -47,6 +69,7 @@ impl Bench {
             fog: NONE,
             inside: [NONE; 4],
             light_tree_at: NONE,
+            instance_at: NONE,
             image_size: [64, 64],
             ..Frame::default()
         };
@@ -134,6 +157,8 @@ impl Bench {
     #[must_use]
     pub fn shapes(self, lowered: &Lowered) -> Self {
         let mut bench = self.objects(&lowered.objects).materials(&lowered.materials);
+        bench.frame.instance_at = bench.heap_end();
+        bench.heap.extend(words(&lowered.instances));
         bench.nodes = words(&lowered.nodes);
         bench.nodes.extend(words(&lowered.wide_nodes));
         bench.frame.wide = u32::from(!lowered.wide_nodes.is_empty());

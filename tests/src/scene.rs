@@ -5,7 +5,7 @@ use std::path::Path;
 use compiler::bvh::{Layout, Preset};
 use compiler::cache::Cache;
 use compiler::import::Limits;
-use compiler::lower::Trees;
+use compiler::lower::{Instancing, Trees};
 use compiler::pipeline::{self, Compiled, Options};
 use lang::scene::Scene;
 use lang::source::{LoadError, Loader};
@@ -52,7 +52,7 @@ pub fn example(example: &Example, defines: &[(&str, &str)]) -> Compiled {
     let name = source.display().to_string();
     let analysis = lang::analyze(&name, &text, &mut Beside, &options);
     let cache = Cache::disabled();
-    let trees = usual(&cache);
+    let trees = Trees::usual(&cache);
     let compiled = finish(&root, trees, analysis, &options.defines, |_| {});
     let (compiled, diagnostics) = compiled;
     assert!(diagnostics.is_empty(), "{diagnostics}");
@@ -88,7 +88,7 @@ pub fn compile_in(root: &Path, text: &str) -> Compiled {
 /// As `compile_in`.
 #[must_use]
 pub fn compile_with(root: &Path, text: &str, cache: &Cache) -> Compiled {
-    compile_as(root, text, usual(cache), |_| {})
+    compile_as(root, text, Trees::usual(cache), |_| {})
 }
 
 /// As `compile_in`, with trees by this builder in this layout.
@@ -97,12 +97,23 @@ pub fn compile_with(root: &Path, text: &str, cache: &Cache) -> Compiled {
 /// As `compile_in`.
 #[must_use]
 pub fn compile_built(root: &Path, text: &str, preset: Preset, layout: Layout) -> Compiled {
-    compile_as(root, text, Trees { preset, layout, cache: &Cache::disabled() }, |_| {})
+    let cache = Cache::disabled();
+    compile_as(root, text, Trees { preset, layout, ..Trees::usual(&cache) }, |_| {})
 }
 
-/// Trees as everybody gets them.
-fn usual(cache: &Cache) -> Trees<'_> {
-    Trees { preset: Preset::default(), layout: Layout::default(), cache }
+/// As `compile_changed`, with or without meshes that are stored once, and with this layout of nodes.
+///
+/// # Panics
+/// As `compile_in`.
+#[must_use]
+pub fn compile_shared(
+    root: &Path,
+    text: &str,
+    (instancing, layout): (Instancing, Layout),
+    change: impl FnOnce(&mut Scene),
+) -> Compiled {
+    let cache = Cache::disabled();
+    compile_as(root, text, Trees { instancing, layout, ..Trees::usual(&cache) }, change)
 }
 
 /// As `compile_in`; `change` alters the checked scene before it is lowered.
@@ -111,7 +122,7 @@ fn usual(cache: &Cache) -> Trees<'_> {
 /// As `compile_in`.
 #[must_use]
 pub fn compile_changed(root: &Path, text: &str, change: impl FnOnce(&mut Scene)) -> Compiled {
-    compile_as(root, text, usual(&Cache::disabled()), change)
+    compile_as(root, text, Trees::usual(&Cache::disabled()), change)
 }
 
 fn compile_as(

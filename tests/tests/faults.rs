@@ -3,7 +3,6 @@
 
 use std::path::Path;
 
-use compiler::bvh::{Layout, Preset};
 use compiler::cache::Cache;
 use compiler::import::Limits;
 use compiler::lower::Trees;
@@ -61,7 +60,7 @@ fn findings(dir: &Path, text: &str) -> (SourceSet, Vec<Diagnostic>) {
     if let Some(scene) = &analysis.scene {
         let cache = Cache::disabled();
         let limits = Limits::default();
-        let trees = Trees { preset: Preset::default(), layout: Layout::default(), cache: &cache };
+        let trees = Trees::usual(&cache);
         let options = Options { root: dir, trees, limits, defines: &[] };
         // Only what was found counts here; that nothing was written follows from it.
         let _ = pipeline::compile(scene, &analysis.sources, &options, &mut diagnostics);

@@ -12,7 +12,7 @@ use glam::Vec3;
 use pack::Pack;
 use pack::abi::Triangle;
 use runtime::kernel::f32 as single;
-use tests::kernel::Bench;
+use tests::kernel::{Bench, ray, skip};
 use tests::picture;
 use tests::scene::{bytes, compile_built};
 use tests::statistics::stream::Stream;
@@ -130,7 +130,6 @@ fn a_ray_does_not_meet_the_triangle_that_it_starts_on_in_any_place() {
     let lowered = &compiled.lowered;
     let bench = Bench::new().shapes(lowered);
     let mut kernel = bench.single();
-    let (t_max, none) = (single::RAY_FAR, single::NONE);
     let mut met = 0;
     for places in &several {
         let t = &lowered.triangles[places[0] as usize];
@@ -140,17 +139,10 @@ fn a_ray_does_not_meet_the_triangle_that_it_starts_on_in_any_place() {
             let u = f32::from(k) / 20.0;
             let p = a + (b - a) * (u * 0.8) + (c - a) * 0.1;
             let dir = (n + (b - a).normalize() * (u - 0.5)).normalize();
-            let ray = |skip| single::Ray {
-                origin: p - dir * 1e-5,
-                t_max,
-                dir,
-                skip,
-                light: none,
-                time: 0.0,
-            };
-            met += usize::from(places.contains(&kernel.trace(ray(none)).prim));
+            let from = |prim| single::Ray { skip: skip(prim), ..ray(p - dir * 1e-5, dir) };
+            met += usize::from(places.contains(&kernel.trace(from(single::NONE)).prim));
             for &place in places {
-                let hit = kernel.trace(ray(place));
+                let hit = kernel.trace(from(place));
                 assert!(!places.contains(&hit.prim), "{places:?}: {hit:?}");
             }
         }
@@ -214,15 +206,13 @@ fn both_layouts_give_every_ray_the_same_hit() {
     let (mut met, n) = (0, 200_000);
     for _ in 0..n {
         let (origin, way) = tight_ray(&mut stream, triangles);
-        let (t_max, none) = (single::RAY_FAR, single::NONE);
-        let ray =
-            single::Ray { origin, t_max, dir: way.normalize(), skip: none, light: none, time: 0.0 };
+        let ray = ray(origin, way.normalize());
         let hits = [wide.trace(ray), binary.trace(ray)];
         // Of a triangle in several leaves any place may be met first.
         let what = |hit: single::Hit| triangles.get(hit.prim as usize).ok_or(hit.prim);
         let bits = hits.map(|hit| (what(hit), hit.t.to_bits(), hit.b.to_array().map(f32::to_bits)));
         assert_eq!(bits[0], bits[1], "from {origin} along {way}");
-        met += usize::from(hits[0].prim != none);
+        met += usize::from(hits[0].prim != single::NONE);
     }
     assert!(met > n / 2, "{met} of {n} rays meet anything");
 }

@@ -114,7 +114,7 @@ fn compare(
         layout: Layout::Wide,
         made,
         node_bytes: size_of_val(wide.as_slice()),
-        stack: pack::bvh::stack_need(&wide, root),
+        stack: pack::bvh::stack_need(&wide, &[], root),
         cost: cost_wide,
         cpu: cpu_wide,
         ..binary
@@ -163,7 +163,8 @@ impl Words {
                 origin: ray.origin,
                 t_max: kernel::RAY_FAR,
                 dir: ray.dir,
-                skip: NONE,
+                skip: glam::UVec2::splat(NONE),
+                instance: NONE,
                 light: NONE,
                 time: 0.0,
             });

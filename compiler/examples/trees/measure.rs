@@ -104,7 +104,7 @@ fn child([lo, hi]: [[f32; 3]; 2], word: u32) -> Child {
         ChildRef::Triangles { first, count } | ChildRef::Spheres { first, count } => {
             To::Leaf { first, count }
         }
-        ChildRef::Empty => To::Nowhere,
+        ChildRef::Instance(_) | ChildRef::Empty => To::Nowhere,
     };
     Child { lo: Vec3::from_array(lo), hi: Vec3::from_array(hi), to }
 }

@@ -77,7 +77,9 @@ pub(super) fn tree_depth(
                 }
                 next_prim += count as usize;
             }
-            ChildRef::Spheres { .. } | ChildRef::Empty => return Err(TreeFault::Kind),
+            ChildRef::Spheres { .. } | ChildRef::Instance(_) | ChildRef::Empty => {
+                return Err(TreeFault::Kind);
+            }
         }
     }
     if next_node != n_nodes {

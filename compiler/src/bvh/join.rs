@@ -2,16 +2,18 @@
 //!
 //! Turns the trees of meshes and of the spheres into one flat node array in depth-first order, with
 //! primitives numbered as the pack stores them. Any number of groups of any size is fine: none
-//! gives an empty tree, few primitives a root that is a leaf.
+//! gives an empty tree, few primitives a root that is a leaf. Trees of meshes that are stored once, in frames
+//! of their own, come after it.
 //!
 //! Boxes are made a little larger than their contents, see [`pad_lo`].
 
 use std::ops::Range;
 
-use pack::abi::{CHILD_INNER, ChildRef, NONE, Node};
+use pack::abi::{CHILD_INNER, ChildRef, Instance, NONE, Node};
+use pack::bvh::InnerNode;
 
 use super::fragment::{Bounds, MAX_PRIMITIVES};
-use super::top::{self, MAX_TOP_LEVELS, Top};
+use super::top::{self, Door, MAX_TOP_LEVELS, Piece, Top};
 use super::words::{as_spheres, shift_word};
 use super::{BvhError, Tree, word_of};
 
@@ -48,6 +50,8 @@ pub struct Joined {
     pub triangle_order: Vec<u32>,
     /// For each sphere as the pack stores it, its index in the scene's list.
     pub sphere_order: Vec<u32>,
+    /// References to the roots of meshes that are stored once.
+    pub mesh_roots: Vec<u32>,
     /// Entries of the traversal stack that the worst ray needs; at most 95.
     pub stack_need: u32,
     /// Box of everything; `Bounds::EMPTY` when there is nothing.
@@ -59,11 +63,11 @@ pub struct Joined {
 /// # Errors
 /// When there are too many references.
 pub fn join(groups: &[Group]) -> Result<Joined, BvhError> {
-    join_groups(groups).map(|(joined, _)| joined)
+    join_groups(groups, &[]).map(|(joined, _)| joined)
 }
 
-/// Joins groups; also tells whether some of them overlap in more places than could be separated.
-pub(super) fn join_groups(groups: &[Group]) -> Result<(Joined, bool), BvhError> {
+/// Joins groups and instances; also tells whether some groups overlap in more places than could be separated.
+pub(super) fn join_groups(groups: &[Group], doors: &[Door]) -> Result<(Joined, bool), BvhError> {
     let count = |kind| {
         let of_kind = groups.iter().filter(|g| g.kind == kind);
         of_kind.map(|g| g.tree.order.len()).sum::<usize>()
@@ -73,27 +77,58 @@ pub(super) fn join_groups(groups: &[Group]) -> Result<(Joined, bool), BvhError> 
         return Err(BvhError::TooMany { count });
     }
     let trees: Vec<&Tree> = groups.iter().map(|g| &g.tree).collect();
-    let (mut pieces, tangled) = top::pieces(&trees);
+    let (mut pieces, tangled) = top::pieces(&trees, doors);
     let n_nodes: usize = trees.iter().map(|t| t.nodes.len()).sum();
     let mut out = Joined {
         nodes: Vec::with_capacity(n_nodes + groups.len()),
         root: NONE,
         triangle_order: Vec::with_capacity(counts[0]),
         sphere_order: Vec::with_capacity(counts[1]),
+        mesh_roots: Vec::new(),
         stack_need: 0,
-        bounds: trees.iter().fold(Bounds::EMPTY, |b, t| b.union(t.bounds)),
+        bounds: (trees.iter().map(|tree| tree.bounds))
+            .chain(doors.iter().map(|door| door.bounds))
+            .fold(Bounds::EMPTY, Bounds::union),
     };
     if pieces.is_empty() {
         return Ok((out, tangled));
     }
     let members: Vec<Vec<u32>> = groups.iter().map(scene_order).collect();
     out.root = write(&top::build(&mut pieces, MAX_TOP_LEVELS), groups, &members, &mut out);
-    out.stack_need = pack::bvh::stack_need(&out.nodes, out.root);
+    out.stack_need = pack::bvh::stack_need(&out.nodes, &[], out.root);
     debug_assert_eq!([out.triangle_order.len(), out.sphere_order.len()], counts);
     Ok((out, tangled))
 }
 
 impl Joined {
+    /// Adds the trees of meshes that are stored once; `mesh_of` says which of them each instance shows.
+    ///
+    /// # Errors
+    /// When there are too many references.
+    pub(super) fn add_meshes(
+        &mut self,
+        meshes: &[Group],
+        mesh_of: &[usize],
+    ) -> Result<(), BvhError> {
+        let count = self.triangle_order.len()
+            + meshes.iter().map(|mesh| mesh.tree.order.len()).sum::<usize>();
+        if count > MAX_PRIMITIVES {
+            return Err(BvhError::TooMany { count });
+        }
+        let members: Vec<Vec<u32>> = meshes.iter().map(scene_order).collect();
+        let trees: Vec<&Tree> = meshes.iter().map(|mesh| &mesh.tree).collect();
+        for mesh in 0..meshes.len() {
+            let root = if trees[mesh].root == NONE {
+                NONE
+            } else {
+                write(&Top::Piece(Piece::whole(&trees, mesh)), meshes, &members, self)
+            };
+            self.mesh_roots.push(root);
+        }
+        self.stack_need = stack_need(&self.nodes, &self.mesh_roots, mesh_of, self.root);
+        Ok(())
+    }
+
     /// Expected cost of a ray by the surface-area heuristic, up to a factor that depends on the scene
     /// alone: the sum over all children of half-area times 1 (node) or the number of primitives.
     #[must_use]
@@ -104,7 +139,7 @@ impl Joined {
         };
         let tests = |word| match ChildRef::decode(word) {
             ChildRef::Triangles { count, .. } | ChildRef::Spheres { count, .. } => count,
-            ChildRef::Inner(_) | ChildRef::Empty => 1,
+            ChildRef::Inner(_) | ChildRef::Instance(_) | ChildRef::Empty => 1,
         };
         let cost = |n: &Node| {
             half_area(n.left_lo, n.left_hi) * f64::from(tests(n.left))
@@ -112,6 +147,20 @@ impl Joined {
         };
         self.nodes.iter().map(cost).sum()
     }
+}
+
+/// Entries of the traversal stack that the worst ray needs, where instance `i` shows the mesh with root
+/// `mesh_roots[mesh_of[i]]`.
+#[must_use]
+pub fn stack_need<N: InnerNode>(
+    nodes: &[N],
+    mesh_roots: &[u32],
+    mesh_of: &[usize],
+    root: u32,
+) -> u32 {
+    let shown = |mesh: &usize| Instance { root: mesh_roots[*mesh], ..Instance::default() };
+    let instances: Vec<Instance> = mesh_of.iter().map(shown).collect();
+    pack::bvh::stack_need(nodes, &instances, root)
 }
 
 /// The primitives of a group's leaves, in leaf order, as the scene numbers them.
@@ -167,6 +216,7 @@ fn write(top: &Top, groups: &[Group], members: &[Vec<u32>], out: &mut Joined) ->
             (out.nodes[at].left, out.nodes[at].right) = (left, right);
             CHILD_INNER | word_of(at)
         }
+        Top::Piece(piece) if piece.group >= groups.len() => piece.word,
         Top::Piece(piece) => {
             let group = &groups[piece.group];
             let span = top::span(&group.tree, piece.word);

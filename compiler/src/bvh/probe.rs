@@ -49,6 +49,7 @@ fn visits_of(tree: &Joined, from: Vec3, along: Vec3) -> u64 {
             ChildRef::Triangles { count, .. } | ChildRef::Spheres { count, .. } => {
                 visits += u64::from(count);
             }
+            ChildRef::Instance(_) => visits += 1,
             ChildRef::Empty => {}
         }
     }

@@ -24,7 +24,7 @@ pub(super) fn refit(
             let parts = leaf.iter().map(|&i| fragments[i as usize].bounds());
             parts.fold(Bounds::EMPTY, Bounds::union)
         }
-        ChildRef::Empty => Bounds::EMPTY,
+        ChildRef::Instance(_) | ChildRef::Empty => Bounds::EMPTY,
     };
     for (index, &[left, right]) in children.iter().enumerate().rev() {
         let (l, r) = (box_of(left, &boxes), box_of(right, &boxes));

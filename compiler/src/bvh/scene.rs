@@ -1,17 +1,21 @@
 //! From the primitives of a scene to its one tree.
 //!
 //! Turns lists of triangles and spheres into groups (see [`plan`]), gets each group's tree from the
-//! cache or the builder, and joins them. Warnings of the cache are returned, each only once.
+//! cache or the builder, and joins them. Meshes that are stored once have trees in their own frames, which are
+//! found in the cache wherever and however often the meshes are shown. Warnings of the cache are returned, each
+//! only once.
 
 use std::borrow::Cow;
 use std::ops::Range;
 use std::time::Duration;
 
+use glam::Vec4;
 use rayon::prelude::*;
 
 use super::join::{Group, GroupKind, Joined, join_groups};
 use super::probe::visits;
-use super::{BvhError, Fragment, Input, MAX_PRIMITIVES, Preset};
+use super::top::Door;
+use super::{Bounds, BvhError, Fragment, Input, MAX_PRIMITIVES, Preset};
 use crate::cache::{Cache, CacheWarning, Cached, Source};
 
 /// Meshes of fewer triangles share a group: the cache would not keep their trees anyway.
@@ -30,6 +34,16 @@ pub struct Primitives<'a> {
     pub spheres: &'a [([f32; 3], f32)],
     /// How far each sphere comes while the shutter is open; empty where nothing moves.
     pub sphere_motions: &'a [[f32; 3]],
+}
+
+/// Meshes that are stored once, and where they are shown.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Shared<'a> {
+    /// Corners of the triangles of each mesh, in its own frame; none is empty.
+    pub meshes: &'a [Vec<[[f32; 3]; 3]>],
+    /// Of each instance its mesh, and the corners of the box of all places where it is while the shutter is
+    /// open, in the frame in which the kernel sees the scene.
+    pub instances: &'a [(usize, [[f32; 3]; 2])],
 }
 
 /// What building cost and what the cache did.
@@ -91,24 +105,43 @@ pub fn build_scene(
     preset: Preset,
     cache: &Cache,
 ) -> Result<(Joined, BuildReport), BvhError> {
-    check_counts(primitives)?;
+    build_instanced(primitives, &Shared::default(), preset, cache)
+}
+
+/// As [`build_scene`], with instances of meshes that are stored once. In `Joined::triangle_order` the triangles
+/// of these meshes follow those of the scene, mesh after mesh.
+///
+/// # Errors
+/// As [`build_scene`].
+pub fn build_instanced(
+    primitives: &Primitives,
+    shared: &Shared,
+    preset: Preset,
+    cache: &Cache,
+) -> Result<(Joined, BuildReport), BvhError> {
+    check_counts(primitives, shared)?;
+    let doors: Vec<Door> = shared.instances.iter().map(|instance| door(shared, instance)).collect();
     let mut report = BuildReport { preset, ..BuildReport::default() };
     let by_mesh = plan(primitives.mesh_sizes);
     let n_groups = by_mesh.len();
     let groups = build_groups(primitives, by_mesh, preset, cache, &mut report)?;
-    let (mut joined, tangled) = join_groups(&groups)?;
+    let (mut joined, tangled) = join_groups(&groups, &doors)?;
     drop(groups);
     if tangled && n_groups > 1 {
         let end = u32::try_from(primitives.triangles.len()).expect("counts were checked");
         let all = vec![std::iter::once(0..end).collect()];
         let groups = build_groups(primitives, all, preset, cache, &mut report)?;
-        let (merged, _) = join_groups(&groups)?;
+        let (merged, _) = join_groups(&groups, &doors)?;
         let [one, many] = [&merged, &joined].map(|tree| visits(tree, primitives.triangles));
         if one < many {
             joined = merged;
             report.merged = true;
         }
     }
+    let first = primitives.triangles.len();
+    let meshes = build_meshes(shared.meshes, first, preset, cache, &mut report)?;
+    let mesh_of: Vec<usize> = shared.instances.iter().map(|instance| instance.0).collect();
+    joined.add_meshes(&meshes, &mesh_of)?;
     report.references = joined.triangle_order.len();
     if report.stored > 0 {
         // A cache that stays too large harms nobody; the next run tries again.
@@ -117,7 +150,34 @@ pub fn build_scene(
     Ok((joined, report))
 }
 
-fn check_counts(primitives: &Primitives) -> Result<(), BvhError> {
+fn door(shared: &Shared, (mesh, [lo, hi]): &(usize, [[f32; 3]; 2])) -> Door {
+    let corner = |[x, y, z]: [f32; 3]| Vec4::new(x, y, z, 0.0);
+    let bounds = Bounds { lo: corner(*lo), hi: corner(*hi) };
+    Door { bounds, weight: shared.meshes[*mesh].len() }
+}
+
+/// The trees of meshes that are stored once, side by side; their triangles are numbered from `first` on.
+fn build_meshes(
+    meshes: &[Vec<[[f32; 3]; 3]>],
+    first: usize,
+    preset: Preset,
+    cache: &Cache,
+    report: &mut BuildReport,
+) -> Result<Vec<Group>, BvhError> {
+    let results: Vec<Cached> = (meshes.par_iter())
+        .map(|corners| cache.tree(preset, Input::of_triangles(corners)))
+        .collect::<Result<_, _>>()?;
+    let mut end = u32::try_from(first).expect("counts were checked");
+    let finish = |(corners, cached): (&Vec<_>, Cached)| {
+        report.add(cached.source, cached.warning);
+        let start = end;
+        end += u32::try_from(corners.len()).expect("counts were checked");
+        Group { kind: GroupKind::Triangles, tree: cached.tree, members: vec![start..end] }
+    };
+    Ok(meshes.iter().zip(results).map(finish).collect())
+}
+
+fn check_counts(primitives: &Primitives, shared: &Shared) -> Result<(), BvhError> {
     let count = primitives.triangles.len();
     let listed = primitives.mesh_sizes.iter().try_fold(0_usize, |sum, &n| sum.checked_add(n));
     let fits = |motions: &[[f32; 3]], n: usize| motions.is_empty() || motions.len() == n;
@@ -126,9 +186,14 @@ fn check_counts(primitives: &Primitives) -> Result<(), BvhError> {
     if listed != Some(count) || !moved {
         return Err(BvhError::Sizes { count });
     }
-    let counts = [count, primitives.spheres.len()];
-    match counts.iter().find(|&&n| n > MAX_PRIMITIVES) {
-        Some(&count) => Err(BvhError::TooMany { count }),
+    let stored = shared.meshes.iter().map(Vec::len).sum::<usize>();
+    // References to spheres have one bit less, see `ChildRef`.
+    let counts = [
+        (count.saturating_add(stored), MAX_PRIMITIVES),
+        (primitives.spheres.len(), MAX_PRIMITIVES / 2),
+    ];
+    match counts.into_iter().find(|&(n, most)| n > most) {
+        Some((count, _)) => Err(BvhError::TooMany { count }),
         None => Ok(()),
     }
 }

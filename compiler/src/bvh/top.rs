@@ -5,7 +5,8 @@
 //! one after the other, so the largest pieces that overlap another group are opened, that is,
 //! replaced by their two children, until [`budget`] is spent ("re-braiding", Benthin et al. 2017,
 //! "Improved Two-Level BVHs using Partial Re-Braiding"). All nodes live in one frame, so opening
-//! costs nothing at traversal: the opened nodes are simply not written.
+//! costs nothing at traversal: the opened nodes are simply not written. Instances of meshes that are stored
+//! once are pieces, too, which cannot be opened.
 
 use std::collections::BinaryHeap;
 
@@ -22,9 +23,9 @@ pub(super) const MAX_TOP_LEVELS: u32 = 48;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
     pub(super) bounds: Bounds,
-    /// Index of the group.
+    /// Index of the group; instances come after the groups.
     pub(super) group: usize,
-    /// Reference into the group's tree; not `NONE`.
+    /// Reference into the group's tree, or to the instance; not `NONE`.
     pub(super) word: u32,
     /// Number of primitives: what a visit may cost.
     weight: f32,
@@ -37,12 +38,25 @@ impl Piece {
         Self { bounds, group, word, weight }
     }
 
+    /// All of a tree that is not empty.
+    pub(super) fn whole(trees: &[&Tree], group: usize) -> Self {
+        Self::new(trees, group, trees[group].root, trees[group].bounds)
+    }
+
     fn node<'a>(&self, trees: &[&'a Tree]) -> Option<&'a Node> {
         match ChildRef::decode(self.word) {
             ChildRef::Inner(index) => Some(&trees[self.group].nodes[index as usize]),
             _ => None,
         }
     }
+}
+
+/// An instance of a mesh that has a tree of its own.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Door {
+    pub(super) bounds: Bounds,
+    /// Number of its triangles.
+    pub(super) weight: usize,
 }
 
 /// What a subtree covers in the arrays of its tree.
@@ -82,14 +96,18 @@ pub(super) fn span(tree: &Tree, word: u32) -> Span {
     Span { nodes: begin..end + 1, prims }
 }
 
-/// Most pieces for a number of groups.
-fn budget(n_groups: usize) -> usize {
+/// Most pieces for a number of groups and instances.
+fn budget(n_groups: usize, n_doors: usize) -> usize {
     // One group needs no opening. Looking for overlaps is quadratic, hence the end of it.
-    match n_groups {
-        0 | 1 => n_groups,
-        _ => n_groups.max(4096),
+    match n_groups + n_doors {
+        n @ (0 | 1) => n,
+        n if n_doors > MANY_DOORS => n,
+        _ => n_groups.max(4096) + n_doors,
     }
 }
+
+/// Beyond this many instances looking for overlaps would take longer than it saves.
+const MANY_DOORS: usize = 1 << 15;
 
 /// The two children of a node as boxes and references.
 pub(super) fn children(node: &Node) -> [(Bounds, u32); 2] {
@@ -101,13 +119,19 @@ pub(super) fn children(node: &Node) -> [(Bounds, u32); 2] {
     ]
 }
 
-/// Whole groups first, then opened while that separates groups. Empty groups give no piece. Also tells
-/// whether the budget ended that, so that groups are still tangled.
-pub(super) fn pieces(trees: &[&Tree]) -> (Vec<Piece>, bool) {
-    let roots = trees.iter().enumerate().filter(|(_, t)| t.root != NONE);
-    let mut pieces: Vec<Piece> =
-        roots.map(|(group, t)| Piece::new(trees, group, t.root, t.bounds)).collect();
-    let budget = budget(pieces.len());
+/// Whole groups and instances first, then opened while that separates them. Empty groups give no piece. Also
+/// tells whether the budget ended that, so that groups are still tangled.
+pub(super) fn pieces(trees: &[&Tree], doors: &[Door]) -> (Vec<Piece>, bool) {
+    let roots = (0..trees.len()).filter(|group| trees[*group].root != NONE);
+    let mut pieces: Vec<Piece> = roots.map(|group| Piece::whole(trees, group)).collect();
+    let n_groups = pieces.len();
+    let budget = budget(n_groups, doors.len());
+    pieces.extend((0..).zip(doors).map(|(i, door)| Piece {
+        bounds: door.bounds,
+        group: trees.len() + i as usize,
+        word: ChildRef::Instance(i).encode().expect("fewer than 2^26 instances"),
+        weight: door.weight as f32,
+    }));
     // Largest first, equal areas in order of their place in the list.
     let key = |p: &Piece, at: usize| (ordered_bits(p.bounds.half_area()), std::cmp::Reverse(at));
     let mut queue: BinaryHeap<_> = pieces.iter().enumerate().map(|(i, p)| key(p, i)).collect();
@@ -126,7 +150,7 @@ pub(super) fn pieces(trees: &[&Tree]) -> (Vec<Piece>, bool) {
         pieces[at] = left;
         pieces.push(right);
     }
-    let tangled = !queue.is_empty();
+    let tangled = n_groups > 1 && !queue.is_empty();
     (pieces, tangled)
 }
 

@@ -73,27 +73,58 @@ impl FromStr for Layout {
 /// # Errors
 /// When a box came out smaller than it was: a bug of ours.
 pub fn widen(nodes: &[Node], root: u32, out: &mut Vec<WideNode>) -> Result<u32, BvhError> {
+    widen_one(&Collapse::best(nodes), nodes, root, out)
+}
+
+/// As [`widen`], for several trees in one list of nodes.
+///
+/// # Errors
+/// As [`widen`].
+pub fn widen_all(
+    nodes: &[Node],
+    roots: &[u32],
+    out: &mut Vec<WideNode>,
+) -> Result<Vec<u32>, BvhError> {
+    let best = Collapse::best(nodes);
+    roots.iter().map(|root| widen_one(&best, nodes, *root, out)).collect()
+}
+
+fn widen_one(
+    best: &Collapse<'_>,
+    nodes: &[Node],
+    root: u32,
+    out: &mut Vec<WideNode>,
+) -> Result<u32, BvhError> {
     let from = out.len();
-    let word = write(&Collapse::best(nodes), root, out)?;
-    if pack::bvh::stack_need(out, word) <= MAX_STACK {
+    let (word, need) = write(best, root, out)?;
+    if need <= MAX_STACK {
         return Ok(word);
     }
     // Four children may wait where two did not: a tree that is as deep as binary trees may be stays binary.
     out.truncate(from);
-    write(&Collapse::none(nodes), root, out)
+    write(&Collapse::none(nodes), root, out).map(|(word, _)| word)
 }
 
-fn write(collapse: &Collapse<'_>, root: u32, out: &mut Vec<WideNode>) -> Result<u32, BvhError> {
-    let ChildRef::Inner(index) = ChildRef::decode(root) else { return Ok(root) };
+/// Returns the reference and what may wait on the stack below it.
+fn write(
+    collapse: &Collapse<'_>,
+    root: u32,
+    out: &mut Vec<WideNode>,
+) -> Result<(u32, u32), BvhError> {
+    let ChildRef::Inner(index) = ChildRef::decode(root) else { return Ok((root, 0)) };
     let mut children = Vec::with_capacity(4);
     collapse.children_of(index, &mut children);
     let at = out.len();
     let mut node = quantize(&children)?;
     out.push(node);
     let fields = [&mut node.child0, &mut node.child1, &mut node.child2, &mut node.child3];
+    let (mut others, mut below) = (0_u32, 0);
     for (field, (_, word)) in fields.into_iter().zip(&children) {
-        *field = write(collapse, *word, out)?;
+        let (word, need) = write(collapse, *word, out)?;
+        *field = word;
+        others += 1;
+        below = need.max(below);
     }
     out[at] = node;
-    Ok(CHILD_INNER | word_of(at))
+    Ok((CHILD_INNER | word_of(at), below + others - 1))
 }

@@ -15,7 +15,7 @@ use crate::bvh::{Layout, Preset};
 use crate::cache::Cache;
 use crate::depfile::depfile;
 use crate::import::Limits;
-use crate::lower::{Trees, srgb_table};
+use crate::lower::{Counters, Instancing, Trees, srgb_table};
 use crate::pipeline::{self, CompileError, Compiled, Options, Phase};
 use crate::report::Reporter;
 use crate::reuse::{Reuse, Reused, Share};
@@ -45,6 +45,10 @@ pub(super) struct BuildArgs {
     /// `spatial-median`. All show the same surfaces.
     #[arg(long, default_value_t, value_name = "BUILDER")]
     bvh: Preset,
+    /// Which meshes are stored once for all their places: `auto`, those for which it pays; `never`, none, for
+    /// comparison. Both show the same surfaces.
+    #[arg(long, default_value_t, value_name = "WHEN")]
+    instances: Instancing,
     /// How inner nodes are stored: `wide` with up to four children, their boxes rounded outwards to 8
     /// bits; `binary`, which is larger, for comparison. Both show the same picture.
     #[arg(long, default_value_t, value_name = "LAYOUT")]
@@ -93,7 +97,8 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
     let start = Instant::now();
     let cache = if args.no_cache { Cache::disabled() } else { Cache::from_env() };
     let output = args.output.clone().unwrap_or_else(|| default_output(&args.scene.scene));
-    let trees = Trees { preset: args.bvh, layout: args.nodes, cache: &cache };
+    let trees =
+        Trees { preset: args.bvh, layout: args.nodes, instancing: args.instances, cache: &cache };
     let job = Job { scene: &args.scene.scene, output: &output, defines: &args.scene.define, trees };
     // Who asks for the kernel or the times wants to see a compilation.
     if args.emit_wgsl.is_none()
@@ -185,8 +190,7 @@ fn write_depfile(path: &Path, output: &Path, reuse: &Reuse, reporter: &Reporter)
 pub(super) fn check(args: &CheckArgs) -> u8 {
     let reporter = args.report.reporter();
     let cache = Cache::from_env();
-    let trees = Trees { preset: Preset::default(), layout: Layout::default(), cache: &cache };
-    match compile(&args.scene, trees, &Reuse::once(), &reporter) {
+    match compile(&args.scene, Trees::usual(&cache), &Reuse::once(), &reporter) {
         Ok(_) => OK,
         Err(code) => code,
     }
@@ -280,6 +284,9 @@ fn done(output: &Path, compiled: &Compiled, time: Duration) -> String {
             things.push(format!("{} {what}", grouped(count)));
         }
     }
+    if counters.instances > 0 {
+        things.push(instances_text(counters));
+    }
     let trees = &compiled.lowered.trees;
     things.extend((trees.groups > 0).then(|| trees_text(compiled)));
     format!(
@@ -288,6 +295,15 @@ fn done(output: &Path, compiled: &Compiled, time: Duration) -> String {
         size as f64 / 1e6,
         if things.is_empty() { "nothing but sky".to_owned() } else { things.join(", ") },
         time.as_secs_f64(),
+    )
+}
+
+/// What is stored once, and how often it is shown.
+fn instances_text(counters: &Counters) -> String {
+    let (meshes, instances) = (grouped(counters.meshes), grouped(counters.instances));
+    format!(
+        "{} triangles shown ({instances} instances of {meshes} meshes)",
+        grouped(counters.shown)
     )
 }
 
@@ -318,6 +334,15 @@ fn timings(phases: &[Phase], compiled: &Compiled) -> String {
     }
     let trees = &compiled.lowered.trees;
     let ms = |time: Duration| time.as_secs_f64() * 1e3;
+    let counters = &compiled.lowered.counters;
+    if counters.instances > 0 {
+        let _ = writeln!(
+            text,
+            "{}, {} triangles stored",
+            instances_text(counters),
+            grouped(counters.triangles)
+        );
+    }
     text + &format!(
         "bvh {}: {} of {} trees cached, {:.1} ms of building saved; {} stored, {:.1} ms spent building",
         trees.preset,

@@ -1,10 +1,11 @@
 //! `rtc inspect`: the sections of a pack as a table.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use pack::abi::{Node, WideNode};
+use pack::abi::{Instance, Node, WideNode};
 use pack::bvh::InnerNode;
 use pack::{Checked, MapMode, Pack};
 
@@ -46,12 +47,13 @@ fn table(pack: &Pack<Checked>) -> String {
     let [width, height] = render.image_size;
     let features = pack::features::names(pack.features()).join(", ");
     let mut text = format!(
-        "render id   {}\nimage       {width} x {height} px, {} samples, depth {}\nnodes       {}\nstack need  {}\nholds       {features}\n\n",
+        "render id   {}\nimage       {width} x {height} px, {} samples, depth {}\nnodes       {}\nstack need  {}\nholds       {features}\n{}\n",
         hex(&pack.render_id()),
         render.samples,
         render.max_depth,
         nodes(pack),
         render.stack_need,
+        instances(pack),
     );
     let _ =
         writeln!(text, "{:<9} {:>12} {:>6} {:>15}  blake3", "section", "elements", "size", "bytes");
@@ -64,6 +66,24 @@ fn table(pack: &Pack<Checked>) -> String {
         );
     }
     text
+}
+
+/// How many meshes are stored once, and how often they are shown; nothing where there is none.
+fn instances(pack: &Pack<Checked>) -> String {
+    let instances = pack.records::<Instance>();
+    if instances.is_empty() {
+        return String::new();
+    }
+    let meshes: BTreeSet<u32> = instances.iter().map(|instance| instance.root).collect();
+    let counted = |name: &str| {
+        let manifest = pack.manifest().ok()?;
+        manifest.counters.into_iter().find(|(known, _)| known == name).map(|(_, count)| count)
+    };
+    let triangles = match (counted("triangles"), counted("triangles shown")) {
+        (Some(stored), Some(shown)) => format!("; {stored} triangles stored, {shown} shown"),
+        _ => String::new(),
+    };
+    format!("instances   {} of {} meshes{triangles}\n", instances.len(), meshes.len())
 }
 
 /// The layout of the nodes and how full they are.

@@ -10,16 +10,17 @@ use glam::DVec3;
 use lang::diagnostic::{Code, Diagnostic};
 use lang::scene::{Name, Sampler, Scene, ToneMap};
 use lang::source::Span;
-use pack::abi::{self, NONE, TRI_SMOOTH, material_flag};
+use pack::abi::{self, NONE, OBJECT_OF_INSTANCE, TRI_SMOOTH, material_flag};
 
 use super::geometry::{self, Placement};
 use super::inside::Solids;
 use super::material::{MaterialRef, MaterialTable};
 use super::order::{Declared, Ordered, order};
+use super::share::Instancing;
 use super::sky::LoweredSky;
 use super::sky_table::SkyTable;
 use super::{Loaded, camera, closed, light_tree, medium, motion, power, sky, thick};
-use crate::bvh::{self, BuildReport, BvhError, Joined, Layout, Preset, Primitives};
+use crate::bvh::{self, BuildReport, BvhError, Joined, Layout, Preset, Primitives, Shared};
 use crate::cache::Cache;
 use crate::normalize::Normalization;
 use crate::weld::weld;
@@ -31,15 +32,24 @@ pub struct Trees<'a> {
     pub preset: Preset,
     /// How their nodes are stored.
     pub layout: Layout,
+    /// Which meshes are stored once.
+    pub instancing: Instancing,
     /// Trees of earlier runs.
     pub cache: &'a Cache,
 }
 
-impl Trees<'_> {
+impl<'a> Trees<'a> {
+    /// As everybody gets them.
+    #[must_use]
+    pub fn usual(cache: &'a Cache) -> Self {
+        let (preset, layout) = (Preset::default(), Layout::default());
+        Self { preset, layout, instancing: Instancing::default(), cache }
+    }
+
     /// All that changes what is made, for keys.
     #[must_use]
     pub fn recipe(&self) -> String {
-        format!("{} {:?}", self.preset.recipe(), self.layout)
+        format!("{} {:?} {:?}", self.preset.recipe(), self.layout, self.instancing)
     }
 }
 
@@ -48,6 +58,12 @@ impl Trees<'_> {
 pub struct Counters {
     /// Triangles in the pack.
     pub triangles: u64,
+    /// Triangles in the world: those of a mesh that is stored once count at each of its places.
+    pub shown: u64,
+    /// Meshes that are stored once.
+    pub meshes: u64,
+    /// Their places.
+    pub instances: u64,
     /// Triangles in the leaves of the tree; those that were split count once for each piece.
     pub references: u64,
     /// Triangles that had no area once positions were rounded; not in the pack.
@@ -94,6 +110,8 @@ pub struct Lowered {
     pub spheres: Vec<abi::Sphere>,
     /// Things in the world; empty when no material depends on them and none moves.
     pub objects: Vec<abi::Object>,
+    /// Places of meshes that are stored once.
+    pub instances: Vec<abi::Instance>,
     /// Materials in use.
     pub materials: Vec<abi::Material>,
     /// Media of the scene.
@@ -142,9 +160,12 @@ pub fn lower(
 ) -> Result<Lowered, LowerError> {
     let start = Instant::now();
     let mut materials = MaterialTable::new(scene, loaded);
-    let mut placement = geometry::place(scene, loaded, &mut materials, diagnostics);
-    if placement.corners.len() > bvh::MAX_PRIMITIVES {
-        return Err(LowerError::TooManyTriangles { count: placement.corners.len() });
+    let mut placement =
+        geometry::place(scene, loaded, trees.instancing, &mut materials, diagnostics);
+    let stored = placement.meshes.iter().map(|mesh| mesh.corners.len()).sum::<usize>();
+    let count = placement.corners.len() + stored;
+    if count > bvh::MAX_PRIMITIVES {
+        return Err(LowerError::TooManyTriangles { count });
     }
     let (inside, around) = media(scene, loaded, &materials, &placement, diagnostics);
     let environment = loaded.environment.as_ref();
@@ -154,22 +175,26 @@ pub fn lower(
     let frame = normalization(&placement);
     let mut counters = Counters::default();
     let corners = normalised(&mut placement, &frame, &mut counters);
-    let welded = weld(&corners);
+    count_triangles(&placement, &mut counters);
+    let shared = add_meshes(&mut placement, corners);
+    let corners = &shared.corners;
+    let welded = weld(corners);
     counters.vertices = u64::from(welded.n_ids);
     let mut times = Times { geometry: start.elapsed(), ..Times::default() };
 
     let start = Instant::now();
     let balls = normalised_spheres(&placement, &frame);
     let motions = motion::displacements(&placement, &frame);
-    let (mut joined, report) = build_tree(&placement, &corners, &balls, &motions, trees)?;
-    let wide_nodes = widened(&mut joined, trees.layout)?;
+    let (mut joined, report) = build_tree(&placement, &shared, &balls, (&motions, &frame), trees)?;
+    let mesh_of: Vec<usize> = placement.placed.iter().map(|placed| placed.mesh).collect();
+    let wide_nodes = widened(&mut joined, trees.layout, &mesh_of)?;
     times.bvh = start.elapsed();
 
     let start = Instant::now();
-    let declared = Declared { corners, welded, balls };
+    let instances = instances(&placement, &joined, &motions, &frame);
+    let declared = Declared { corners: shared.corners, welded, balls };
     let mut ordered = order(&placement, &declared, &joined);
     drop(declared);
-    counters.triangles = placement.shades.len() as u64;
     counters.references = ordered.triangles.len() as u64;
     counters.spheres = ordered.spheres.len() as u64;
     counters.lights = ordered.lights.len() as u64;
@@ -188,7 +213,7 @@ pub fn lower(
     let (mut materials, textures) = materials.into_records();
     medium::mark(scene, &mut materials);
     let objects = objects(&placement, &materials, &frame, !motions.is_empty());
-    forget_objects(&objects, &mut ordered);
+    let instances = forget_objects(&objects, &mut ordered, instances);
     motion::mark(&objects, &mut ordered);
     let (textures, texels) = textures.into_records();
     Ok(Lowered {
@@ -202,6 +227,7 @@ pub fn lower(
         shades: ordered.shades,
         spheres: ordered.spheres,
         objects,
+        instances,
         materials,
         media,
         material_names,
@@ -215,15 +241,29 @@ pub fn lower(
     })
 }
 
-/// The nodes in the layout of the pack: wide ones are returned, and `joined` is left with their root, the
-/// stack that they need, and no nodes.
-fn widened(joined: &mut Joined, layout: Layout) -> Result<Vec<abi::WideNode>, BvhError> {
-    let mut wide = Vec::new();
-    if layout == Layout::Wide && !joined.nodes.is_empty() {
-        joined.root = bvh::widen(&joined.nodes, joined.root, &mut wide)?;
-        joined.stack_need = pack::bvh::stack_need(&wide, joined.root);
-        joined.nodes = Vec::new();
+/// The nodes in the layout of the pack: wide ones are returned, and `joined` is left with their roots, the
+/// stack that they need, and no nodes. Instance `i` shows mesh `mesh_of[i]`.
+fn widened(
+    joined: &mut Joined,
+    layout: Layout,
+    mesh_of: &[usize],
+) -> Result<Vec<abi::WideNode>, BvhError> {
+    if layout == Layout::Binary || joined.nodes.is_empty() {
+        return Ok(Vec::new());
     }
+    let mut wide = Vec::new();
+    let roots: Vec<u32> =
+        std::iter::once(joined.root).chain(joined.mesh_roots.iter().copied()).collect();
+    let roots = bvh::widen_all(&joined.nodes, &roots, &mut wide)?;
+    let need = bvh::stack_need(&wide, &roots[1..], mesh_of, roots[0]);
+    // Four children may wait where two did not: trees that are as deep as binary ones may be stay binary.
+    if need > abi::MAX_STACK {
+        return Ok(Vec::new());
+    }
+    joined.root = roots[0];
+    joined.mesh_roots = roots[1..].to_vec();
+    joined.stack_need = need;
+    joined.nodes = Vec::new();
     Ok(wide)
 }
 
@@ -256,24 +296,76 @@ fn normalised_spheres(placement: &Placement, frame: &Normalization) -> Vec<([f32
     placement.spheres.iter().map(sphere).collect()
 }
 
-/// The tree over triangles with these corners and over these spheres; `motions`: how far each thing comes.
+/// Triangles of the world and of meshes that are stored once, one list.
+struct Corners {
+    /// Those of the world first, then mesh after mesh.
+    corners: Vec<[[f32; 3]; 3]>,
+    n_world: usize,
+    meshes: Vec<Vec<[[f32; 3]; 3]>>,
+}
+
+/// Adds what is stored once to the triangles of the world, which have these `corners`.
+fn add_meshes(placement: &mut Placement, mut corners: Vec<[[f32; 3]; 3]>) -> Corners {
+    let n_world = corners.len();
+    let mut meshes = Vec::with_capacity(placement.meshes.len());
+    for mesh in &mut placement.meshes {
+        placement.shades.append(&mut mesh.shades);
+        corners.extend_from_slice(&mesh.corners);
+        meshes.push(std::mem::take(&mut mesh.corners));
+    }
+    Corners { corners, n_world, meshes }
+}
+
+fn count_triangles(placement: &Placement, counters: &mut Counters) {
+    let count = |mesh: usize| placement.meshes[mesh].corners.len() as u64;
+    let flat = placement.shades.len() as u64;
+    counters.meshes = placement.meshes.len() as u64;
+    counters.instances = placement.placed.len() as u64;
+    counters.triangles = flat + (0..placement.meshes.len()).map(count).sum::<u64>();
+    counters.shown = flat + placement.placed.iter().map(|placed| count(placed.mesh)).sum::<u64>();
+    counters.dropped_triangles += placement.meshes.iter().map(|mesh| mesh.dropped).sum::<u64>();
+}
+
+/// The records of placed meshes.
+fn instances(
+    placement: &Placement,
+    joined: &Joined,
+    motions: &[[f32; 3]],
+    frame: &Normalization,
+) -> Vec<abi::Instance> {
+    let record = |placed: &super::Placed| {
+        let motion = motions.get(placed.object as usize).copied().unwrap_or_default();
+        let moves = motion.iter().any(|x| *x != 0.0);
+        let record = placed.record(&placement.meshes[placed.mesh], frame, moves);
+        abi::Instance { root: joined.mesh_roots[placed.mesh], ..record }
+    };
+    placement.placed.iter().map(record).collect()
+}
+
+/// The trees over all triangles and over these spheres; `motions`: how far each thing comes.
 fn build_tree(
     placement: &Placement,
-    corners: &[[[f32; 3]; 3]],
+    corners: &Corners,
     balls: &[([f32; 3], f32)],
-    motions: &[[f32; 3]],
+    (motions, frame): (&[[f32; 3]], &Normalization),
     trees: &Trees<'_>,
 ) -> Result<(Joined, BuildReport), BvhError> {
     let sizes = placement.mesh_sizes();
     let (mesh_motions, sphere_motions) = motions_of(placement, motions);
     let primitives = Primitives {
-        triangles: corners,
+        triangles: &corners.corners[..corners.n_world],
         mesh_sizes: &sizes,
         mesh_motions: &mesh_motions,
         spheres: balls,
         sphere_motions: &sphere_motions,
     };
-    bvh::build_scene(&primitives, trees.preset, trees.cache)
+    let boxed = |placed: &super::Placed| {
+        let motion = motions.get(placed.object as usize).copied().unwrap_or_default();
+        (placed.mesh, placed.box_of(frame, motion))
+    };
+    let instances: Vec<_> = placement.placed.iter().map(boxed).collect();
+    let shared = Shared { meshes: &corners.meshes, instances: &instances };
+    bvh::build_instanced(&primitives, &shared, trees.preset, trees.cache)
 }
 
 /// How far each mesh and each sphere comes, from the displacements of things; empty where those are.
@@ -300,12 +392,22 @@ fn objects(
     placement.things.iter().map(|thing| thing.record(frame)).collect()
 }
 
-/// Without a table, every primitive says 0.
-fn forget_objects(objects: &[abi::Object], ordered: &mut Ordered) {
+/// Without a table, every primitive says 0, and every instance; triangles of instances go on to say so.
+fn forget_objects(
+    objects: &[abi::Object],
+    ordered: &mut Ordered,
+    mut instances: Vec<abi::Instance>,
+) -> Vec<abi::Instance> {
     if objects.is_empty() {
-        ordered.shades.iter_mut().for_each(|shade| shade.object &= TRI_SMOOTH);
+        for shade in &mut ordered.shades {
+            if shade.object & !TRI_SMOOTH != OBJECT_OF_INSTANCE {
+                shade.object &= TRI_SMOOTH;
+            }
+        }
         ordered.spheres.iter_mut().for_each(|sphere| sphere.object = 0);
+        instances.iter_mut().for_each(|instance| instance.object = 0);
     }
+    instances
 }
 
 /// The tree of lights where there are many; tells each light its trail. `motions`: how far each thing comes; empty
@@ -418,7 +520,8 @@ fn normalization(placement: &Placement) -> Normalization {
     let balls = placement.spheres.iter().flat_map(|(center, radius)| {
         [(*center - *radius).to_array(), (*center + *radius).to_array()]
     });
-    Normalization::of_points(corners.chain(balls).chain(motion::ends(placement)))
+    let placed = placement.placed.iter().flat_map(|placed| placed.bounds.map(|p| p.to_array()));
+    Normalization::of_points(corners.chain(balls).chain(placed).chain(motion::ends(placement)))
 }
 
 /// Corners in the normalised frame; triangles that have no area there are taken out of `placement`.
@@ -441,7 +544,7 @@ fn normalised(
 }
 
 /// Whether the corners lie on one line, with products in `f64`, where they round least.
-fn has_no_area(corners: &[[f32; 3]; 3]) -> bool {
+pub(super) fn has_no_area(corners: &[[f32; 3]; 3]) -> bool {
     let [a, b, c] = corners.map(|p| DVec3::from(p.map(f64::from)));
     (b - a).cross(c - a) == DVec3::ZERO
 }

@@ -1,7 +1,10 @@
-//! Instances become triangles and spheres in the world, in `f64`, with their shading data.
+//! Instances become triangles and spheres in the world, in `f64`, with their shading data, or places of meshes
+//! that are stored once.
 //!
-//! Instances are flattened: each writes its own triangles. Rectangles are two triangles, boxes
-//! twelve. Everything that emits is noted as an `Emitter` on the way.
+//! Instances that `share` does not name are flattened: each writes its own triangles. Rectangles are two
+//! triangles, boxes twelve. Everything that emits is noted as an `Emitter` on the way.
+
+use std::borrow::Cow;
 
 use glam::{DMat3, DVec2, DVec3};
 use lang::diagnostic::{Code, Diagnostic};
@@ -13,18 +16,24 @@ use super::light::{Emitter, luminance};
 use super::material::{MaterialRef, MaterialTable};
 use super::motion::Shutter;
 use super::object::Thing;
+use super::share::{Instancing, Plan, chosen};
 use super::sheet::{Sheets, pieces_of};
+use super::stored::{Placed, Stored};
 use crate::import::{Attribute, MeshFile, Part};
 
 /// Geometry of the whole scene when the shutter opens, before normalisation, in order of declaration.
 #[derive(Debug, Default)]
 pub struct Placement {
-    /// Corners of every triangle, world frame, metres.
+    /// Corners of every triangle that is stored in the world, world frame, metres.
     pub corners: Vec<[DVec3; 3]>,
     /// Shading data, one a triangle; `light` is `NONE` still.
     pub shades: Vec<abi::TriShade>,
     /// Triangles of each mesh instance: `groups[i]` is where group `i` ends.
     pub groups: Vec<u32>,
+    /// Meshes that are stored once.
+    pub meshes: Vec<Stored>,
+    /// Where they are.
+    pub placed: Vec<Placed>,
     /// Centre and radius of every sphere, metres.
     pub spheres: Vec<(DVec3, f64)>,
     /// Material of every sphere.
@@ -41,12 +50,14 @@ pub struct Placement {
 pub(super) fn place(
     scene: &Scene,
     loaded: &Loaded,
+    how: Instancing,
     materials: &mut MaterialTable<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Placement {
     let mut placement = Placement::default();
     let shutter = Shutter::of(&scene.camera);
-    for instance in &scene.instances {
+    let plan = Plan::new(scene, loaded, how, shutter);
+    for (index, instance) in scene.instances.iter().enumerate() {
         let object = placement.things.len() as u32;
         placement.things.push(Thing::of(instance, shutter));
         let mut placer = Placer {
@@ -66,13 +77,18 @@ pub(super) fn place(
             Shape::Box { size } => placer.rectangles(&box_faces(*size)),
             Shape::Mesh { asset, part } => {
                 let file = loaded.assets[*asset].as_ref().expect("used assets are loaded");
-                placer.mesh(*asset, file, part.as_deref(), diagnostics);
+                placer.mesh(*asset, file, part.as_deref(), plan.mesh_of(index), diagnostics);
             }
         }
         let first = placement.groups.last().map_or(0, |end| *end as usize);
+        let corners = match placement.placed.last() {
+            Some(placed) if placed.object == object && super::grain::matters(scene, instance) => {
+                Cow::Owned(placement.triangles_of(placed))
+            }
+            _ => Cow::Borrowed(&placement.corners[first..]),
+        };
         let thing = &placement.things[object as usize];
-        let corners = &placement.corners[first..];
-        diagnostics.extend(super::grain::check(scene, instance, thing, corners));
+        diagnostics.extend(super::grain::check(scene, instance, thing, &corners));
         placement.close_group();
     }
     for (index, light) in scene.lights.iter().enumerate() {
@@ -114,9 +130,9 @@ fn box_faces(size: [f64; 3]) -> Vec<Parallelogram> {
 }
 
 /// `world_from_object` at the moment when the shutter opens, split.
-struct Transform {
-    linear: DMat3,
-    translation: DVec3,
+pub(super) struct Transform {
+    pub(super) linear: DMat3,
+    pub(super) translation: DVec3,
     /// Turns normals: the cofactor matrix, signed so that outside stays outside.
     normal: DMat3,
     /// The transform mirrors: winding must be reversed.
@@ -124,15 +140,18 @@ struct Transform {
 }
 
 impl Transform {
-    fn of(instance: &Instance, shutter: Shutter) -> Self {
+    pub(super) fn of(instance: &Instance, shutter: Shutter) -> Self {
         let m = instance.world_from_object;
         let column = |k: usize| DVec3::new(m[0][k], m[1][k], m[2][k]);
         let linear = DMat3::from_cols(column(0), column(1), column(2));
+        Self::new(linear, column(3) + shutter.lead(instance.velocity))
+    }
+
+    pub(super) fn new(linear: DMat3, translation: DVec3) -> Self {
         let (x, y, z) = (linear.x_axis, linear.y_axis, linear.z_axis);
         let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
         let mirrors = linear.determinant() < 0.0;
         let normal = if mirrors { cofactors * -1.0 } else { cofactors };
-        let translation = column(3) + shutter.lead(instance.velocity);
         Self { linear, translation, normal, mirrors }
     }
 
@@ -243,15 +262,13 @@ impl Placer<'_, '_> {
         asset: usize,
         file: &MeshFile,
         part: Option<&str>,
+        stored: Option<usize>,
         diagnostics: &mut Vec<Diagnostic>,
     ) {
         let mut bare = None;
-        let parts = match part {
-            None => (0..file.parts.len()).collect(),
-            Some(name) => file.find_parts(name),
-        };
-        for part in parts {
-            let part = &file.parts[part];
+        let parts = chosen(file, part);
+        let mut materials = Vec::with_capacity(parts.len());
+        for part in &parts {
             let own = part.material.map_or(MaterialRef::Default, |material| MaterialRef::Asset {
                 asset,
                 material: material as usize,
@@ -260,11 +277,33 @@ impl Placer<'_, '_> {
             if part.uvs == Attribute::Absent
                 && reads_textures(&self.materials.records()[material as usize])
             {
-                bare = bare.or(Some(part));
+                bare = bare.or(Some(*part));
             }
-            self.part(part, material);
+            materials.push(material);
         }
         diagnostics.extend(bare.map(|part| self.without_uvs(part)));
+        if let Some(index) = stored {
+            return self.stored(index, &parts, &materials);
+        }
+        for (part, material) in parts.into_iter().zip(materials) {
+            self.part(part, material);
+        }
+    }
+
+    /// Notes a place of the stored mesh `index`, made of `parts` with these materials.
+    fn stored(&mut self, index: usize, parts: &[&Part], materials: &[u32]) {
+        let meshes = &mut self.placement.meshes;
+        if index == meshes.len() {
+            meshes.push(Stored::new(parts));
+        }
+        let mesh = &mut meshes[index];
+        let own = self.instance.material.is_none();
+        mesh.set_materials(materials, own);
+        let material = if own { NONE } else { materials[0] };
+        let placed = Placed::new(mesh, index, &self.transform, self.object, material);
+        if !mesh.corners.is_empty() {
+            self.placement.placed.push(placed);
+        }
     }
 
     /// Textures are to be read where there are no texture coordinates. A file that says both itself is taken
@@ -344,6 +383,12 @@ impl Placer<'_, '_> {
 }
 
 impl Placement {
+    /// Triangles of a placed mesh in the world, metres.
+    fn triangles_of(&self, placed: &Placed) -> Vec<[DVec3; 3]> {
+        let corners = &self.meshes[placed.mesh].corners;
+        corners.iter().map(|corners| placed.triangle(corners)).collect()
+    }
+
     fn add_sphere(&mut self, ball: &Ball, materials: &MaterialTable<'_>) {
         let Ball { center, radius, material, object } = *ball;
         if let Some(radiance) = emits(material, materials) {
@@ -437,7 +482,7 @@ fn emits(material: u32, materials: &MaterialTable<'_>) -> Option<f64> {
 
 /// A direction as two 16-bit signed normalised integers, x in the low half (Cigolle et al. 2014,
 /// "A Survey of Efficient Representations for Independent Unit Vectors", JCGT 3(2)). Zero gives +z.
-fn octahedral(n: DVec3) -> u32 {
+pub(super) fn octahedral(n: DVec3) -> u32 {
     let sum = n.x.abs() + n.y.abs() + n.z.abs();
     let (mut x, mut y) = if sum > 0.0 { (n.x / sum, n.y / sum) } else { (0.0, 0.0) };
     if n.z < 0.0 {

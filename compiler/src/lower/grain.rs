@@ -12,6 +12,12 @@ use super::pieces::pieces;
 /// A thing is a beam when it is this many times as long as it is wide.
 const BEAM: f64 = 3.0;
 
+/// Whether the instance has a grain.
+pub(super) fn matters(scene: &Scene, instance: &Instance) -> bool {
+    let material = instance.material.map(|material| &scene.materials[material].model);
+    matches!(material, Some(MaterialModel::Wood { .. }))
+}
+
 /// Warns when `corners`, the triangles of `instance` in the world, are a beam of wood with its grain across.
 pub(super) fn check(
     scene: &Scene,

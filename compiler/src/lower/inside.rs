@@ -52,15 +52,25 @@ impl Solids {
     pub(super) fn find(placement: &Placement, materials: &[abi::Material], eye: DVec3) -> Self {
         let mut solids = BTreeMap::new();
         let counts = |material: u32| has_inside(&materials[material as usize]);
+        let mut add = |corners: &[DVec3; 3], material: u32, object: u32| {
+            let solid = solids.entry(object).or_insert_with(|| Solid::new(material));
+            for p in corners {
+                solid.grow(*p);
+            }
+            if let Some(t) = hit_triangle(corners, eye) {
+                solid.cross(t);
+            }
+        };
         for (corners, shade) in placement.corners.iter().zip(&placement.shades) {
             if counts(shade.material) {
-                let object = shade.object & !abi::TRI_SMOOTH;
-                let solid = solids.entry(object).or_insert_with(|| Solid::new(shade.material));
-                for p in corners {
-                    solid.grow(*p);
-                }
-                if let Some(t) = hit_triangle(corners, eye) {
-                    solid.cross(t);
+                add(corners, shade.material, shade.object & !abi::TRI_SMOOTH);
+            }
+        }
+        for placed in &placement.placed {
+            for (corners, own) in placement.meshes[placed.mesh].triangles() {
+                let material = placed.material_of(own);
+                if counts(material) {
+                    add(&placed.triangle(corners), material, placed.object);
                 }
             }
         }

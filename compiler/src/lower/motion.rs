@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 use lang::scene::Camera;
-use pack::abi::{self, MOVES, TRI_SMOOTH};
+use pack::abi::{self, MOVES, OBJECT_OF_INSTANCE, TRI_SMOOTH};
 
 use super::geometry::Placement;
 use super::order::Ordered;
@@ -58,15 +58,20 @@ pub(super) fn ends(placement: &Placement) -> Vec<[f64; 3]> {
         let center = *center + moving[*object as usize]?;
         Some([center - *radius, center + *radius])
     });
-    corners.flatten().chain(balls.flatten()).map(DVec3::into).collect()
+    let placed = placement.placed.iter().filter_map(|placed| {
+        let motion = moving[placed.object as usize]?;
+        Some(placed.bounds.map(|corner| corner + motion))
+    });
+    let all = corners.flatten().chain(balls.flatten()).chain(placed.flatten());
+    all.map(DVec3::into).collect()
 }
 
-/// Marks the primitives of objects that move.
+/// Marks the primitives of objects that move; instances were marked when they were made.
 pub(super) fn mark(objects: &[abi::Object], ordered: &mut Ordered) {
     if !objects.iter().any(abi::Object::moves) {
         return;
     }
-    let moves = |object: u32| objects[object as usize].moves();
+    let moves = |object: u32| object != OBJECT_OF_INSTANCE && objects[object as usize].moves();
     for (triangle, shade) in ordered.triangles.iter_mut().zip(&ordered.shades) {
         if moves(shade.object & !TRI_SMOOTH) {
             triangle.id0 |= MOVES;

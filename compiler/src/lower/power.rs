@@ -44,7 +44,8 @@ fn receivers(placement: &Placement) -> Option<(DVec3, f64)> {
         let glows = if emitter.kind == LightKind::Sphere { &mut spheres } else { &mut triangles };
         glows[emitter.primitive as usize..][..emitter.count as usize].fill(true);
     }
-    if triangles.iter().chain(&spheres).all(|glows| *glows) {
+    // Placed meshes do not emit.
+    if placement.placed.is_empty() && triangles.iter().chain(&spheres).all(|glows| *glows) {
         triangles.fill(false);
         spheres.fill(false);
     }
@@ -52,7 +53,8 @@ fn receivers(placement: &Placement) -> Option<(DVec3, f64)> {
     let balls = placement.spheres.iter().zip(&spheres).filter(|(_, glows)| !**glows);
     let points = corners
         .flat_map(|(corners, _)| *corners)
-        .chain(balls.flat_map(|((center, r), _)| [*center - *r, *center + *r]));
+        .chain(balls.flat_map(|((center, r), _)| [*center - *r, *center + *r]))
+        .chain(placement.placed.iter().flat_map(|placed| placed.bounds));
     let (lo, hi) =
         points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| (lo.min(p), hi.max(p)));
     let radius = 0.5 * (hi - lo).length();

@@ -55,6 +55,7 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
         fog: lowered.render.fog != NONE,
         through: materials.iter().any(|m| m.flags & material_flag::THROUGH != 0),
         sheets: materials.iter().any(Material::is_sheet),
+        instances: !lowered.instances.is_empty(),
         motion: lowered.objects.iter().any(pack::abi::Object::moves),
         layouts: [layout(lowered)].into(),
         stack_size: lowered.render.stack_need.max(1),
@@ -107,6 +108,11 @@ pub(super) fn explain(features: &FeatureSet, lowered: &Lowered) -> (Reasons, Rea
         "things have an inside, or are thin".to_owned(),
     ));
     rows.push(row("sheets", features.sheets, "light goes straight through thin things".to_owned()));
+    rows.push(row(
+        "instances",
+        features.instances,
+        format!("{} of meshes", lowered.instances.len()),
+    ));
     rows.push(row("motion", features.motion, "things move while the shutter is open".to_owned()));
     let wide = features.layouts.contains(&NodeLayout::Wide);
     let n_wide = lowered.wide_nodes.len();

@@ -8,7 +8,7 @@ use shaders::FeatureSet;
 
 use super::{FileRead, Options, features, load};
 use crate::bvh::{Layout, Preset};
-use crate::lower::{Lowered, Trees};
+use crate::lower::{Instancing, Lowered, Trees};
 
 /// What a manifest is made from.
 pub(super) struct Context<'a> {
@@ -45,6 +45,9 @@ impl Context<'_> {
             counters: vec![
                 ("triangles".to_owned(), counters.triangles),
                 ("triangles in leaves".to_owned(), counters.references),
+                ("meshes stored once".to_owned(), counters.meshes),
+                ("instances of them".to_owned(), counters.instances),
+                ("triangles shown".to_owned(), counters.shown),
                 ("triangles without area, left out".to_owned(), counters.dropped_triangles),
                 ("vertices".to_owned(), counters.vertices),
                 ("spheres".to_owned(), counters.spheres),
@@ -55,11 +58,13 @@ impl Context<'_> {
 
     /// What was asked for on the command line, where it is not what everybody gets.
     fn named_options(&self) -> Vec<String> {
-        let Trees { preset, layout, .. } = self.options.trees;
+        let Trees { preset, layout, instancing, .. } = self.options.trees;
         let bvh = (preset != Preset::default()).then(|| format!("--bvh {preset}"));
         let defines = self.options.defines.iter().map(|(n, v)| format!("-D {n}={v}"));
         let nodes = (layout != Layout::default()).then(|| format!("--nodes {layout}"));
-        defines.chain(bvh).chain(nodes).collect()
+        let instances =
+            (instancing != Instancing::default()).then(|| format!("--instances {instancing}"));
+        defines.chain(bvh).chain(nodes).chain(instances).collect()
     }
 
     /// BLAKE3 over compiler version, tree builder, layout of nodes, overrides, scene texts and files.
@@ -73,6 +78,7 @@ impl Context<'_> {
         field(env!("CARGO_PKG_VERSION").as_bytes());
         field(self.options.trees.preset.recipe().as_bytes());
         field(self.options.trees.layout.recipe().as_bytes());
+        field(self.options.trees.instancing.to_string().as_bytes());
         for (name, value) in self.options.defines {
             field(name.as_bytes());
             field(value.as_bytes());

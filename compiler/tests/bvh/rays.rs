@@ -86,7 +86,7 @@ fn through_tree(ray: &Ray, tree: &Joined, triangles: &[Tri]) -> (Option<f64>, us
                     }
                 }
             }
-            ChildRef::Spheres { .. } | ChildRef::Empty => {}
+            ChildRef::Spheres { .. } | ChildRef::Instance(_) | ChildRef::Empty => {}
         }
         while next.is_none()
             && let Some((word, near)) = stack.pop()

@@ -56,7 +56,7 @@ impl Walk<'_> {
             ChildRef::Spheres { first, count } => {
                 (&self.spheres, &mut self.seen_spheres, first, count)
             }
-            ChildRef::Empty => panic!("an empty child"),
+            ChildRef::Instance(_) | ChildRef::Empty => panic!("an empty child, or an instance"),
         };
         assert!((1..=8).contains(&count));
         let range = first as usize..(first + count) as usize;
@@ -149,7 +149,7 @@ fn visit_leaves(
             0
         }
         ChildRef::Spheres { .. } => panic!("a sphere"),
-        ChildRef::Empty => 0,
+        ChildRef::Instance(_) | ChildRef::Empty => 0,
     }
 }
 

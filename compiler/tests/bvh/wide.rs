@@ -32,7 +32,7 @@ pub(crate) fn check(joined: &Joined) -> Vec<WideNode> {
         return wide;
     }
     assert_eq!(ChildRef::decode(root), ChildRef::Inner(0));
-    assert!(stack_need(&wide, root) <= MAX_STACK);
+    assert!(stack_need(&wide, &[], root) <= MAX_STACK);
     let mut leaves = leaves_of(&joined.nodes);
     let mut seen = vec![0; wide.len()];
     seen[0] = 1;
@@ -180,12 +180,12 @@ fn a_tree_too_deep_for_four_children_keeps_two() {
         nodes.push(node(k, inner(2 * k + 1), next));
         nodes.push(node(k, leaf(2 * k), leaf(2 * k + 1)));
     }
-    assert_eq!(stack_need(&nodes, inner(0)), MAX_STACK);
+    assert_eq!(stack_need(&nodes, &[], inner(0)), MAX_STACK);
     let mut tree = joined(&[], Preset::Fast);
     (tree.nodes, tree.root) = (nodes, inner(0));
     let wide = check(&tree);
     assert_eq!(wide.len(), tree.nodes.len());
-    assert_eq!(stack_need(&wide, inner(0)), MAX_STACK);
+    assert_eq!(stack_need(&wide, &[], inner(0)), MAX_STACK);
     // One level less deep by half, and four children fit.
     tree.nodes.truncate(2 * 48);
     tree.nodes[94].right = leaf(96);
@@ -201,7 +201,7 @@ fn several_roots_share_an_array() {
     let second = widen(&tree.nodes, tree.root, &mut wide).unwrap();
     assert_eq!(ChildRef::decode(first), ChildRef::Inner(0));
     assert_eq!(ChildRef::decode(second), ChildRef::Inner(n));
-    assert_eq!(stack_need(&wide, first), stack_need(&wide, second));
+    assert_eq!(stack_need(&wide, &[], first), stack_need(&wide, &[], second));
     assert_eq!(wide.len(), 2 * n as usize);
 }
 

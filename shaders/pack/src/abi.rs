@@ -12,6 +12,7 @@ mod field;
 mod film;
 mod frame;
 mod geometry;
+mod instance;
 mod light;
 mod light_node;
 mod material;
@@ -26,9 +27,10 @@ pub use field::{AbiRecord, Field, FieldType};
 pub use film::FilmPixel;
 pub use frame::Frame;
 pub use geometry::{
-    CHILD_INNER, CHILD_SPHERES, ChildRef, EMPTY_BOX, MAX_DEPTH, MAX_LEAF, MOVES, Node, Sphere,
-    TRI_SMOOTH, TriShade, Triangle, WIDTH, WideNode,
+    CHILD_DOOR, CHILD_INNER, CHILD_OUT, CHILD_SPHERES, ChildRef, EMPTY_BOX, MAX_DEPTH, MAX_LEAF,
+    MOVES, Node, Sphere, TRI_SMOOTH, TriShade, Triangle, WIDTH, WideNode,
 };
+pub use instance::{Instance, OBJECT_OF_INSTANCE};
 pub use light::{Light, LightKind};
 pub use light_node::{LIGHT_LEAF, LightNode, MAX_LIGHT_DEPTH};
 pub use material::{Material, MaterialKind, material_flag};
@@ -47,7 +49,8 @@ pub const NONE: u32 = u32::MAX;
 pub const BATCH: u32 = 16;
 
 /// Most entries that a traversal stack may need. The compiler splits at the median below
-/// [`MAX_DEPTH`], and a scene-level tree of instances above a mesh's tree is no deeper than that.
+/// [`MAX_DEPTH`]: 47 for a mesh's tree, 48 for the tree of the scene above it, and one for the way out of
+/// an instance.
 pub const MAX_STACK: u32 = 96;
 
 /// Every record that the kernel knows, in the order in which tables are printed.
@@ -66,6 +69,7 @@ pub fn records() -> Vec<(&'static str, &'static [Field], usize)> {
         row::<TriShade>(),
         row::<Sphere>(),
         row::<Object>(),
+        row::<Instance>(),
         row::<Material>(),
         row::<Medium>(),
         row::<Light>(),

@@ -2,7 +2,7 @@
 //!
 //! Turns nodes into the length of the traversal stack. It trusts nothing: any words give a number.
 
-use crate::abi::{ChildRef, NONE, Node, WideNode};
+use crate::abi::{ChildRef, Instance, NONE, Node, WideNode};
 use crate::kind::PackRecord;
 
 /// An inner node of either layout.
@@ -38,37 +38,49 @@ impl InnerNode for WideNode {
 /// Entries that the traversal stack needs over all rays and orders: at every inner node all
 /// children may be hit, the others wait on the stack while one is followed, so
 /// `need(inner) = children - 1 + max(need(child))` and `need(leaf) = 0`. Of a binary tree that is the
-/// most inner nodes on a path from the root.
+/// most inner nodes on a path from the root. The way out of an instance waits, too:
+/// `need(instance) = 1 + need(its root)`.
 ///
-/// Children that break the order (not after their parent, or not there) count as leaves; the checks
-/// of a pack refuse them. Linear in the number of nodes.
+/// Children that break the order (not after their parent, or not there) count as leaves, and so do
+/// instances in the tree of an instance; the checks of a pack refuse them. Linear in the number of nodes.
 #[must_use]
-pub fn stack_need<N: InnerNode>(nodes: &[N], root: u32) -> u32 {
-    let ChildRef::Inner(root) = ChildRef::decode(root) else { return 0 };
-    if root as usize >= nodes.len() {
-        return 0;
+pub fn stack_need<N: InnerNode>(nodes: &[N], instances: &[Instance], root: u32) -> u32 {
+    let closed = needs(nodes, |_| 0);
+    if instances.is_empty() {
+        return need_of(&closed, |_| 0, root);
     }
-    // One more than what may wait when a node is entered; 0 is unreached.
-    let mut waiting = vec![0u32; nodes.len()];
-    waiting[root as usize] = 1;
-    let mut need = 0;
-    for (index, node) in nodes.iter().enumerate().skip(root as usize) {
-        if waiting[index] == 0 {
-            continue;
-        }
-        let others = node.children().count().saturating_sub(1);
-        let here = waiting[index].saturating_add(u32::try_from(others).unwrap_or(u32::MAX));
-        need = need.max(here - 1);
+    let door = |index: u32| {
+        let instance = instances.get(index as usize);
+        instance.map_or(0, |instance| 1 + need_of(&closed, |_| 0, instance.root))
+    };
+    need_of(&needs(nodes, door), door, root)
+}
+
+/// The need of every node, where `door` is that of an instance.
+fn needs<N: InnerNode>(nodes: &[N], door: impl Fn(u32) -> u32) -> Vec<u32> {
+    let mut needs = vec![0; nodes.len()];
+    for (index, node) in nodes.iter().enumerate().rev() {
+        let (mut others, mut below) = (0_u32, 0);
         for word in node.children() {
-            if let ChildRef::Inner(child) = ChildRef::decode(word)
-                && child as usize > index
-                && let Some(below) = waiting.get_mut(child as usize)
-            {
-                *below = (*below).max(here);
-            }
+            let need = match ChildRef::decode(word) {
+                ChildRef::Inner(child) if child as usize <= index => 0,
+                _ => need_of(&needs, &door, word),
+            };
+            others += 1;
+            below = need.max(below);
         }
+        needs[index] = below.saturating_add(others.saturating_sub(1));
     }
-    need
+    needs
+}
+
+/// The need of what `word` stands for.
+fn need_of(needs: &[u32], door: impl Fn(u32) -> u32, word: u32) -> u32 {
+    match ChildRef::decode(word) {
+        ChildRef::Inner(index) => needs.get(index as usize).copied().unwrap_or(0),
+        ChildRef::Instance(index) => door(index),
+        ChildRef::Triangles { .. } | ChildRef::Spheres { .. } | ChildRef::Empty => 0,
+    }
 }
 
 #[cfg(test)]
@@ -100,32 +112,47 @@ mod tests {
 
     #[test]
     fn leaves_need_nothing() {
-        assert_eq!(stack_need::<Node>(&[], NONE), 0);
-        assert_eq!(stack_need::<Node>(&[], leaf(0)), 0);
-        assert_eq!(stack_need::<WideNode>(&[], inner(0)), 0);
+        assert_eq!(stack_need::<Node>(&[], &[], NONE), 0);
+        assert_eq!(stack_need::<Node>(&[], &[], leaf(0)), 0);
+        assert_eq!(stack_need::<WideNode>(&[], &[], inner(0)), 0);
     }
 
     #[test]
     fn a_chain_needs_its_length_and_a_full_tree_its_depth() {
         let chain = [node(leaf(0), inner(1)), node(inner(2), leaf(1)), node(leaf(2), leaf(3))];
-        assert_eq!(stack_need(&chain, inner(0)), 3);
+        assert_eq!(stack_need(&chain, &[], inner(0)), 3);
         let full = [node(inner(1), inner(2)), node(leaf(0), leaf(1)), node(leaf(2), leaf(3))];
-        assert_eq!(stack_need(&full, inner(0)), 2);
+        assert_eq!(stack_need(&full, &[], inner(0)), 2);
         for tree in [&chain, &full] {
-            assert_eq!(stack_need(tree, inner(0)), by_definition(tree, inner(0)));
+            assert_eq!(stack_need(tree, &[], inner(0)), by_definition(tree, inner(0)));
         }
+    }
+
+    #[test]
+    fn an_instance_needs_its_tree_and_the_way_out() {
+        let door = |index| ChildRef::Instance(index).encode().unwrap();
+        let mesh = |root| Instance { root, ..Instance::default() };
+        // Node 0 is the world; node 1 is a mesh of two levels, shown twice; the third is one leaf.
+        let nodes = [node(door(0), door(2)), node(inner(2), leaf(0)), node(leaf(1), leaf(2))];
+        let instances = [mesh(inner(1)), mesh(inner(1)), mesh(leaf(3))];
+        assert_eq!(stack_need(&nodes, &instances, inner(0)), 1 + 1 + 2);
+        assert_eq!(stack_need(&nodes, &instances, door(1)), 1 + 2);
+        assert_eq!(stack_need(&nodes, &instances, door(2)), 1);
+        assert_eq!(stack_need(&nodes, &instances, door(3)), 0);
+        // A world within itself is no world; it gives a number.
+        assert_eq!(stack_need(&nodes, &[mesh(inner(0))], inner(0)), 1 + 1 + 1);
     }
 
     #[test]
     fn broken_trees_give_a_number() {
         let cycle = [node(inner(0), inner(7)), node(inner(0), inner(1))];
-        assert_eq!(stack_need(&cycle, inner(0)), 1);
-        assert_eq!(stack_need(&cycle, inner(1)), 1);
+        assert_eq!(stack_need(&cycle, &[], inner(0)), 1);
+        assert_eq!(stack_need(&cycle, &[], inner(1)), 1);
     }
 
     /// A stack machine that follows any child first never holds more, and reaches the bound.
     fn check_bound<N: InnerNode>(tree: &[N]) {
-        let need = stack_need(tree, inner(0)) as usize;
+        let need = stack_need(tree, &[], inner(0)) as usize;
         let mut deepest = 0;
         for order in 0..1u32 << (2 * tree.len()) {
             let mut stack = Vec::new();
@@ -168,6 +195,6 @@ mod tests {
             wide([leaf(9), leaf(10), NONE, NONE]),
         ];
         check_bound(&tree);
-        assert_eq!(stack_need(&tree, inner(0)), 2 + 1 + 3 + 1);
+        assert_eq!(stack_need(&tree, &[], inner(0)), 2 + 1 + 3 + 1);
     }
 }

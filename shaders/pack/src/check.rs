@@ -93,6 +93,7 @@ fn records(contents: &Contents<'_>) -> Result<(), PackError> {
     each(contents.spheres, contents)?;
     each(contents.materials, contents)?;
     each(contents.objects, contents)?;
+    each(contents.instances, contents)?;
     each(contents.media, contents)?;
     each(contents.lights, contents)?;
     light_table(contents)?;

@@ -4,8 +4,8 @@
 //! through this view, so both check and derive the same things. It judges nothing.
 
 use crate::abi::{
-    Camera, Light, LightNode, Material, Medium, Node, Object, RenderSettings, Sky, Sphere, Texture,
-    TriShade, Triangle, WideNode,
+    Camera, Instance, Light, LightNode, Material, Medium, Node, Object, RenderSettings, Sky,
+    Sphere, Texture, TriShade, Triangle, WideNode,
 };
 use crate::error::PackError;
 use crate::kind::{Kind, PackRecord};
@@ -23,6 +23,7 @@ pub(crate) struct Contents<'a> {
     pub(crate) spheres: &'a [Sphere],
     pub(crate) materials: &'a [Material],
     pub(crate) objects: &'a [Object],
+    pub(crate) instances: &'a [Instance],
     pub(crate) media: &'a [Medium],
     pub(crate) lights: &'a [Light],
     pub(crate) light_nodes: &'a [LightNode],
@@ -51,6 +52,7 @@ impl<'a> Contents<'a> {
             spheres: records(&find),
             materials: records(&find),
             objects: records(&find),
+            instances: records(&find),
             media: records(&find),
             lights: records(&find),
             light_nodes: records(&find),
@@ -72,6 +74,7 @@ impl<'a> Contents<'a> {
             Kind::SPHERE => self.spheres.len(),
             Kind::MATERIAL => self.materials.len(),
             Kind::OBJECT => self.objects.len(),
+            Kind::INSTANCE => self.instances.len(),
             Kind::MEDIUM => self.media.len(),
             Kind::LIGHT => self.lights.len(),
             Kind::TEXTURE => self.textures.len(),

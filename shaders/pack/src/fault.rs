@@ -205,6 +205,9 @@ pub enum SectionFault {
 /// What a field of a record can have wrong.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ElementFault {
+    /// Rows and columns that are not each other's inverse.
+    #[error("and the other rows are not the inverse of the columns: off by {0:e}")]
+    NotInverse(f32),
     /// NaN or infinite.
     #[error("is {0}, expected a finite number")]
     NotFinite(f32),
@@ -438,6 +441,51 @@ pub enum BvhFault {
         /// The reference word.
         word: u32,
     },
+    /// A reference to an instance that does not exist.
+    #[error("{side} is instance {index}, but INSTANCE has {count} elements")]
+    NoSuchInstance {
+        /// `left`, `right` or `root`.
+        side: &'static str,
+        /// The instance.
+        index: u32,
+        /// Of the section.
+        count: usize,
+    },
+    /// An instance in two leaves.
+    #[error("{side} is instance {index}, which is in another leaf already")]
+    SharedInstance {
+        /// `left`, `right` or `root`.
+        side: &'static str,
+        /// The instance.
+        index: u32,
+    },
+    /// The root of an instance that is neither a node nor triangles.
+    #[error("root is {}, an instance shows a node or triangles", Reference(*found))]
+    MeshRoot {
+        /// The reference word.
+        found: u32,
+    },
+    /// Spheres or an instance in the tree of an instance.
+    #[error("{side} is {}, but the tree of an instance holds triangles", Reference(*word))]
+    InMesh {
+        /// `left` or `right`.
+        side: &'static str,
+        /// The reference word.
+        word: u32,
+    },
+    /// Triangles of an instance outside of it, or others inside, or a light inside.
+    #[error(
+        "{side} is {}, of which one {}", Reference(*word),
+        if *inside { "belongs to no instance, or is a light" } else { "belongs to an instance" }
+    )]
+    Frame {
+        /// `left`, `right` or `root`.
+        side: &'static str,
+        /// The reference word.
+        word: u32,
+        /// Whether the leaf is in the tree of an instance.
+        inside: bool,
+    },
     /// A node that no parent names.
     #[error("no parent refers to this node")]
     Unreachable,
@@ -508,6 +556,7 @@ impl fmt::Display for Reference {
             ChildRef::Triangles { first, count } => leaf("triangles", first, count),
             ChildRef::Spheres { first, count } => leaf("spheres", first, count),
             ChildRef::Inner(index) => write!(out, "node {index}"),
+            ChildRef::Instance(index) => write!(out, "instance {index}"),
             ChildRef::Empty => write!(out, "none"),
         }
     }

@@ -32,6 +32,8 @@ impl Kind {
     pub const MATERIAL: Self = Self(*b"MATERIAL");
     /// [`abi::Object`]s; absent when nothing depends on them.
     pub const OBJECT: Self = Self(*b"OBJECT  ");
+    /// [`abi::Instance`]s; absent when every mesh is where its triangles say.
+    pub const INSTANCE: Self = Self(*b"INSTANCE");
     /// [`abi::Medium`]s.
     pub const MEDIUM: Self = Self(*b"MEDIUM  ");
     /// [`abi::Light`]s: the selection table.
@@ -121,6 +123,9 @@ const fn one(kind: Kind, elem_size: usize, required: bool) -> SectionSpec {
 /// A leaf names its first primitive with 27 bits.
 const MAX_PRIMITIVES: u64 = 1 << 27;
 
+/// Most instances of a pack.
+pub const MAX_INSTANCES: u64 = 1 << 19;
+
 /// Most bytes of a kernel: a hundred times what the largest scene links today.
 pub(crate) const MAX_KERNEL: u64 = 4 << 20;
 /// Most bytes of a manifest.
@@ -131,7 +136,7 @@ const MAX_SKY_WORDS: u64 = (32 << 20) / 16 + (1 << 16);
 pub(crate) const SRGB_WORDS: u64 = 64;
 
 /// Every section of this format, in file order.
-pub const SECTIONS: [SectionSpec; 19] = [
+pub const SECTIONS: [SectionSpec; 20] = [
     one(Kind::RENDER, size_of::<abi::RenderSettings>(), true),
     one(Kind::CAMERA, size_of::<abi::Camera>(), true),
     one(Kind::SKY, size_of::<abi::Sky>(), false),
@@ -140,9 +145,12 @@ pub const SECTIONS: [SectionSpec; 19] = [
     table(Kind::WIDENODE, size_of::<abi::WideNode>(), 2 * MAX_PRIMITIVES),
     table(Kind::TRIANGLE, size_of::<abi::Triangle>(), MAX_PRIMITIVES),
     table(Kind::TRISHADE, size_of::<abi::TriShade>(), MAX_PRIMITIVES),
-    table(Kind::SPHERE, size_of::<abi::Sphere>(), MAX_PRIMITIVES),
+    // A reference to spheres has one bit less.
+    table(Kind::SPHERE, size_of::<abi::Sphere>(), MAX_PRIMITIVES / 2),
     table(Kind::MATERIAL, size_of::<abi::Material>(), 1 << 24),
     table(Kind::OBJECT, size_of::<abi::Object>(), 1 << 24),
+    // 56 MiB, which share a binding with other small tables.
+    table(Kind::INSTANCE, size_of::<abi::Instance>(), MAX_INSTANCES),
     table(Kind::MEDIUM, size_of::<abi::Medium>(), 1 << 16),
     table(Kind::LIGHT, size_of::<abi::Light>(), 1 << 24),
     table(Kind::LIGHTNODE, size_of::<abi::LightNode>(), 1 << 20),
@@ -170,5 +178,6 @@ pack_records! {
     RenderSettings => RENDER, Camera => CAMERA, Sky => SKY, Node => NODE, WideNode => WIDENODE,
     Triangle => TRIANGLE,
     TriShade => TRISHADE, Sphere => SPHERE, Material => MATERIAL, Object => OBJECT,
+    Instance => INSTANCE,
     Medium => MEDIUM, Light => LIGHT, LightNode => LIGHTNODE, Texture => TEXTURE,
 }

@@ -41,7 +41,7 @@ pub use describe::{SectionRow, describe};
 pub use error::{PackError, Place};
 pub use fault::{BvhFault, ElementFault, HeaderFault, SectionFault};
 pub use header::{FORMAT_MAJOR, FORMAT_MINOR, MAGIC, layout_id};
-pub use kind::{Kind, PackRecord, SECTIONS, SectionSpec};
+pub use kind::{Kind, MAX_INSTANCES, PackRecord, SECTIONS, SectionSpec};
 pub use manifest::Manifest;
 pub use map::MapMode;
 pub use reader::{Checked, Pack, Section, Unchecked};

@@ -477,6 +477,10 @@ const LIGHTS: [&str; 9] = [
     "LightLost",
 ];
 
+/// Rules of instances, likewise.
+const INSTANCES: [&str; 6] =
+    ["NotInverse", "NoSuchInstance", "SharedInstance", "MeshRoot", "InMesh", "Frame"];
+
 /// Reads the enums: a rule without a bad pack is a rule that nobody has seen fail.
 #[test]
 fn every_rule_has_a_bad_pack() {
@@ -484,9 +488,10 @@ fn every_rule_has_a_bad_pack() {
         [header_cases(), name_cases(), range_cases(), relation_cases(), word_cases(), tree_cases()];
     let seen: Vec<String> =
         cases.iter().flatten().map(|(mutation, _)| format!("{:?}", error(mutation))).collect();
-    // Shown by tests of their own, here and in `files.rs`, `round_trip.rs`, `bad_skies.rs` and `bad_lights.rs`.
+    // Shown by tests of their own, here and in `files.rs`, `round_trip.rs`, `bad_skies.rs`, `bad_lights.rs` and
+    // `bad_instances.rs`.
     let files = ["Io", "NotAFile", "SceneSource", "Manifest", "Hash", "Layout"];
-    let elsewhere = [files.as_slice(), &LIGHTS].concat();
+    let elsewhere = [files.as_slice(), &LIGHTS, &INSTANCES].concat();
     let mut rules = 0;
     for line in concat!(include_str!("../src/error.rs"), include_str!("../src/fault.rs")).lines() {
         // Variants are the lines indented by four that begin with a capital letter.

@@ -113,12 +113,13 @@ fn the_render_id_names_the_picture_and_not_its_history() {
 fn features_are_those_of_the_contents() {
     let pack = Pack::from_bytes(Scene::full().bytes()).unwrap();
     // A pack has one sky, and this one is no light; few lights need no tree; none is tinted. The nodes are
-    // binary.
+    // binary, and no mesh is stored once.
     let absent = features::SKY_CONSTANT
         | features::SKY_IMAGE
         | features::LIGHT_SKY
         | features::LIGHT_TREE
         | features::TINT
+        | features::INSTANCES
         | features::WIDE_NODES
         | features::SAMPLER_PCG;
     assert_eq!(pack.features(), features::KNOWN & !absent);
@@ -146,14 +147,16 @@ fn absent_kinds_bring_no_section() {
         let there = pack::SECTIONS.iter().filter(|spec| spec.kind != absent);
         there.map(|spec| spec.kind.to_string()).collect()
     };
-    assert_eq!(kinds(&Scene::with_light_tree()), but(Kind::WIDENODE));
+    assert_eq!(kinds(&Scene::with_light_tree().and_instances()), but(Kind::WIDENODE));
     let Scene { render, wide_nodes, nodes, .. } = Scene::wide();
     let render = pack::abi::RenderSettings {
         stack_need: render.stack_need,
         ..Scene::with_light_tree().render
     };
     let wide = Scene { render, nodes, wide_nodes, ..Scene::with_light_tree() };
-    assert_eq!(kinds(&wide), but(Kind::NODE));
+    let mut others = but(Kind::NODE);
+    others.retain(|kind| *kind != Kind::INSTANCE.to_string());
+    assert_eq!(kinds(&wide), others);
 }
 
 #[test]

@@ -92,7 +92,7 @@ proptest! {
         let mut build = Build { nodes: Vec::new(), width: 2, n_triangles: 0, n_spheres: 0 };
         let root = build.subtree(&mut bits.into_iter());
         let nodes: Vec<Node> = build.nodes.iter().map(|c| node(c[0], c[1])).collect();
-        let need = stack_need(&nodes, root);
+        let need = stack_need(&nodes, &[], root);
         prop_assert_eq!(need, height(&nodes, root));
         check(&Scene { nodes, ..scene(&build, root, need) });
     }
@@ -104,7 +104,7 @@ proptest! {
         let child = |c: &Vec<u32>, side: usize| c.get(side).copied().unwrap_or(NONE);
         let four = |c: &Vec<u32>| wide_node([0, 1, 2, 3].map(|side| child(c, side)));
         let wide_nodes: Vec<WideNode> = build.nodes.iter().map(four).collect();
-        let need = stack_need(&wide_nodes, root);
+        let need = stack_need(&wide_nodes, &[], root);
         prop_assert_eq!(need, height(&wide_nodes, root));
         check(&Scene { wide_nodes, ..scene(&build, root, need) });
     }

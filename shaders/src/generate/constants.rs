@@ -2,8 +2,8 @@
 
 use crate::FeatureSet;
 use pack::abi::{
-    CHILD_INNER, CHILD_SPHERES, ChildRef, LIGHT_LEAF, LightKind, MOVES, MaterialKind, NONE,
-    SamplerKind, SkyKind, TRI_SMOOTH, TextureFormat, Wrap, material_flag,
+    CHILD_DOOR, CHILD_INNER, CHILD_OUT, CHILD_SPHERES, ChildRef, LIGHT_LEAF, LightKind, MOVES,
+    MaterialKind, NONE, SamplerKind, SkyKind, TRI_SMOOTH, TextureFormat, Wrap, material_flag,
 };
 use std::fmt::Write as _;
 
@@ -18,6 +18,9 @@ pub(crate) fn text(features: &FeatureSet) -> String {
         ("CHILD_INNER", CHILD_INNER),
         ("CHILD_INDEX", CHILD_INNER - 1),
         ("CHILD_SPHERES", CHILD_SPHERES),
+        ("CHILD_DOOR", CHILD_DOOR),
+        ("CHILD_DOOR_INDEX", !CHILD_DOOR & (CHILD_SPHERES - 1) & ((1 << 26) - 1)),
+        ("CHILD_OUT", CHILD_OUT),
         ("CHILD_FIRST", count_unit - 1),
         ("CHILD_COUNT_SHIFT", count_unit.trailing_zeros()),
         ("MATERIAL_DIFFUSE", MaterialKind::Diffuse as u32),

@@ -22,6 +22,7 @@ pub(crate) fn path(features: &FeatureSet) -> String {
         "scene/constants.wgsl",
         "scene/dispatch_sky.wgsl",
         "scene/motion.wgsl",
+        "scene/placed.wgsl",
         "scene/records.wgsl",
         "scene/sampler.wgsl",
         "shape/sphere.wgsl",
@@ -69,8 +70,8 @@ fn surface(features: &FeatureSet) -> String {
     if features.spheres {
         let mut sphere = String::from(
             "    let i = hit.prim & ~PRIM_SPHERE;\n    \
-             let start = dispatch_sphere_origin(load_sphere_object(i), origin, time);\n    \
-             var s = sphere_surface(i, start, dir, hit.t);\n    dispatch_sphere_carry(&s, i, time);\n",
+             let start = dispatch_thing_origin(load_sphere_object(i), origin, time);\n    \
+             var s = sphere_surface(i, start, dir, hit.t);\n    dispatch_thing_carry(&s, load_sphere_object(i), time);\n",
         );
         if !features.textures.is_empty() || features.tangents {
             sphere += "    s.uv = sphere_uv(select(-s.ng, s.ng, s.front));\n";
@@ -88,7 +89,8 @@ fn surface(features: &FeatureSet) -> String {
             if features.smooth_normals { "triangle_surface" } else { "triangle_flat_surface" };
         let _ = write!(
             body,
-            "    var s = {function}(hit.prim, hit.b, dir);\n    \
+            "    if (dispatch_is_placed(hit)) {{\n        return dispatch_placed_surface(hit, dir, time);\n    }}\n    \
+             var s = {function}(hit.prim, hit.b, dir);\n    \
              dispatch_triangle_carry(&s, hit.prim, time);\n    return s;\n"
         );
     }
@@ -103,7 +105,7 @@ fn tangent(features: &FeatureSet) -> String {
     if features.tangents && features.geometry() {
         body += "    if ((flags & FLAG_TANGENT) == 0u) {\n        return;\n    }\n";
         let sphere = "(*s).tangent = sphere_tangent(select(-(*s).ng, (*s).ng, (*s).front));";
-        let triangle = "let t = triangle_tangent(hit.prim);\n    (*s).tangent = t.xyz;\n    \
+        let triangle = "let t = dispatch_placed_tangent(hit.instance, triangle_tangent(hit.prim));\n    (*s).tangent = t.xyz;\n    \
                         (*s).handed = select(-t.w, t.w, (*s).front);";
         let lines = match (features.spheres, features.triangles) {
             (true, true) => format!(

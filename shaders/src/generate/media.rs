@@ -100,8 +100,8 @@ pub(crate) fn crossing(features: &FeatureSet) -> String {
     function(
         &mut text,
         "True if the surface is not there for the path, which then goes straight on.",
-        &format!("dispatch_pass({path}, s: Surface, flags: u32, prim: u32) -> bool"),
-        with("    return crossing_pass(path, s, flags, prim);\n", "    return false;\n"),
+        &format!("dispatch_pass({path}, s: Surface, flags: u32, skip: vec2u) -> bool"),
+        with("    return crossing_pass(path, s, flags, skip);\n", "    return false;\n"),
     );
     function(
         &mut text,
@@ -225,9 +225,14 @@ fn depart(text: &mut String, features: &FeatureSet) {
 /// Which hits end the search of a shadow ray.
 pub(crate) fn ends(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: which hits hide a light.\n\n");
-    text += &imports(["scene/constants.wgsl", "scene/records.wgsl", "trace/ray.wgsl"]);
+    text += &imports([
+        "scene/constants.wgsl",
+        "scene/placed.wgsl",
+        "scene/records.wgsl",
+        "trace/ray.wgsl",
+    ]);
     let sphere = "load_sphere_material(hit.prim & ~PRIM_SPHERE)";
-    let triangle = "load_tri_shade_material(hit.prim)";
+    let triangle = "dispatch_placed_material(hit.instance, load_tri_shade_material(hit.prim))";
     let material = match (features.spheres, features.triangles) {
         (true, true) => format!(
             "    if ((hit.prim & PRIM_SPHERE) != 0u) {{\n        return {sphere};\n    }}\n    \

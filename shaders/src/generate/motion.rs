@@ -50,8 +50,8 @@ pub(crate) fn text(features: &FeatureSet) -> String {
             "    return origin;\n",
         ),
         (
-            "As `dispatch_triangle_origin`, for a sphere with this word `object`.",
-            "sphere_origin(object: u32, origin: vec3f, time: f32) -> vec3f",
+            "As `dispatch_triangle_origin`, for a sphere or an instance with this word `object`.",
+            "thing_origin(object: u32, origin: vec3f, time: f32) -> vec3f",
             "    if ((object & MOVES) == 0u) {\n        return origin;\n    }\n    \
              return origin - motion_shift(object & ~MOVES, time);\n",
             "    return origin;\n",
@@ -64,9 +64,9 @@ pub(crate) fn text(features: &FeatureSet) -> String {
             "",
         ),
         (
-            "Takes the surface `s` of sphere `i` to where the sphere is at `time`.",
-            "sphere_carry(s: ptr<function, Surface>, i: u32, time: f32)",
-            "    if ((load_sphere_object(i) & MOVES) != 0u) {\n        \
+            "Takes the surface `s` of a sphere or an instance with this word `object` to where it is at `time`.",
+            "thing_carry(s: ptr<function, Surface>, object: u32, time: f32)",
+            "    if ((object & MOVES) != 0u) {\n        \
              surface_carry(s, motion_shift((*s).object, time));\n    }\n",
             "",
         ),

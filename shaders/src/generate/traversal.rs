@@ -1,5 +1,5 @@
-//! `scene/candidate.wgsl`, `scene/leaf.wgsl` and `scene/nodes.wgsl`: what the traversal does with a
-//! primitive, a leaf and a node.
+//! `scene/candidate.wgsl`, `scene/leaf.wgsl`, `scene/nodes.wgsl`, `scene/door.wgsl`, `scene/placed.wgsl`: what
+//! the traversal does with a primitive, a leaf, a node and an instance.
 
 use super::imports;
 use crate::{FeatureSet, NodeLayout};
@@ -12,19 +12,20 @@ pub(crate) fn candidate(features: &FeatureSet) -> String {
     text += &imports([
         "abi/sphere.wgsl",
         "scene/constants.wgsl",
+        "scene/placed.wgsl",
         "scene/records.wgsl",
         "shape/sphere.wgsl",
         "shape/triangle.wgsl",
         "trace/alpha.wgsl",
         "trace/ray.wgsl",
     ]);
-    text += "\n// Triangle `i` at barycentric weights `b`; `light`: as in `Ray`.\n\
-             fn candidate_triangle(i: u32, b: vec2f, light: u32) -> bool {\n";
+    text += "\n// Triangle `i`, in the frame of `ray`, at barycentric weights `b`.\n\
+             fn candidate_triangle(i: u32, b: vec2f, ray: Ray) -> bool {\n";
     if features.surface_lights() {
-        text += "    if (light != NONE && load_tri_shade_light(i) == light) {\n        return false;\n    }\n";
+        text += "    if (ray.light != NONE && load_tri_shade_light(i) == ray.light) {\n        return false;\n    }\n";
     }
     if features.alpha_clip {
-        text += "    let material = load_tri_shade_material(i);\n    \
+        text += "    let material = dispatch_placed_material(ray.instance, load_tri_shade_material(i));\n    \
                  return alpha_is_plain(material) || alpha_exists(material, triangle_uv(i, b));\n}\n";
     } else {
         text += "    return true;\n}\n";
@@ -85,6 +86,76 @@ pub(crate) fn leaf(features: &FeatureSet) -> String {
     };
     let _ = writeln!(text, "    return {otherwise};");
     text + "}\n"
+}
+
+/// How a walk goes into an instance and out of it.
+pub(crate) fn door(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: whether this scene has instances to walk into.\n\n");
+    text += &imports(["scene/constants.wgsl", "trace/ray.wgsl", "trace/walk.wgsl"]);
+    let (is_door, door) = if features.instances {
+        text += &imports(["scene/records.wgsl", "trace/instance.wgsl"]);
+        (
+            "(child & CHILD_DOOR) == CHILD_DOOR",
+            "    if (child == CHILD_OUT) {\n        *walk = walk_begin(ray);\n        return NONE;\n    }\n    \
+             let i = child & CHILD_DOOR_INDEX;\n    *walk = walk_begin(instance_ray(i, ray));\n    \
+             return load_instance_root(i);\n",
+        )
+    } else {
+        ("false", "    return NONE;\n")
+    };
+    let _ = write!(
+        text,
+        "\n// Whether the leaf's reference is that of an instance, or of the way out of one.\n\
+         fn dispatch_is_door(child: u32) -> bool {{\n    return {is_door};\n}}\n\
+         \n// Goes through the door with `ray`, which is in the world: where to go on in the instance, or `NONE` where\n\
+         // the walk is back in the world.\n\
+         fn dispatch_door(child: u32, ray: Ray, walk: ptr<function, Walk>) -> u32 {{\n{door}}}\n"
+    );
+    text
+}
+
+/// What hits in instances look like. Each function depends on nothing but whether there are any.
+pub(crate) fn placed(features: &FeatureSet) -> String {
+    let mut text =
+        String::from("// Generated: whether triangles of this scene are in instances.\n\n");
+    text += &imports([
+        "scene/constants.wgsl",
+        "shape/triangle.wgsl",
+        "surface/surface.wgsl",
+        "trace/ray.wgsl",
+    ]);
+    let with = |there: &'static str, absent: &'static str| {
+        if features.instances { there } else { absent }
+    };
+    if features.instances {
+        text += &imports(["shape/instance.wgsl"]);
+    }
+    let either = |function: &'static str, own: &'static str| {
+        if features.instances {
+            format!(
+                "    if (instance == NONE) {{\n        return {own};\n    }}\n    \
+                 return instance_{function}(instance, {own});\n"
+            )
+        } else {
+            format!("    return {own};\n")
+        }
+    };
+    let _ = write!(
+        text,
+        "\n// Whether the hit is in an instance.\n\
+         fn dispatch_is_placed(hit: Hit) -> bool {{\n    return {};\n}}\n\
+         \n// The surface that was hit in an instance.\n\
+         fn dispatch_placed_surface(hit: Hit, dir: vec3f, time: f32) -> Surface {{\n    return {};\n}}\n\
+         \n// The material of a triangle in `instance`, or in none, that has `own`.\n\
+         fn dispatch_placed_material(instance: u32, own: u32) -> u32 {{\n{}}}\n\
+         \n// In the world, the `tangent` of a triangle in `instance`, or in none.\n\
+         fn dispatch_placed_tangent(instance: u32, tangent: vec4f) -> vec4f {{\n{}}}\n",
+        with("hit.instance != NONE", "false"),
+        with("instance_surface(hit, dir, time)", "triangle_flat_surface(hit.prim, hit.b, dir)"),
+        either("material", "own"),
+        either("tangent", "tangent"),
+    );
+    text
 }
 
 /// What a node is. Only the full kernel asks.

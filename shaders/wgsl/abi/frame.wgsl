@@ -54,4 +54,9 @@ struct Frame {
     light_tree_at: u32,
     // Index of the `Medium` that is fog, or `NONE`.
     fog: u32,
+    // First heap word of the `Instance` table.
+    instance_at: u32,
+    _pad0: u32,
+    _pad1: u32,
+    _pad2: u32,
 }

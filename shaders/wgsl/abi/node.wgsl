@@ -1,5 +1,5 @@
 // Inner node of the binary BVH, 64 bytes: the boxes of both children and where they are.
-// Normalised world frame.
+// Normalised world frame, or the frame of a mesh, see `Instance`.
 struct Node {
     // Lower corner of the left child's box.
     left_lo: vec3<f32>,

@@ -1,5 +1,6 @@
 // Inner node of the wide BVH, 64 bytes: up to four children with boxes in steps of a grid of the node's own.
-// Normalised world frame. Child k is at byte k of the words of `lo` and `hi`, the lowest byte is 0.
+// Normalised world frame, or the frame of a mesh, see `Instance`. Child k is at byte k of the words of `lo` and
+// `hi`, the lowest byte is 0.
 struct WideNode {
     // Lower corner of the grid.
     origin: vec3<f32>,

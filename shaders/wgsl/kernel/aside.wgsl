@@ -8,12 +8,12 @@ struct Aside {
     used: bool,
     point: vec3f,
     gap: vec3f,
-    skip: u32,
+    skip: vec2u,
     // The last vertex at which the path was scattered, or the camera: where a light would have been sampled.
     vertex: vec3f,
 }
 
 // Nothing yet; the path leaves the camera at `origin`.
 fn aside_begin(origin: vec3f) -> Aside {
-    return Aside(false, vec3f(0.0), vec3f(0.0), NONE, origin);
+    return Aside(false, vec3f(0.0), vec3f(0.0), vec2u(NONE), origin);
 }

@@ -28,7 +28,7 @@ fn beam_advance(path: ptr<function, Path>, hit: Hit) -> bool {
     }
     (*path).point = s.p;
     (*path).gap = s.ng * s.gap;
-    (*path).skip = hit.prim;
+    (*path).skip = ray_skip(hit);
     (*path).shadow_t -= hit.t;
     return true;
 }

@@ -6,10 +6,10 @@
 #import "scene/constants.wgsl"
 #import "surface/surface.wgsl"
 
-// Moves the path straight through the surface `s`, on primitive `prim`, if it is not there for a path in
+// Moves the path straight through the surface `s`, on the primitive `skip`, if it is not there for a path in
 // these media. That is no vertex: density and point of the last one stay, for the weight of a light that
 // the path may find.
-fn crossing_pass(path: ptr<function, Path>, s: Surface, flags: u32, prim: u32) -> bool {
+fn crossing_pass(path: ptr<function, Path>, s: Surface, flags: u32, skip: vec2u) -> bool {
     if ((flags & FLAG_INTERIOR) == 0u) {
         return false;
     }
@@ -23,7 +23,7 @@ fn crossing_pass(path: ptr<function, Path>, s: Surface, flags: u32, prim: u32) -
     (*path).segments -= 1u;
     (*path).point = s.p;
     (*path).gap = s.ng * s.gap;
-    (*path).skip = prim;
+    (*path).skip = skip;
     return true;
 }
 

@@ -23,7 +23,7 @@ fn path_ray(path: Path) -> Ray {
     let shadow = path.shadow_light != NONE;
     let dir = select(path.dir, path.shadow_dir, shadow);
     let t_max = select(RAY_FAR, path.shadow_t, shadow);
-    return Ray(state_origin(path.point, path.gap, dir), t_max, dir, path.skip, path.shadow_light, path.time);
+    return Ray(state_origin(path.point, path.gap, dir), t_max, dir, path.skip, path.shadow_light, path.time, NONE);
 }
 
 // Whether there is no ray left.

@@ -24,8 +24,8 @@ struct Path {
     pdf: f32,
     // Next segment, unit. Meaningful while `open`.
     dir: vec3f,
-    // Primitive of `point`, as in `Hit::prim`, or `NONE`.
-    skip: u32,
+    // Primitive of `point`, as `Ray::skip`.
+    skip: vec2u,
     // Offset of a ray's start from `point`, on one side of the surface; the other side is its negative.
     gap: vec3f,
     // There is a next segment.
@@ -48,7 +48,7 @@ struct Path {
 fn state_at_camera(key: SampleKey, ray: CameraRay) -> Path {
     return Path(
         key, vec3f(0.0), 0u, vec3f(1.0), 1.0,
-        ray.origin, 0.0, ray.dir, NONE, vec3f(0.0), true,
+        ray.origin, 0.0, ray.dir, vec2u(NONE), vec3f(0.0), true,
         ray.dir, 0.0, vec3f(0.0), NONE,
         inside_begin(), beam_begin(ray.origin), dispatch_time(key),
     );

@@ -26,7 +26,7 @@ struct Vertex {
     // Flags of its `Material`; 0 in a medium.
     flags: u32,
     // As `Path::skip`.
-    skip: u32,
+    skip: vec2u,
 }
 
 // The vertex at `hit`: false if the path goes straight on there, or ends.
@@ -34,7 +34,7 @@ fn vertex_surface(path: ptr<function, Path>, hit: Hit, v: ptr<function, Vertex>)
     let origin = state_origin((*path).point, (*path).gap, (*path).dir);
     var s = dispatch_surface(hit, origin, (*path).dir, (*path).time);
     let m = load_material(s.material);
-    if (dispatch_pass(path, s, m.flags, hit.prim)) {
+    if (dispatch_pass(path, s, m.flags, ray_skip(hit))) {
         return false;
     }
     dispatch_tangent(&s, hit, m.flags);
@@ -48,7 +48,7 @@ fn vertex_surface(path: ptr<function, Path>, hit: Hit, v: ptr<function, Vertex>)
     var scatter = scatter_at(m, s, (*path).key);
     dispatch_pattern(&scatter, s, -(*path).dir);
     dispatch_bend(path, &scatter, m.flags);
-    *v = Vertex(scatter, s, m.flags, hit.prim);
+    *v = Vertex(scatter, s, m.flags, ray_skip(hit));
     return true;
 }
 
@@ -59,7 +59,7 @@ fn vertex_medium(path: ptr<function, Path>, p: vec3f, i: u32, v: ptr<function, V
         return;
     }
     let s = surface_new(p, -(*path).dir, (*path).dir, 0.0);
-    *v = Vertex(phase_scatter(i, (*path).key), s, 0u, NONE);
+    *v = Vertex(phase_scatter(i, (*path).key), s, 0u, vec2u(NONE));
 }
 
 // Whether no segment may follow.

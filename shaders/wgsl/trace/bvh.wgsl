@@ -1,7 +1,9 @@
-// Walks the BVH: the nearest hit, or any hit that hides a light.
+// Walks the BVH: the nearest hit, or any hit that hides a light. Trees of instances are walked by the same loop, in
+// their own frame, with the rest of the world waiting on the same stack.
 // Nothing bounds the number of steps, because a tree is finite and a cap would open holes where geometry is hard.
 
 #import "scene/constants.wgsl"
+#import "scene/door.wgsl"
 #import "scene/ends.wgsl"
 #import "scene/leaf.wgsl"
 #import "scene/nodes.wgsl"
@@ -9,23 +11,30 @@
 #import "trace/box.wgsl"
 #import "trace/ray.wgsl"
 #import "trace/stack.wgsl"
+#import "trace/walk.wgsl"
 
 // The nearest hit before `ray.t_max`, or a miss. For a shadow ray: some opaque hit on the way, else the nearest.
 fn trace(ray: Ray) -> Hit {
     var hit = ray_miss(ray.t_max);
     var child = load_frame_root();
-    let inverse = box_inverse(ray.dir);
-    let leaf = leaf_prepare(ray);
+    var walk = walk_begin(ray);
     var n_stack = 0u;
     loop {
         if (child == NONE) { break; }
         if ((child & CHILD_INNER) != 0u) {
-            child = dispatch_node(child & CHILD_INDEX, ray.origin, inverse, hit.t, &n_stack);
+            child = dispatch_node(child & CHILD_INDEX, walk.ray.origin, walk.inverse, hit.t, &n_stack);
             if (child != NONE) {
                 continue;
             }
+        } else if (dispatch_is_door(child)) {
+            child = dispatch_door(child, ray, &walk);
+            if (child != NONE) {
+                // Nothing lies before it: it is never left out.
+                stack_push(&n_stack, CHILD_OUT, 0u);
+                continue;
+            }
         } else {
-            hit = leaf_trace(child, ray, leaf, hit);
+            hit = leaf_trace(child, walk.ray, walk.leaf, hit);
             if (ray.light != NONE && hit.prim != NONE && dispatch_ends(hit)) {
                 break;
             }

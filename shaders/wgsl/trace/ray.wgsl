@@ -1,4 +1,5 @@
-// What the traversal is asked and what it answers. World frame, normalised units.
+// What the traversal is asked and what it answers. World frame, normalised units, unless `Ray::instance` says
+// otherwise.
 
 #import "scene/constants.wgsl"
 
@@ -12,16 +13,18 @@ struct Ray {
     origin: vec3f,
     // Nothing beyond this distance is hit.
     t_max: f32,
-    // Unit.
+    // Unit in the world.
     dir: vec3f,
-    // The primitive that the ray starts on, as in `Hit::prim`, or `NONE`. A triangle cannot be hit
-    // again, in any of its places; of a sphere only the other end of the chord counts.
-    skip: u32,
+    // The primitive that the ray starts on and the instance that it is in, as in `Hit`; or `NONE`. A triangle
+    // cannot be hit again, in any of its places; of a sphere only the other end of the chord counts.
+    skip: vec2u,
     // `NONE`: find the nearest hit. Otherwise a shadow ray towards this light: any hit ends the search,
     // and primitives of this light are not there.
     light: u32,
     // When it sees the scene: 0 where the shutter opens, 1 where it closes.
     time: f32,
+    // The instance in whose frame the ray is; `NONE`: the world.
+    instance: u32,
 }
 
 struct Hit {
@@ -31,11 +34,18 @@ struct Hit {
     prim: u32,
     // Barycentric weights of v1 and v2; unused for a sphere.
     b: vec2f,
+    // The instance that the primitive is in, or `NONE`.
+    instance: u32,
 }
 
 // Nothing hit before `t_max`.
 fn ray_miss(t_max: f32) -> Hit {
-    return Hit(t_max, NONE, vec2f(0.0));
+    return Hit(t_max, NONE, vec2f(0.0), NONE);
+}
+
+// What a ray that starts at the hit must not meet again, as `Ray::skip`.
+fn ray_skip(hit: Hit) -> vec2u {
+    return vec2u(hit.prim, hit.instance);
 }
 
 // Whether a sphere replaces the best hit so far. On equal distance the lower index wins, so that the

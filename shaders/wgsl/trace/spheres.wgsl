@@ -1,6 +1,7 @@
 // A leaf of spheres.
 
 #import "scene/candidate.wgsl"
+#import "scene/constants.wgsl"
 #import "scene/motion.wgsl"
 #import "scene/records.wgsl"
 #import "shape/sphere.wgsl"
@@ -15,13 +16,13 @@ fn spheres_trace(first: u32, count: u32, ray: Ray, best: Hit) -> Hit {
         if (i == end) { break; }
         let prim = i | PRIM_SPHERE;
         let sphere = load_sphere(i);
-        let origin = dispatch_sphere_origin(sphere.object, ray.origin, ray.time);
-        let t = sphere_intersect(sphere, origin, ray.dir, prim == ray.skip);
+        let origin = dispatch_thing_origin(sphere.object, ray.origin, ray.time);
+        let t = sphere_intersect(sphere, origin, ray.dir, prim == ray.skip.x);
         // The far end counts where the near end is behind the ray, or not there.
         if (ray_accepts(hit, t.x, prim) && candidate_sphere(sphere, ray, origin, t.x)) {
-            hit = Hit(t.x, prim, vec2f(0.0));
+            hit = Hit(t.x, prim, vec2f(0.0), NONE);
         } else if (ray_accepts(hit, t.y, prim) && candidate_sphere(sphere, ray, origin, t.y)) {
-            hit = Hit(t.y, prim, vec2f(0.0));
+            hit = Hit(t.y, prim, vec2f(0.0), NONE);
         }
         i += 1u;
     }

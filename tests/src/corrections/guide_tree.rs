@@ -91,7 +91,7 @@ impl GuideTree {
             ChildRef::Triangles { first, count } | ChildRef::Spheres { first, count } => {
                 self.leaf((first as usize..(first + count) as usize).collect())
             }
-            ChildRef::Empty => self.leaf(Vec::new()),
+            ChildRef::Instance(_) | ChildRef::Empty => self.leaf(Vec::new()),
         }
     }
 

@@ -3,11 +3,11 @@
 #![expect(clippy::cast_possible_truncation, reason = "the guide and the kernel compute in f32")]
 
 use glam::{DVec3, Vec2, Vec3};
-use pack::abi::{NONE, Triangle};
+use pack::abi::Triangle;
 use runtime::kernel::f32 as single;
 
 use super::{Row, Topic, row, share, triangle};
-use crate::kernel::Bench;
+use crate::kernel::{self, Bench, skip};
 use crate::statistics::stream::Stream;
 
 /// Distance along the normal at which the guide's shadow ray starts, and the nearest hit that counts.
@@ -113,8 +113,7 @@ fn kernel_hits(place: &Place3, lid: [DVec3; 3], b: Vec2, dir: Vec3, scale: f64) 
     let mut kernel = bench.single();
     let s = kernel.triangle_flat_surface(0, b, -place.normal.as_vec3());
     let origin = kernel.state_origin(s.p, s.ng * s.gap, dir);
-    let ray =
-        |skip| single::Ray { origin, t_max: single::RAY_FAR, dir, skip, light: NONE, time: 0.0 };
+    let ray = |prim| single::Ray { skip: skip(prim), ..kernel::ray(origin, dir) };
     let hit = kernel.trace(ray(0)).prim;
     [hit == 0, hit == 1]
 }

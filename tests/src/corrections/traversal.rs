@@ -38,9 +38,7 @@ fn ours(triangles: &[Corners]) -> (Tree, Bench) {
 }
 
 fn kernel_hit(kernel: &mut single::Kernel<'_>, origin: Vec3, dir: Vec3) -> Option<usize> {
-    let ray =
-        single::Ray { origin, t_max: single::RAY_FAR, dir, skip: NONE, light: NONE, time: 0.0 };
-    let hit = kernel.trace(ray);
+    let hit = kernel.trace(crate::kernel::ray(origin, dir));
     (hit.prim != NONE).then_some(hit.prim as usize)
 }
 

@@ -20,7 +20,7 @@ fn leaving(n: DVec3, stream: &mut Stream) -> DVec3 {
 }
 
 fn ray(origin: Vec3, dir: Vec3, skip: u32) -> single::Ray {
-    single::Ray { origin, t_max: single::RAY_FAR, dir, skip, light: NONE, time: 0.0 }
+    single::Ray { skip: tests::kernel::skip(skip), ..tests::kernel::ray(origin, dir) }
 }
 
 /// Where the kernel starts a ray from `s` along `dir`.

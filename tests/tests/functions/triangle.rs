@@ -2,8 +2,8 @@
 
 use glam::{DVec3, Vec3};
 use pack::abi::Triangle;
-use runtime::kernel::{f32 as single, f64 as double};
-use tests::kernel::Bench;
+use runtime::kernel::f32 as single;
+use tests::kernel::{Bench, ray, ray_double, skip};
 use tests::statistics::stream::Stream;
 
 use crate::Worst;
@@ -333,26 +333,12 @@ fn records_reach_the_kernel_as_written() {
     };
     let bench = Bench::new().triangles(&[tri]);
     let (mut single, mut double) = (bench.single(), bench.double());
-    let ray = single::Ray {
-        origin: Vec3::new(0.25, 0.25, 2.0),
-        t_max: single::RAY_FAR,
-        dir: Vec3::NEG_Z,
-        skip: single::NONE,
-        light: single::NONE,
-        time: 0.0,
-    };
+    let ray = ray(Vec3::new(0.25, 0.25, 2.0), Vec3::NEG_Z);
     let hit = single.trace(ray);
     assert_eq!((hit.prim, hit.t, hit.b), (0, 1.5, glam::Vec2::splat(0.25)));
-    assert_eq!(single.trace(single::Ray { skip: 0, ..ray }).prim, single::NONE);
+    assert_eq!(single.trace(single::Ray { skip: skip(0), ..ray }).prim, single::NONE);
     assert_eq!(single.trace(single::Ray { t_max: 1.4999, ..ray }).prim, single::NONE);
-    let hit = double.trace(double::Ray {
-        origin: DVec3::new(0.25, 0.25, 2.0),
-        t_max: double::RAY_FAR,
-        dir: DVec3::NEG_Z,
-        skip: double::NONE,
-        light: double::NONE,
-        time: 0.0,
-    });
+    let hit = double.trace(ray_double(DVec3::new(0.25, 0.25, 2.0), DVec3::NEG_Z));
     assert_eq!((hit.prim, hit.t), (0, 1.5));
 }
 

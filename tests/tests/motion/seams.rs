@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 use glam::{DVec3, Vec3};
 use runtime::kernel::f32 as single;
-use tests::kernel::Bench;
+use tests::kernel::{Bench, ray};
 use tests::scene;
 use tests::statistics::stream::Stream;
 
@@ -80,20 +80,18 @@ fn a_moving_mesh_has_no_cracks() {
         let n = lowered.triangles.len();
         let (render, center) = (&lowered.render, DVec3::from(lowered.render.center()));
         let middle = -center * render.scale();
-        for ray in 0..20_000 {
+        for k in 0..20_000 {
             let time = stream.between(0.0, 1.0) as f32;
             let shift = motion * time;
             let i = stream.index(n);
             let (a, b) = (corner(i, 0), corner(i, 1));
             // At edges, some of them at vertices.
-            let along = if ray % 5 == 0 { 0.0 } else { stream.between(0.0, 1.0) };
+            let along = if k % 5 == 0 { 0.0 } else { stream.between(0.0, 1.0) };
             let origin = middle.as_vec3() + shift;
             let target = a + (b - a) * along + shift.as_dvec3();
             let dir = (target - origin.as_dvec3()).normalize().as_vec3();
-            let (t_max, none) = (single::RAY_FAR, single::NONE);
-            let hit =
-                kernel.trace(single::Ray { origin, t_max, dir, skip: none, light: none, time });
-            assert_ne!(hit.prim, none, "{travel}: a crack at {time}");
+            let hit = kernel.trace(single::Ray { time, ..ray(origin, dir) });
+            assert_ne!(hit.prim, single::NONE, "{travel}: a crack at {time}");
             let shear = kernel.triangle_shear(dir);
             let hits = (0..u32::try_from(n).expect("few")).filter(|i| {
                 let triangle = kernel.load_triangle(*i);
@@ -138,10 +136,9 @@ fn fast_things_are_hit_wherever_they_are() {
         let target = point + Vec3::from(lowered.objects[object as usize].motion) * time;
         let origin = stream.direction().as_vec3() * stream.between(0.0, 1.5) as f32;
         let way = target - origin;
-        let (t_max, dir, none) = (single::RAY_FAR, way.normalize(), single::NONE);
-        let hit = kernel.trace(single::Ray { origin, t_max, dir, skip: none, light: none, time });
+        let hit = kernel.trace(single::Ray { time, ..ray(origin, way.normalize()) });
         assert!(
-            hit.prim != none && hit.t <= way.length() * 1.001,
+            hit.prim != single::NONE && hit.t <= way.length() * 1.001,
             "{target} at {time}: {hit:?}, {object}, {}",
             way.length()
         );

@@ -12,7 +12,7 @@ use common::{Draft, Scene, put32};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|edits: &[u8]| {
-    let mut draft = Draft::new(&Scene::full().bytes());
+    let mut draft = Draft::new(&Scene::with_instances().bytes());
     for edit in edits.chunks_exact(8).take(64) {
         let section = usize::from(edit[0]) % draft.sections.len();
         let elem_size = common::get32(&draft.sections[section].0, 32) as usize;

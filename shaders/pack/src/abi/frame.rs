@@ -59,5 +59,13 @@ abi_struct! {
         pub light_tree_at: u32,
         /// Index of the `Medium` that is fog, or `NONE`.
         pub fog: u32,
+        /// First heap word of the `Instance` table.
+        pub instance_at: u32,
+        /// Unused.
+        pub _pad0: u32,
+        /// Unused.
+        pub _pad1: u32,
+        /// Unused.
+        pub _pad2: u32,
     }
 }

@@ -14,8 +14,15 @@ pub const MAX_LEAF: u32 = 8;
 /// Deepest inner node allowed in one mesh's tree; the root has depth 0.
 pub const MAX_DEPTH: u32 = 48;
 
+/// Both bits of a reference to an instance: spheres have 26 bits for the first of them.
+pub const CHILD_DOOR: u32 = CHILD_SPHERES | 1 << 26;
+/// What the traversal leaves on its stack when it goes into an instance: behind it is the world again.
+/// No reference of a pack.
+pub const CHILD_OUT: u32 = CHILD_INNER - 1;
+
 /// A decoded child reference. Layout of the word: inner `1iii…` (31-bit node index); leaf
-/// `0s ccc i…`: `s` spheres, `ccc` count − 1, 27-bit first primitive; `NONE` is no child at all.
+/// `0s ccc i…`: `s` spheres, `ccc` count − 1, 27-bit first primitive; instance `0100 01i…`, 26-bit index;
+/// `NONE` is no child at all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChildRef {
     /// Index of an inner node.
@@ -34,12 +41,15 @@ pub enum ChildRef {
         /// How many.
         count: u32,
     },
+    /// An instance of a mesh that has a tree of its own.
+    Instance(u32),
     /// No child: the reference of an empty tree.
     Empty,
 }
 
 impl ChildRef {
     const FIRST_MASK: u32 = (1 << 27) - 1;
+    const DOOR_MASK: u32 = (1 << 26) - 1;
 
     /// Decodes a reference word; every word decodes to something.
     #[must_use]
@@ -49,6 +59,9 @@ impl ChildRef {
         }
         if word & CHILD_INNER != 0 {
             return Self::Inner(word & !CHILD_INNER);
+        }
+        if word & !Self::DOOR_MASK == CHILD_DOOR {
+            return Self::Instance(word & Self::DOOR_MASK);
         }
         let first = word & Self::FIRST_MASK;
         let count = ((word >> 27) & 7) + 1;
@@ -70,7 +83,11 @@ impl ChildRef {
             // The all-ones word means `Empty`, so the largest index is not usable.
             Self::Inner(index) => (index < CHILD_INNER - 1).then_some(index | CHILD_INNER),
             Self::Triangles { first, count } => leaf(first, count, 0),
-            Self::Spheres { first, count } => leaf(first, count, CHILD_SPHERES),
+            Self::Spheres { first, count } if first <= Self::DOOR_MASK => {
+                leaf(first, count, CHILD_SPHERES)
+            }
+            Self::Spheres { .. } => None,
+            Self::Instance(index) => (index <= Self::DOOR_MASK).then_some(CHILD_DOOR | index),
             Self::Empty => Some(super::NONE),
         }
     }
@@ -84,7 +101,7 @@ pub const MOVES: u32 = 1 << 31;
 
 abi_struct! {
     /// Inner node of the binary BVH, 64 bytes: the boxes of both children and where they are.
-    /// Normalised world frame.
+    /// Normalised world frame, or the frame of a mesh, see `Instance`.
     pub struct Node {
         /// Lower corner of the left child's box.
         pub left_lo: [f32; 3],
@@ -112,7 +129,7 @@ pub const EMPTY_BOX: [u8; 2] = [255, 0];
 
 abi_struct! {
     /// Inner node of the wide BVH, 64 bytes: up to four children with boxes in steps of a grid of
-    /// the node's own. Normalised world frame.
+    /// the node's own. Normalised world frame, or the frame of a mesh, see `Instance`.
     ///
     /// Child `k` is at byte `k` (the lowest is byte 0) of the words of `lo` and `hi`, and covers
     /// `origin + lo * scale` to `origin + hi * scale` along each axis. A step has at most 16
@@ -162,7 +179,7 @@ impl WideNode {
 
 abi_struct! {
     /// A triangle's corners, 48 bytes, in leaf order. Normalised world frame, as when the shutter
-    /// opens; the geometric normal is `cross(v1 - v0, v2 - v0)`.
+    /// opens, or the frame of its mesh, see `Instance`; the geometric normal is `cross(v1 - v0, v2 - v0)`.
     pub struct Triangle {
         /// First corner.
         pub v0: [f32; 3],
@@ -196,8 +213,8 @@ abi_struct! {
         pub uv2: [f32; 2],
         /// Index of the `Light` this triangle belongs to, or `NONE`.
         pub light: u32,
-        /// Bits 0-30: index of the `Object`. Bit 31, [`TRI_SMOOTH`]: interpolate `normals`;
-        /// otherwise the triangle is flat.
+        /// Bits 0-30: index of the `Object`, or `OBJECT_OF_INSTANCE`. Bit 31, [`TRI_SMOOTH`]: interpolate
+        /// `normals`; otherwise the triangle is flat.
         pub object: u32,
     }
 }

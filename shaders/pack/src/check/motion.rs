@@ -5,7 +5,7 @@
 
 use rayon::prelude::*;
 
-use crate::abi::{MOVES, Object, Sphere, TRI_SMOOTH, TriShade, Triangle};
+use crate::abi::{Instance, MOVES, Object, Sphere, TRI_SMOOTH, TriShade, Triangle};
 use crate::contents::Contents;
 use crate::error::PackError;
 use crate::fault::ElementFault;
@@ -13,7 +13,7 @@ use crate::fault::ElementFault;
 use super::rules::Broken;
 use super::{CHUNK, element};
 
-/// Every triangle, then every sphere.
+/// Every triangle, then every sphere, then every instance.
 pub(super) fn check(contents: &Contents<'_>) -> Result<(), PackError> {
     let (triangles, spheres) = (contents.triangles.par_iter(), contents.spheres.par_iter());
     let bad = triangles
@@ -27,8 +27,13 @@ pub(super) fn check(contents: &Contents<'_>) -> Result<(), PackError> {
     let bad = spheres
         .with_min_len(CHUNK)
         .enumerate()
-        .find_map_first(|(index, s)| Some((index, sphere(s, contents)?)));
-    bad.map_or(Ok(()), |(index, broken)| Err(element::<Sphere>(index, broken)))
+        .find_map_first(|(index, s)| Some((index, thing(s.object, contents)?)));
+    if let Some((index, broken)) = bad {
+        return Err(element::<Sphere>(index, broken));
+    }
+    let bad = (contents.instances.iter().enumerate())
+        .find_map(|(index, i)| Some((index, thing(i.object, contents)?)));
+    bad.map_or(Ok(()), |(index, broken)| Err(element::<Instance>(index, broken)))
 }
 
 fn triangle(triangle: &Triangle, shade: &TriShade, contents: &Contents<'_>) -> Option<Broken> {
@@ -38,9 +43,9 @@ fn triangle(triangle: &Triangle, shade: &TriShade, contents: &Contents<'_>) -> O
     })
 }
 
-fn sphere(sphere: &Sphere, contents: &Contents<'_>) -> Option<Broken> {
-    let object = sphere.object & !MOVES;
-    Some(("object", marked(sphere.object & MOVES != 0, object, contents)?))
+/// The word `object` of a sphere or an instance.
+fn thing(object: u32, contents: &Contents<'_>) -> Option<Broken> {
+    Some(("object", marked(object & MOVES != 0, object & !MOVES, contents)?))
 }
 
 /// Whether a primitive of `object` may or may not be marked.

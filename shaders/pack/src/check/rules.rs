@@ -4,9 +4,9 @@
 //! field that is not in it may hold any value, and the comment there says why.
 
 use crate::abi::{
-    Camera, Light, LightKind, LightNode, MOVES, Material, MaterialKind, Medium, Node, Object,
-    RenderSettings, SamplerKind, Sky, SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap,
-    TriShade, Triangle, WideNode, Wrap, material_flag,
+    Camera, Instance, Light, LightKind, LightNode, MOVES, Material, MaterialKind, Medium, Node,
+    OBJECT_OF_INSTANCE, Object, RenderSettings, SamplerKind, Sky, SkyKind, Sphere, TRI_SMOOTH,
+    Texture, TextureFormat, ToneMap, TriShade, Triangle, WideNode, Wrap, material_flag,
 };
 use crate::contents::Contents;
 use crate::fault::ElementFault;
@@ -128,7 +128,7 @@ rules! { pack;
     TriShade {
         material: index(table(pack, Kind::MATERIAL)),
         light: index_or_none(table(pack, Kind::LIGHT)),
-        object: object(pack),
+        object: object_of_triangle(pack),
         uv0: finite(),
         uv1: finite(),
         uv2: finite(),
@@ -150,6 +150,22 @@ rules! { pack;
         row_z: finite(),
         offset_z: finite(),
         motion: finite(),
+    }
+    // `root` is the tree's; `_pad` are the fourth lanes of columns.
+    Instance and instance {
+        row_x: finite(),
+        row_y: finite(),
+        row_z: finite(),
+        material: index_or_none(table(pack, Kind::MATERIAL)),
+        object: object(pack),
+        center: finite(),
+        reach: positive(),
+        col_x: finite(),
+        _pad0: unused(),
+        col_y: finite(),
+        _pad1: unused(),
+        col_z: finite(),
+        _pad2: unused(),
     }
     Medium {
         sigma_a: not_negative(),
@@ -250,6 +266,21 @@ fn object(found: u32, pack: &Contents<'_>) -> Option<ElementFault> {
     // Bit 31 says something else of triangles than of spheres.
     index(found & !(TRI_SMOOTH | MOVES), (Kind::OBJECT, count))
 }
+
+/// As `object`, or what says that the triangle's instance has the object.
+fn object_of_triangle(found: u32, pack: &Contents<'_>) -> Option<ElementFault> {
+    if found & !TRI_SMOOTH == OBJECT_OF_INSTANCE { None } else { object(found, pack) }
+}
+
+/// The rows are the inverse of the columns.
+fn instance(record: &Instance, _: &Contents<'_>) -> Option<Broken> {
+    let error = record.inverse_error();
+    (error > MAX_INVERSE_ERROR).then_some(("row_x", ElementFault::NotInverse(error)))
+}
+
+/// Rows and columns are rounded to 2^-24 of themselves; the compiler makes no instance for which that grows by
+/// more than a factor of 2^8.
+const MAX_INVERSE_ERROR: f32 = 1e-3;
 
 fn at_least_one(value: u32) -> Option<ElementFault> {
     count([value], 1, u32::MAX)

@@ -1,14 +1,20 @@
-//! Checks that the tree is a tree over exactly the primitives that are there.
+//! Checks that the tree is a tree over exactly the primitives that are there, and that the trees of instances
+//! are such trees of their own.
 //!
-//! Turns nodes and root into the first broken rule. Children come after their parent, so there are
-//! no cycles; no node has two parents and none has none, so node 0 reaches all; leaves hold every
-//! primitive once; boxes are finite and nested; the traversal stack is as long as it says. Both
+//! Turns nodes and roots into the first broken rule. Children come after their parent, so there are
+//! no cycles; no node has two parents, and only roots have none, so the root and those of instances reach all;
+//! leaves hold every primitive once and the world's every instance once; triangles know whether they are in the
+//! tree of an instance; boxes are finite and nested; the traversal stack is as long as it says. Both
 //! layouts of nodes obey the same rules; boxes of a wide node are nested up to a step of their own
 //! grid, because the upper end of a grid cannot be placed everywhere.
 
+use std::collections::BTreeSet;
+
 use rayon::prelude::*;
 
-use crate::abi::{ChildRef, EMPTY_BOX, MAX_STACK, NONE, Node, WideNode};
+use crate::abi::{
+    ChildRef, EMPTY_BOX, Instance, MAX_STACK, NONE, Node, OBJECT_OF_INSTANCE, TRI_SMOOTH, WideNode,
+};
 use crate::bvh::{self, InnerNode};
 use crate::contents::Contents;
 use crate::error::{PackError, Place};
@@ -132,6 +138,11 @@ impl Taken {
         free
     }
 
+    /// Whether an element inside is marked.
+    fn has(&self, index: usize) -> bool {
+        self.0[index / 64] >> (index % 64) & 1 == 1
+    }
+
     /// First element that nobody took.
     fn first_free(&self) -> Option<usize> {
         let word = self.0.iter().position(|word| *word != u64::MAX)?;
@@ -146,10 +157,13 @@ fn structure<N: Boxes>(contents: &Contents<'_>, nodes: &[N]) -> Result<(), PackE
         contents,
         kind: N::KIND,
         nodes: Taken::new(nodes.len()),
+        in_mesh: Taken::new(nodes.len()),
         triangles: Taken::new(contents.triangles.len()),
         spheres: Taken::new(contents.spheres.len()),
+        instances: Taken::new(contents.instances.len()),
     };
     walk.root().map_err(|fault| PackError::Bvh { at: root_place(), fault })?;
+    walk.meshes()?;
     for (index, node) in nodes.iter().enumerate() {
         for (side, name) in N::SIDES.iter().enumerate() {
             let word = node.child(side);
@@ -174,6 +188,9 @@ fn structure<N: Boxes>(contents: &Contents<'_>, nodes: &[N]) -> Result<(), PackE
     if let Some(index) = walk.spheres.first_free() {
         return lost(Kind::SPHERE, index, size_of::<crate::abi::Sphere>(), BvhFault::Lost);
     }
+    if let Some(index) = walk.instances.first_free() {
+        return lost(Kind::INSTANCE, index, size_of::<Instance>(), BvhFault::Lost);
+    }
     Ok(())
 }
 
@@ -183,14 +200,18 @@ struct Walk<'a> {
     /// Of the nodes.
     kind: Kind,
     nodes: Taken,
+    /// Nodes that were reached from the root of an instance.
+    in_mesh: Taken,
     triangles: Taken,
     spheres: Taken,
+    instances: Taken,
 }
 
 impl Walk<'_> {
     fn root(&mut self) -> Result<(), BvhFault> {
         let word = self.contents.render.root;
-        let empty = self.contents.triangles.is_empty() && self.contents.spheres.is_empty();
+        let contents = self.contents;
+        let empty = contents.triangles.is_empty() && contents.spheres.is_empty();
         match ChildRef::decode(word) {
             ChildRef::Empty if !empty => Err(BvhFault::NoRoot),
             // Nodes without a root would be unreachable, which is what the caller finds.
@@ -200,52 +221,105 @@ impl Walk<'_> {
                 Ok(())
             }
             ChildRef::Inner(_) => Err(BvhFault::Root { found: word }),
-            ChildRef::Triangles { first, count } | ChildRef::Spheres { first, count } => {
-                self.leaf("root", word, first, count)
+            ChildRef::Triangles { .. } | ChildRef::Spheres { .. } | ChildRef::Instance(_) => {
+                self.end("root", word, false)
+            }
+        }
+    }
+
+    /// The roots of instances, of which several may show the same tree.
+    fn meshes(&mut self) -> Result<(), PackError> {
+        let mut known = BTreeSet::new();
+        for (index, instance) in self.contents.instances.iter().enumerate() {
+            if known.insert(instance.root) {
+                let at =
+                    Place { kind: Kind::INSTANCE, index, offset: index * size_of::<Instance>() };
+                self.mesh(instance.root).map_err(|fault| PackError::Bvh { at, fault })?;
+            }
+        }
+        Ok(())
+    }
+
+    fn mesh(&mut self, word: u32) -> Result<(), BvhFault> {
+        match ChildRef::decode(word) {
+            ChildRef::Inner(child) => self.node("root", child, true),
+            ChildRef::Triangles { .. } => self.end("root", word, true),
+            ChildRef::Spheres { .. } | ChildRef::Instance(_) | ChildRef::Empty => {
+                Err(BvhFault::MeshRoot { found: word })
             }
         }
     }
 
     #[inline]
     fn child(&mut self, parent: usize, side: &'static str, word: u32) -> Result<(), BvhFault> {
+        let in_mesh = self.in_mesh.has(parent);
         match ChildRef::decode(word) {
-            ChildRef::Inner(child) => {
-                let (kind, count) = (self.kind, self.nodes.1);
-                if child as usize >= count {
-                    return Err(BvhFault::NoSuchNode { side, child, kind, count });
-                }
-                if child as usize <= parent {
-                    return Err(BvhFault::Backwards { side, child });
-                }
-                let free = self.nodes.take(child as usize, 1);
-                if free { Ok(()) } else { Err(BvhFault::SharedNode { side, child }) }
+            ChildRef::Inner(child) if child as usize <= parent => {
+                Err(BvhFault::Backwards { side, child })
             }
-            ChildRef::Triangles { first, count } | ChildRef::Spheres { first, count } => {
-                self.leaf(side, word, first, count)
-            }
+            ChildRef::Inner(child) => self.node(side, child, in_mesh),
             ChildRef::Empty => Err(BvhFault::NoChild { side }),
+            _ => self.end(side, word, in_mesh),
         }
     }
 
     #[inline]
-    fn leaf(
-        &mut self,
-        side: &'static str,
-        word: u32,
-        first: u32,
-        count: u32,
-    ) -> Result<(), BvhFault> {
-        let (target, taken) = match ChildRef::decode(word) {
-            ChildRef::Spheres { .. } => (Kind::SPHERE, &mut self.spheres),
-            _ => (Kind::TRIANGLE, &mut self.triangles),
-        };
-        // 27 and 3 bits: the sum cannot wrap.
-        if (first + count) as usize > taken.1 {
-            return Err(BvhFault::Leaf { side, word, target, count: taken.1 });
+    fn node(&mut self, side: &'static str, child: u32, in_mesh: bool) -> Result<(), BvhFault> {
+        let (index, kind, count) = (child as usize, self.kind, self.nodes.1);
+        if index >= count {
+            return Err(BvhFault::NoSuchNode { side, child, kind, count });
         }
-        let free = taken.take(first as usize, count as usize);
-        if free { Ok(()) } else { Err(BvhFault::SharedLeaf { side, word }) }
+        if in_mesh {
+            self.in_mesh.take(index, 1);
+        }
+        if self.nodes.take(index, 1) { Ok(()) } else { Err(BvhFault::SharedNode { side, child }) }
     }
+
+    /// A leaf or an instance.
+    #[inline]
+    fn end(&mut self, side: &'static str, word: u32, in_mesh: bool) -> Result<(), BvhFault> {
+        match ChildRef::decode(word) {
+            ChildRef::Triangles { first, count } => {
+                leaf(&mut self.triangles, Kind::TRIANGLE, side, word, (first, count))?;
+                let shades = &self.contents.shades[first as usize..][..count as usize];
+                let fits = shades.iter().all(|shade| {
+                    let of_instance = shade.object & !TRI_SMOOTH == OBJECT_OF_INSTANCE;
+                    of_instance == in_mesh && !(in_mesh && shade.light != NONE)
+                });
+                if fits { Ok(()) } else { Err(BvhFault::Frame { side, word, inside: in_mesh }) }
+            }
+            _ if in_mesh => Err(BvhFault::InMesh { side, word }),
+            ChildRef::Spheres { first, count } => {
+                leaf(&mut self.spheres, Kind::SPHERE, side, word, (first, count))
+            }
+            ChildRef::Instance(index) => {
+                let count = self.contents.instances.len();
+                if index as usize >= count {
+                    return Err(BvhFault::NoSuchInstance { side, index, count });
+                }
+                let free = self.instances.take(index as usize, 1);
+                if free { Ok(()) } else { Err(BvhFault::SharedInstance { side, index }) }
+            }
+            ChildRef::Inner(_) | ChildRef::Empty => Err(BvhFault::NoChild { side }),
+        }
+    }
+}
+
+/// A range of primitives that are in no other leaf.
+#[inline]
+fn leaf(
+    taken: &mut Taken,
+    target: Kind,
+    side: &'static str,
+    word: u32,
+    (first, count): (u32, u32),
+) -> Result<(), BvhFault> {
+    // 27 and 3 bits: the sum cannot wrap.
+    if (first + count) as usize > taken.1 {
+        return Err(BvhFault::Leaf { side, word, target, count: taken.1 });
+    }
+    let free = taken.take(first as usize, count as usize);
+    if free { Ok(()) } else { Err(BvhFault::SharedLeaf { side, word }) }
 }
 
 /// Finite, not inside out, and inside the box that the parent has for them.
@@ -287,7 +361,7 @@ fn box_fault<N: Boxes>(nodes: &[N], node: &N, side: usize) -> Option<BvhFault> {
 
 /// The stack is as long as the settings say, and not longer than any kernel's.
 fn stack<N: Boxes>(contents: &Contents<'_>, nodes: &[N]) -> Result<(), PackError> {
-    let need = bvh::stack_need(nodes, contents.render.root);
+    let need = bvh::stack_need(nodes, contents.instances, contents.render.root);
     let found = contents.render.stack_need;
     let fault = if need > MAX_STACK {
         BvhFault::TooDeep { need }

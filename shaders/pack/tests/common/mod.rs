@@ -8,9 +8,10 @@
 pub(crate) mod sound;
 
 use pack::abi::{
-    Camera, ChildRef, LIGHT_LEAF, Light, LightKind, LightNode, MOVES, Material, MaterialKind,
-    Medium, NONE, Node, Object, RenderSettings, Sky, SkyKind, Sphere, TRI_SMOOTH, Texture,
-    TextureFormat, ToneMap, TriShade, Triangle, WideNode, Wrap, f64_bits, material_flag,
+    Camera, ChildRef, Instance, LIGHT_LEAF, Light, LightKind, LightNode, MOVES, Material,
+    MaterialKind, Medium, NONE, Node, OBJECT_OF_INSTANCE, Object, RenderSettings, Sky, SkyKind,
+    Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap, TriShade, Triangle, WideNode, Wrap,
+    f64_bits, material_flag,
 };
 use pack::manifest::Named;
 use pack::{Kind, Manifest, PackWriter};
@@ -27,6 +28,7 @@ pub(crate) struct Scene {
     pub(crate) spheres: Vec<Sphere>,
     pub(crate) materials: Vec<Material>,
     pub(crate) objects: Vec<Object>,
+    pub(crate) instances: Vec<Instance>,
     pub(crate) media: Vec<Medium>,
     pub(crate) lights: Vec<Light>,
     pub(crate) light_nodes: Vec<LightNode>,
@@ -48,6 +50,10 @@ pub(crate) fn triangles(first: u32, count: u32) -> u32 {
 
 pub(crate) fn spheres(first: u32, count: u32) -> u32 {
     ChildRef::Spheres { first, count }.encode().unwrap()
+}
+
+pub(crate) fn instance(index: u32) -> u32 {
+    ChildRef::Instance(index).encode().unwrap()
 }
 
 /// A node whose boxes are both the cube from -1 to 1.
@@ -275,6 +281,7 @@ impl Scene {
                 Object::default(),
                 Object { motion: [0.0, 0.25, 0.0], ..Object::default() },
             ],
+            instances: Vec::new(),
             media: vec![Medium { sigma_s: [0.5; 3], ..Medium::default() }],
             lights: lights(),
             light_nodes: Vec::new(),
@@ -346,6 +353,52 @@ impl Scene {
         scene
     }
 
+    /// The example with a mesh of two nodes and four triangles in two places, one of which moves.
+    pub(crate) fn with_instances() -> Self {
+        Self::full().and_instances()
+    }
+
+    /// The same with such a mesh; for those that have the example's tree.
+    pub(crate) fn and_instances(self) -> Self {
+        let mut scene = self;
+        for at in 0..4_u32 {
+            let mut triangle = scene.triangles[at as usize];
+            for id in [&mut triangle.id0, &mut triangle.id1, &mut triangle.id2] {
+                *id = (*id & !MOVES) + 12;
+            }
+            scene.triangles.push(triangle);
+            let object = if at == 0 { OBJECT_OF_INSTANCE } else { OBJECT_OF_INSTANCE | TRI_SMOOTH };
+            scene.shades.push(TriShade { light: NONE, object, ..scene.shades[2] });
+        }
+        scene.nodes = vec![
+            node(inner(1), inner(2)),
+            node(triangles(0, 2), inner(3)),
+            node(spheres(0, 1), inner(4)),
+            node(triangles(2, 2), instance(0)),
+            node(spheres(1, 2), instance(1)),
+            node(triangles(4, 1), inner(6)),
+            node(triangles(5, 2), triangles(7, 1)),
+        ];
+        let place = |center: [f32; 3], material: u32, object: u32| Instance {
+            row_x: [2.0, 0.0, 0.0],
+            root: inner(5),
+            row_y: [0.0, -4.0, 0.0],
+            material,
+            row_z: [0.0, 0.0, 1.0],
+            object,
+            center,
+            reach: 1.0,
+            col_x: [0.5, 0.0, 0.0],
+            col_y: [0.0, -0.25, 0.0],
+            col_z: [0.0, 0.0, 1.0],
+            ..Instance::default()
+        };
+        scene.instances = vec![place([0.1; 3], NONE, 0), place([-0.1; 3], 4, MOVES | 1)];
+        // Two world nodes, the two before the doors, the way out, two nodes of the mesh.
+        scene.render.stack_need = 3 + 1 + 2;
+        scene
+    }
+
     /// Camera and settings only: no geometry, no sky, no manifest.
     pub(crate) fn empty() -> Self {
         let render =
@@ -360,6 +413,7 @@ impl Scene {
             spheres: Vec::new(),
             materials: Vec::new(),
             objects: Vec::new(),
+            instances: Vec::new(),
             media: Vec::new(),
             lights: Vec::new(),
             textures: Vec::new(),
@@ -382,6 +436,7 @@ impl Scene {
             .records(&self.spheres)
             .records(&self.materials)
             .records(&self.objects)
+            .records(&self.instances)
             .records(&self.media)
             .records(&self.lights)
             .records(&self.light_nodes)

@@ -4,7 +4,8 @@
 
 use pack::Pack;
 use pack::abi::{
-    ChildRef, Light, LightKind, Material, NONE, Node, Sphere, Texture, TriShade, Triangle, WideNode,
+    CHILD_OUT, ChildRef, Instance, Light, LightKind, Material, NONE, Node, Sphere, Texture,
+    TriShade, Triangle, WideNode,
 };
 use pack::bvh::InnerNode;
 
@@ -60,12 +61,18 @@ pub(crate) fn assert_sound(pack: &Pack) {
     }
 }
 
-/// Walks the tree with a stack of exactly the promised length and counts every primitive.
+/// Walks the tree with a stack of exactly the promised length and counts every primitive and every instance.
 fn assert_tree<N: InnerNode>(pack: &Pack, nodes: &[N], n_triangles: usize, n_spheres: usize) {
+    let instances = pack.records::<Instance>();
     let mut seen = (vec![0; nodes.len()], vec![0; n_triangles], vec![0; n_spheres]);
+    let mut shown = vec![0; instances.len()];
     let mut stack = Vec::new();
     let mut current = Some(pack.render().root);
     while let Some(word) = current {
+        if word == CHILD_OUT {
+            current = stack.pop();
+            continue;
+        }
         current = match ChildRef::decode(word) {
             ChildRef::Inner(index) => {
                 seen.0[index as usize] += 1;
@@ -83,8 +90,17 @@ fn assert_tree<N: InnerNode>(pack: &Pack, nodes: &[N], n_triangles: usize, n_sph
                 (first..first + count).for_each(|index| seen.2[index as usize] += 1);
                 stack.pop()
             }
+            ChildRef::Instance(index) => {
+                shown[index as usize] += 1;
+                let root = instances[index as usize].root;
+                stack.push(CHILD_OUT);
+                assert!(stack.len() <= pack.render().stack_need as usize);
+                // The trees of meshes are walked once, for the first place.
+                let first = instances.iter().position(|instance| instance.root == root);
+                if first == Some(index as usize) { Some(root) } else { stack.pop() }
+            }
             ChildRef::Empty => None,
         };
     }
-    assert!([seen.0, seen.1, seen.2].concat().iter().all(|count| *count == 1));
+    assert!([seen.0, seen.1, seen.2, shown].concat().iter().all(|count| *count == 1));
 }

@@ -1,0 +1,212 @@
+//! Which meshes are stored once and shown by instances, and which are stored anew for each of their places.
+//!
+//! A mesh that is stored once takes less memory and its tree need not be built again when it is moved; but every
+//! ray that comes near pays for the way into its frame and back, and trees that overlap cannot be taken apart as
+//! triangles in one frame can. So a mesh is shared when it is placed twice or more and that saves
+//! [`MIN_SAVED`] triangles or more; `docs/instances.md` has the measurements.
+//!
+//! Never shared are places whose triangles are lights (the light table names triangles of the world), whose leaves
+//! or petals depend on the name of the thing, and whose transform has no good inverse in 24 bits.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::str::FromStr;
+
+use glam::DMat3;
+use lang::scene::{Color, Instance, MaterialModel, Scene, Shape};
+use thiserror::Error;
+
+use super::Loaded;
+use super::geometry::Transform;
+use super::motion::Shutter;
+use super::sheet::Sheets;
+use super::stored::condition;
+use crate::import::{MeshFile, Part};
+
+/// Fewest triangles that sharing a mesh must save.
+pub const MIN_SAVED: usize = 1_000;
+/// Fewest triangles of a mesh that is shared: a ray tests a few of them in the time that it takes to get to its frame.
+pub const MIN_TRIANGLES: usize = 128;
+/// Largest [`condition`] of a shared mesh's transform.
+const MAX_CONDITION: f64 = 64.0;
+/// Smallest size of a shared mesh, of the scene's.
+const MIN_SIZE: f64 = 1.0 / 16_777_216.0; // 2^-24
+
+/// Whether meshes are stored once: what `rtc --instances` takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Instancing {
+    /// Where it pays.
+    #[default]
+    Auto,
+    /// Nowhere: every place has its own triangles. For comparison.
+    Never,
+}
+
+/// What is not a way of instancing.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("`{0}` is neither `auto` nor `never`")]
+pub struct UnknownInstancing(String);
+
+impl fmt::Display for Instancing {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(match self {
+            Self::Auto => "auto",
+            Self::Never => "never",
+        })
+    }
+}
+
+impl FromStr for Instancing {
+    type Err = UnknownInstancing;
+
+    fn from_str(name: &str) -> Result<Self, UnknownInstancing> {
+        let named = |how: &Self| how.to_string() == name;
+        let found = [Self::Auto, Self::Never].into_iter().find(named);
+        found.ok_or_else(|| UnknownInstancing(name.to_owned()))
+    }
+}
+
+/// The meshes of a scene that are stored once.
+#[derive(Debug, Default)]
+pub(super) struct Plan {
+    /// Index of the stored mesh of each of `Scene::instances` that shows one.
+    meshes: BTreeMap<usize, usize>,
+}
+
+impl Plan {
+    pub(super) fn new(scene: &Scene, loaded: &Loaded, how: Instancing, shutter: Shutter) -> Self {
+        let mut plan = Self::default();
+        if how == Instancing::Never {
+            return plan;
+        }
+        let least = MIN_SIZE * extent(scene, shutter);
+        let mut meshes: BTreeMap<(usize, Option<&str>), Mesh<'_>> = BTreeMap::new();
+        for (index, instance) in scene.instances.iter().enumerate() {
+            let Shape::Mesh { asset, part } = &instance.shape else { continue };
+            let Some(file) = loaded.assets[*asset].as_ref() else { continue };
+            let key = (*asset, part.as_deref());
+            let mesh = meshes.entry(key).or_insert_with(|| Mesh::new(file, part.as_deref()));
+            let linear = Transform::of(instance, shutter).linear;
+            let fits = condition(linear) <= MAX_CONDITION && scale(linear) * mesh.size >= least;
+            let differs = Sheets::of(scene, instance).is_some();
+            if fits && !differs && !glows(scene, file, instance, &mesh.parts) {
+                mesh.places.push(index);
+            }
+        }
+        let mut shared: Vec<Vec<usize>> = (meshes.into_values())
+            .filter(|mesh| pays(mesh.n_triangles, mesh.places.len()))
+            .map(|mesh| mesh.places)
+            .collect();
+        // In order of declaration; beyond what a pack can name, places are stored as if there were no instances.
+        shared.sort();
+        for of_mesh in shared {
+            if plan.meshes.len() + of_mesh.len() <= pack::MAX_INSTANCES as usize {
+                let mesh = plan.meshes.values().max().map_or(0, |last| last + 1);
+                plan.meshes.extend(of_mesh.into_iter().map(|index| (index, mesh)));
+            }
+        }
+        plan
+    }
+
+    /// The stored mesh that `Scene::instances[index]` shows.
+    pub(super) fn mesh_of(&self, index: usize) -> Option<usize> {
+        self.meshes.get(&index).copied()
+    }
+}
+
+/// A mesh of the scene.
+struct Mesh<'a> {
+    parts: Vec<&'a Part>,
+    n_triangles: usize,
+    /// Largest coordinate, metres.
+    size: f64,
+    /// Indices into `Scene::instances`, of places that may be instances.
+    places: Vec<usize>,
+}
+
+impl<'a> Mesh<'a> {
+    fn new(file: &'a MeshFile, part: Option<&str>) -> Self {
+        let parts = chosen(file, part);
+        let n_triangles = parts.iter().map(|part| part.triangles.len()).sum();
+        let coordinates = parts.iter().flat_map(|part| part.positions.as_flattened());
+        let size = coordinates.fold(0.0_f64, |most, x| most.max(f64::from(x.abs())));
+        Self { parts, n_triangles, size, places: Vec::new() }
+    }
+}
+
+/// Whether a mesh of that many triangles is worth sharing between that many places.
+fn pays(n_triangles: usize, n_places: usize) -> bool {
+    let saved = n_triangles.saturating_mul(n_places.saturating_sub(1));
+    n_triangles >= MIN_TRIANGLES && saved >= MIN_SAVED
+}
+
+/// The parts of a file that a shape names.
+pub(super) fn chosen<'a>(file: &'a MeshFile, part: Option<&str>) -> Vec<&'a Part> {
+    match part {
+        None => file.parts.iter().collect(),
+        Some(name) => file.find_parts(name).into_iter().map(|part| &file.parts[part]).collect(),
+    }
+}
+
+/// Whether any of the parts may give light at this place.
+fn glows(scene: &Scene, file: &MeshFile, instance: &Instance, parts: &[&Part]) -> bool {
+    let dark = |color: &Color| matches!(color, Color::Constant(rgb) if *rgb == [0.0; 3]);
+    if let Some(material) = instance.material {
+        return match &scene.materials[material].model {
+            MaterialModel::Emissive { .. } => true,
+            MaterialModel::Principled(model) => {
+                model.emission_strength != 0.0 && !dark(&model.emission)
+            }
+            _ => false,
+        };
+    }
+    let of_part = |part: &&Part| part.material.map(|material| &file.materials[material as usize]);
+    parts.iter().filter_map(of_part).any(|material| material.emission != [0.0; 3])
+}
+
+/// How much a map shrinks lengths at most.
+fn scale(linear: DMat3) -> f64 {
+    let inverse = linear.inverse();
+    let entries = inverse.to_cols_array().into_iter().map(f64::abs);
+    1.0 / entries.fold(f64::MIN_POSITIVE, f64::max)
+}
+
+/// No less than the distance of anything from the origin of the world, meshes left out, metres.
+fn extent(scene: &Scene, shutter: Shutter) -> f64 {
+    let things = scene.instances.iter().map(|instance| {
+        let Transform { linear, translation, .. } = Transform::of(instance, shutter);
+        let size = match instance.shape {
+            Shape::Sphere { radius } => radius,
+            Shape::Rectangle { size: [x, z] } => x.max(z),
+            Shape::Box { size: [x, y, z] } => x.max(y).max(z),
+            Shape::Mesh { .. } => 0.0,
+        };
+        let longest = linear.to_cols_array().into_iter().map(f64::abs).fold(0.0, f64::max);
+        translation.abs().max_element() + 3.0 * longest * size
+    });
+    let lights = scene
+        .lights
+        .iter()
+        .map(|light| light.center.iter().map(|x| x.abs()).fold(0.0, f64::max) + light.radius);
+    things.chain(lights).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_read_as_they_are_written() {
+        for how in [Instancing::Auto, Instancing::Never] {
+            assert_eq!(how.to_string().parse(), Ok(how));
+        }
+        assert!("always".parse::<Instancing>().is_err());
+    }
+
+    #[test]
+    fn two_places_or_more_that_save_enough_are_shared() {
+        assert!(!pays(1_000_000, 1) && !pays(1_000_000, 0));
+        assert!(pays(MIN_SAVED, 2) && !pays(MIN_SAVED - 1, 2) && pays(MIN_SAVED / 2, 3));
+        assert!(!pays(MIN_TRIANGLES - 1, 1_000_000) && pays(MIN_TRIANGLES, 1_000_000));
+    }
+}
