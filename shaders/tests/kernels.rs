@@ -207,13 +207,18 @@ fn sections_beyond_128_mib_are_bound_in_windows() {
     features.lights.remove(&pack::abi::LightKind::Sphere);
     features.windows.tri = 2;
     features.windows.shade = 2;
-    let text = link(&features).expect("seven storage buffers").text;
+    let text = link(&features).expect("few storage buffers").text;
     assert!(text.contains("@binding(12) var<storage, read> tri_words_1"));
     assert!(text.contains("return tri_words_1[i - 8388608u];"));
     kernel("windows", &features);
-    features.windows.node = 2;
-    let error = link(&features).expect_err("eight storage buffers");
-    assert_eq!(error.to_string(), "the kernel needs 8 storage buffers, at most 7 are portable");
+    features.windows.node = 25;
+    link(&features).expect("thirty storage buffers");
+    features.windows.node = 26;
+    let error = link(&features).expect_err("thirty-one storage buffers");
+    assert_eq!(
+        error.to_string(),
+        "the scene is too large: it needs 31 storage buffers of 128 MiB, and a kernel has 30 at most"
+    );
 }
 
 #[test]
