@@ -211,9 +211,9 @@ fn sections_beyond_128_mib_are_bound_in_windows() {
     assert!(text.contains("@binding(12) var<storage, read> tri_words_1"));
     assert!(text.contains("return tri_words_1[i - 8388608u];"));
     kernel("windows", &features);
-    features.windows.node = 25;
+    features.windows.node = 24;
     link(&features).expect("thirty storage buffers");
-    features.windows.node = 26;
+    features.windows.node = 25;
     let error = link(&features).expect_err("thirty-one storage buffers");
     assert_eq!(
         error.to_string(),

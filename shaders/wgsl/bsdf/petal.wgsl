@@ -56,8 +56,9 @@ fn petal_shares(s: Scatter, slab: Slab, wo: vec3f) -> PetalShares {
     let passage = slab_passage(slab, min(dot(s.ns, wo), 1.0));
     let inner = (1.0 - fuzz) * (1.0 - f);
     let through = inner * vector_max(passage.through);
-    let back = inner * vector_max(passage.back);
-    return PetalShares(fuzz, (1.0 - fuzz) * f + back, through, max(inner - through - back, 0.0));
+    // `min` keeps the sum of the shares from being regrouped.
+    let back = min(inner * vector_max(passage.back), inner);
+    return PetalShares(fuzz, (1.0 - fuzz) * f + back, through, max(inner - back - through, 0.0));
 }
 
 // Samples `wi`. `u`: direction, `v`: which lobe, `w`: radius in the ball; all in [0, 1 - 2^-24].
