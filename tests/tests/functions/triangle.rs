@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 use pack::abi::Triangle;
-use runtime::kernel::{f32 as single, f64 as double};
+use runtime::kernel::f32 as single;
 use tests::kernel::{Bench, ray, ray_double, skip};
 use tests::statistics::stream::Stream;
 
