@@ -119,7 +119,6 @@ fn row(
     let mut sizes = [0; 2];
     for _ in 0..ROUNDS {
         for (way, how) in ways.into_iter().enumerate() {
-            let start = ProcessTime::now();
             let bytes =
                 scene::bytes(&scene::compile_shared(dir, &text, (how, Layout::default()), |_| {}));
             sizes[way] = bytes.len();
