@@ -110,6 +110,37 @@ fn a_scene_without_spheres_has_no_sphere_section_no_binding_and_no_code() {
 }
 
 #[test]
+fn a_scene_without_instances_has_no_instance_section_and_no_code() {
+    let dir = tempfile::tempdir().expect("dir");
+    std::fs::write(dir.path().join("sheet.obj"), wavy_obj(30)).expect("writable");
+    let text = |places: &str| {
+        format!(
+            "rts 1\nsky day: constant {{ color = linear(1) }}\nmaterial m: diffuse {{ color = linear(0.5) }}
+asset sheet = obj(\"sheet.obj\", unit: m, up: +y)\n{places}{VIEW}"
+        )
+    };
+    let [a, b] = ["a", "b"].map(|name| {
+        format!("instance {name} {{ shape = sheet, material = m, at = (0, 1, 0)m }}\n")
+    });
+    for (places, expected) in [(a.clone(), false), (a + &b, true)] {
+        let compiled = compile_in(dir.path(), &text(&places));
+        let pack = Pack::from_bytes(bytes(&compiled)).expect("valid");
+        assert_eq!(pack.section_bytes(Kind::INSTANCE).is_some(), expected, "section");
+        let code = code(pack.kernel());
+        for part in ["load_instance", "instance_ray", "instance_surface", "child_door_index"] {
+            assert_eq!(code.contains(part), expected, "{part}");
+        }
+        let manifest = pack.manifest().expect("readable");
+        let count = |name: &str| {
+            manifest.counters.iter().find(|(known, _)| known == name).map(|(_, count)| *count)
+        };
+        assert_eq!(count("triangles"), Some(1800));
+        assert_eq!(count("triangles shown"), Some(if expected { 3600 } else { 1800 }));
+        assert_eq!(count("instances of them"), Some(if expected { 2 } else { 0 }));
+    }
+}
+
+#[test]
 fn a_scene_of_nothing_but_sky_has_no_geometry_at_all() {
     let pack = pack(&format!("rts 1\nsky day: constant {{ color = linear(1) }}\n{VIEW}"));
     for kind in [Kind::NODE, Kind::TRIANGLE, Kind::TRISHADE, Kind::SPHERE, Kind::MATERIAL] {

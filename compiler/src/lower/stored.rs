@@ -276,6 +276,11 @@ mod tests {
         let frame = Normalization::of_points([[-9.0; 3], [9.0; 3]]);
         let record = placed.record(&mesh, &frame, true);
         assert!(record.inverse_error() < 1e-6, "{}", record.inverse_error());
+        let thin = DMat3::from_euler(glam::EulerRot::XYZ, 0.3, 1.1, -2.0)
+            * DMat3::from_diagonal(DVec3::new(2.0, -1e-6, 1e3));
+        let thin = Placed::new(&mesh, 0, &Transform::new(thin, DVec3::ZERO), 4, NONE);
+        let error = thin.record(&mesh, &frame, false).inverse_error();
+        assert!(error < 1e-6, "{error}");
         assert_eq!(record.object, 4 | MOVES);
         let [lo, hi] = placed.box_of(&frame, [0.0, 0.5, 0.0]);
         for p in placed.triangle(&mesh.corners[0]) {

@@ -8,7 +8,6 @@
 #import "scene/leaf.wgsl"
 #import "scene/nodes.wgsl"
 #import "scene/records.wgsl"
-#import "trace/box.wgsl"
 #import "trace/ray.wgsl"
 #import "trace/stack.wgsl"
 #import "trace/walk.wgsl"

@@ -1,7 +1,7 @@
-//! `cargo run --release -p tests --bin instances`: measures and rewrites `docs/instances.md`.
+//! `cargo run --package tests --bin instances`: measures and rewrites `docs/instances.md`.
 //!
 //! Meshes of several sizes in several places, stored once (`rtc --instances auto`) and for each place
-//! (`--instances never`): size of the pack, time of the compiler, time of rays.
+//! (`--instances never`): size of the pack, time of rays.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -30,7 +30,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let dir = tempfile::tempdir()?;
     let mut text = format!(
         "# Meshes that are stored once\n\n\
-        Made by `cargo run --release -p tests --bin instances`; edit the program, not this page.\n\n\
+        Made by `cargo run --package tests --bin instances`; edit the program, not this page.\n\n\
         A mesh that is placed twice or more is stored once, with one tree in its own frame, where that saves \
         {MIN_SAVED} triangles and the mesh has {MIN_TRIANGLES} or more; `rtc --instances never` stores every place. \
         Never stored once are places whose triangles are lights, whose leaves or petals depend on the name of the \
@@ -38,8 +38,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Balls of clay on a plane under a white sky, turned and stretched each in its own way. CPU seconds (user + \
         system) on one thread, medians of {ROUNDS} interleaved rounds; compare columns, not pages. A row whose mesh \
         is too small is stored in each place whatever was asked, and shows what the measurement is worth.\n\n\
-        | triangles | places | pack, once | pack, each | compile, once | compile, each | render, once | render, each | ratio |\n\
-        |---|---|---|---|---|---|---|---|---|\n"
+        | triangles | places | pack, once | pack, each | CPU s, once | CPU s, each | ratio |\n\
+        |---|---|---|---|---|---|---|\n"
     );
     for (around, along) in BALLS {
         let n_triangles = write_ball(&dir.path().join("ball.obj"), around, along)?;
@@ -115,14 +115,12 @@ fn row(
 ) -> Result<String, Box<dyn std::error::Error>> {
     let text = scene_text(places);
     let ways = [Instancing::Auto, Instancing::Never];
-    let [mut compile, mut show] = [[Vec::new(), Vec::new()], [Vec::new(), Vec::new()]];
+    let mut show = [Vec::new(), Vec::new()];
     let mut sizes = [0; 2];
     for _ in 0..ROUNDS {
         for (way, how) in ways.into_iter().enumerate() {
-            let start = ProcessTime::now();
             let bytes =
                 scene::bytes(&scene::compile_shared(dir, &text, (how, Layout::default()), |_| {}));
-            compile[way].push(start.elapsed().as_secs_f64());
             sizes[way] = bytes.len();
             let scene = Scene::new(Pack::from_bytes(bytes)?);
             let mut job = Job::of_scene(&scene);
@@ -132,14 +130,12 @@ fn row(
             show[way].push(start.elapsed().as_secs_f64());
         }
     }
-    let [compile, show] = [compile, show].map(|two| two.map(median));
+    let show = show.map(median);
     Ok(format!(
-        "| {n_triangles} | {} | {:.2} MB | {:.2} MB | {:.3} | {:.3} | {:.3} | {:.3} | {:.2} |\n",
+        "| {n_triangles} | {} | {:.2} MB | {:.2} MB | {:.3} | {:.3} | {:.2} |\n",
         places.0,
         sizes[0] as f64 / 1e6,
         sizes[1] as f64 / 1e6,
-        compile[0],
-        compile[1],
         show[0],
         show[1],
         show[0] / show[1],

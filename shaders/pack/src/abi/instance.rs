@@ -45,7 +45,9 @@ abi_struct! {
 }
 
 impl Instance {
-    /// How far the product of the two matrices is from the identity: the largest entry of the difference.
+    /// How far the product of the two matrices is from the identity: the largest entry of the difference, each
+    /// over the magnitudes of the products that it is the sum of, where these are above 1. Infinite for what
+    /// is no number.
     #[must_use]
     pub fn inverse_error(&self) -> f32 {
         let rows = [self.row_x, self.row_y, self.row_z];
@@ -53,16 +55,11 @@ impl Instance {
         let mut worst = 0.0_f32;
         for (i, row) in rows.iter().enumerate() {
             for (j, col) in cols.iter().enumerate() {
-                let dot: f32 = (0..3).map(|k| row[k] * col[k]).sum();
-                let error = (dot - if i == j { 1.0 } else { 0.0 }).abs();
-                // NaN, which comparisons do not see, is infinitely far away.
-                worst = if error <= worst {
-                    worst
-                } else if error.is_nan() {
-                    f32::INFINITY
-                } else {
-                    error
-                };
+                let products = [0, 1, 2].map(|k| row[k] * col[k]);
+                let size: f32 = products.iter().map(|product| product.abs()).sum();
+                let sum: f32 = products.iter().sum();
+                let error = (sum - if i == j { 1.0 } else { 0.0 }).abs() / size.max(1.0);
+                worst = worst.max(if error.is_nan() { f32::INFINITY } else { error });
             }
         }
         worst
