@@ -33,6 +33,7 @@ mod scene;
 mod schedule;
 #[cfg(feature = "gpu")]
 mod trust;
+mod walk;
 
 pub use control::{Control, Progress};
 pub use film::{BadSample, Counters, Film};
