@@ -13,8 +13,9 @@ use std::{env, fs};
 fn main() -> Result<(), Box<dyn Error>> {
     let out = PathBuf::from(env::var_os("OUT_DIR").ok_or("cargo sets OUT_DIR")?);
     let kernel = shaders::link(&shaders::FeatureSet::full())?;
-    write(&out, "kernel_f32.rs", &translate(&kernel, native::Precision::F32)?)?;
-    write(&out, "kernel_f64.rs", &translate(&kernel, native::Precision::F64)?)?;
+    let walk = native::Seam { function: "trace", path: "crate::walk::trace" };
+    write(&out, "kernel_f32.rs", &translate(&kernel, native::Precision::F32, &[walk])?)?;
+    write(&out, "kernel_f64.rs", &translate(&kernel, native::Precision::F64, &[])?)?;
     if env::var_os("CARGO_FEATURE_GPU").is_some() {
         write(&out, "known.rs", &known::table()?)?;
     }
@@ -29,8 +30,9 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn translate(
     kernel: &shaders::Linked,
     precision: native::Precision,
+    seams: &[native::Seam<'_>],
 ) -> Result<String, Box<dyn Error>> {
-    native::generate(&kernel.text, precision).map_err(|error| {
+    native::generate_with(&kernel.text, precision, seams).map_err(|error| {
         let before = kernel.text.split_inclusive('\n').take(error.line.saturating_sub(1) as usize);
         let byte = before.map(str::len).sum::<usize>() + error.column.saturating_sub(1) as usize;
         format!("{:?}: {}", kernel.locate(byte), error.message).into()

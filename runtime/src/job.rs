@@ -47,6 +47,9 @@ pub struct Job {
     pub estimator: u32,
     /// Precision of the CPU kernel; GPUs know `F32` only.
     pub precision: Precision,
+    /// Whether the CPU kernel walks wide nodes by hand-written code, which changes no bit of the picture;
+    /// otherwise by what was generated from the WGSL.
+    pub native_walk: bool,
     /// When to stop, counted from the first sample.
     pub time_limit: Option<Duration>,
     /// Threads of the CPU kernel; `None`: one for each logical CPU.
@@ -91,6 +94,7 @@ impl Job {
             seed: settings.seed,
             estimator: 0,
             precision: Precision::F32,
+            native_walk: true,
             time_limit: None,
             threads: None,
             strict: false,

@@ -35,6 +35,7 @@ mod scene;
 mod schedule;
 #[cfg(feature = "gpu")]
 mod trust;
+mod walk;
 
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use control::{Control, Progress};

@@ -152,7 +152,11 @@ impl Scene {
             sampler: settings.sampler,
             air: settings.air,
             fog: settings.fog,
-            wide: u32::from(self.pack.section_bytes(Kind::WIDENODE).is_some()),
+            wide: match self.pack.section_bytes(Kind::WIDENODE) {
+                None => 0,
+                Some(_) if job.native_walk => 1,
+                Some(_) => 2,
+            },
             inside: settings.inside,
             ..Frame::default()
         };

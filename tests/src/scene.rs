@@ -40,19 +40,37 @@ impl Loader for Beside {
 /// When it is not a scene, or when it warns: examples are to be followed.
 #[must_use]
 pub fn example(example: &Example, defines: &[(&str, &str)]) -> Compiled {
+    example_as(example, defines, Extent::Reduced, Layout::default())
+}
+
+/// As `example`, with all that belongs to it and nodes in this layout.
+///
+/// # Panics
+/// As `example`.
+#[must_use]
+pub fn full_example(example: &Example, layout: Layout) -> Compiled {
+    example_as(example, &[], Extent::Full, layout)
+}
+
+fn example_as(
+    example: &Example,
+    defines: &[(&str, &str)],
+    extent: Extent,
+    layout: Layout,
+) -> Compiled {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
     let copy = tempfile::tempdir().expect("a temporary directory can be made");
     let source = example.source(copy.path());
     let root = source.parent().expect("a scene has a folder").to_owned();
     copy_texts(&scenes.join(example.name), &root);
-    example.generate(copy.path(), Extent::Reduced).expect("assets can be generated");
+    example.generate(copy.path(), extent).expect("assets can be generated");
     let text = std::fs::read_to_string(&source).expect("an example has a text");
     let defines = defines.iter().map(|(name, value)| ((*name).into(), (*value).into()));
     let options = lang::Options { defines: defines.collect() };
     let name = source.display().to_string();
     let analysis = lang::analyze(&name, &text, &mut Beside, &options);
     let cache = Cache::disabled();
-    let trees = Trees::usual(&cache);
+    let trees = Trees { layout, ..Trees::usual(&cache) };
     let compiled = finish(&root, trees, analysis, &options.defines, |_| {});
     let (compiled, diagnostics) = compiled;
     assert!(diagnostics.is_empty(), "{diagnostics}");

@@ -20,6 +20,8 @@ const SCALE: f32 = 1.0 / 8192.0;
 pub(crate) struct Row {
     pub(crate) preset: Preset,
     pub(crate) layout: Layout,
+    /// Who walks it.
+    pub(crate) walk: &'static str,
     /// CPU seconds to make it from the binary tree.
     pub(crate) made: f64,
     pub(crate) node_bytes: usize,
@@ -67,7 +69,7 @@ fn rays(tree: &Joined, triangles: &[Tri]) -> Vec<Ray> {
     rays.map(|ray| Ray { origin: ray.origin * SCALE, dir: ray.dir }).collect()
 }
 
-/// Both layouts of a tree, their runs interleaved; every ray must have the same hit in both.
+/// Both layouts of a tree, the runs interleaved; every ray must have the same hit in all.
 fn compare(
     preset: Preset,
     tree: &Joined,
@@ -78,11 +80,41 @@ fn compare(
     let mut wide = Vec::new();
     let root = bvh::widen(&tree.nodes, tree.root, &mut wide)?;
     let made = cpu_seconds() - before;
-    let words = [
-        Words::new(tree, tree.root, bytemuck::cast_slice(&tree.nodes), 0, triangles),
-        Words::new(tree, root, bytemuck::cast_slice(&wide), 1, triangles),
+    let binary_nodes: &[u8] = bytemuck::cast_slice(&tree.nodes);
+    let wide_nodes: &[u8] = bytemuck::cast_slice(&wide);
+    // The last number is `Frame::wide`.
+    let kernels = [
+        ("generated", tree.root, binary_nodes, 0),
+        ("generated", root, wide_nodes, 2),
+        ("by hand", root, wide_nodes, 1),
     ];
-    let mut took = [Vec::new(), Vec::new()];
+    let words =
+        kernels.map(|(_, root, nodes, asked)| Words::new(tree, root, nodes, asked, triangles));
+    let took = times(tree, &words, rays);
+    let costs = [
+        walked(tree).cost(rays, triangles),
+        walked_wide(&wide, &tree.triangle_order).cost(rays, triangles),
+    ];
+    let stacks = [tree.stack_need, pack::bvh::stack_need(&wide, &[], root)];
+    let row = |((walk, _, nodes, asked), cpu): ((&'static str, u32, &[u8], u32), f64)| {
+        let is_wide = usize::from(asked != 0);
+        Row {
+            preset,
+            layout: [Layout::Binary, Layout::Wide][is_wide],
+            walk,
+            made: [0.0, made][is_wide],
+            node_bytes: nodes.len(),
+            stack: stacks[is_wide],
+            cost: costs[is_wide],
+            cpu,
+        }
+    };
+    Ok(kernels.into_iter().zip(took).map(row).collect())
+}
+
+/// Median of CPU seconds of each kernel.
+fn times<const N: usize>(tree: &Joined, words: &[Words; N], rays: &[Ray]) -> [f64; N] {
+    let mut took = [const { Vec::new() }; N];
     let mut hits = Vec::new();
     for _ in 0..ROUNDS {
         for (words, took) in words.iter().zip(&mut took) {
@@ -95,31 +127,10 @@ fn compare(
             assert_eq!(differ, 0, "rays have other hits");
         }
     }
-    let [cpu, cpu_wide] = took.map(|mut took| {
+    took.map(|mut took| {
         took.sort_by(f64::total_cmp);
         took[ROUNDS / 2]
-    });
-    let cost = walked(tree).cost(rays, triangles);
-    let cost_wide = walked_wide(&wide, &tree.triangle_order).cost(rays, triangles);
-    let binary = Row {
-        preset,
-        layout: Layout::Binary,
-        made: 0.0,
-        node_bytes: size_of_val(tree.nodes.as_slice()),
-        stack: tree.stack_need,
-        cost,
-        cpu,
-    };
-    let wide = Row {
-        layout: Layout::Wide,
-        made,
-        node_bytes: size_of_val(wide.as_slice()),
-        stack: pack::bvh::stack_need(&wide, &[], root),
-        cost: cost_wide,
-        cpu: cpu_wide,
-        ..binary
-    };
-    Ok(vec![binary, wide])
+    })
 }
 
 /// Distance and triangle of the scene, in whichever place it was met.

@@ -123,27 +123,28 @@ fn nodes_section(all: &layouts::Rows) -> String {
          The wide tree is made from the finished binary one: of all ways to dissolve nodes into their parents, the \
          one with the least area of nodes that are left; leaves stay as they are. CPU seconds to make it, on one \
          thread. Bytes: of nodes, a triangle of the scene. Visits and tests: as above, nodes of any width. CPU seconds a \
-         million rays: `trace` of the CPU kernel, one thread, median of {} interleaved runs of the same {} rays, \
+         million rays: `trace` of the CPU kernel, generated from the WGSL or written by hand, one thread, median of {} interleaved runs of the same {} rays, \
          which have the same hits, bit for bit. Stack: entries that the worst ray needs.\n\n\
-         | tree | nodes | made in s | bytes | visits | tests | CPU s a Mray | against binary | stack |\n\
-         |---|---|---|---|---|---|---|---|---|\n",
+         | tree | nodes | walk | made in s | bytes | visits | tests | CPU s a Mray | against the first | stack |\n\
+         |---|---|---|---|---|---|---|---|---|---|\n",
         layouts::ROUNDS,
         all.n_rays,
     );
     let per_ray = |n: u64| n as f64 / all.n_rays as f64;
-    for pair in all.trees.chunks(2) {
-        for row in pair {
+    for group in all.trees.chunks(3) {
+        for row in group {
             let _ = writeln!(
                 text,
-                "| `{}` | `{}` | {} | {:.1} | {:.1} | {:.1} | {:.2} | {:.2} | {} |",
+                "| `{}` | `{}` | {} | {} | {:.1} | {:.1} | {:.1} | {:.2} | {:.2} | {} |",
                 row.preset,
                 row.layout,
+                row.walk,
                 if row.made > 0.0 { format!("{:.2}", row.made) } else { "–".to_owned() },
                 row.node_bytes as f64 / all.n_triangles as f64,
                 per_ray(row.cost.steps),
                 per_ray(row.cost.tests),
                 row.cpu / all.n_rays as f64 * 1e6,
-                row.cpu / pair[0].cpu,
+                row.cpu / group[0].cpu,
                 row.stack,
             );
         }

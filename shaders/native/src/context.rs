@@ -4,7 +4,7 @@
 use crate::functions::FunctionWriter;
 use crate::names::{Names, PATTERNS, TYPE_NAMES};
 use crate::text::Text;
-use crate::{NativeError, Precision};
+use crate::{NativeError, Precision, Seam};
 use naga::valid::ModuleInfo;
 use naga::{Constant, Function, GlobalVariable, Handle, Module, Override, Span, Type, TypeInner};
 
@@ -21,6 +21,8 @@ pub(crate) struct Context<'a> {
     globals: Vec<String>,
     functions: Vec<String>,
     entry_points: Vec<String>,
+    /// Path of the Rust function that does a function's work, and the name of the translation.
+    seams: Vec<Option<(&'a str, String)>>,
 }
 
 impl<'a> Context<'a> {
@@ -30,7 +32,8 @@ impl<'a> Context<'a> {
         info: &'a ModuleInfo,
         source: &'a str,
         precision: Precision,
-    ) -> Self {
+        seams: &[Seam<'a>],
+    ) -> Result<Self, NativeError> {
         let mut types = Names::with(TYPE_NAMES.iter().copied());
         let mut structs = Vec::new();
         let mut fields = Vec::new();
@@ -77,7 +80,8 @@ impl<'a> Context<'a> {
             .iter()
             .map(|(_, function)| methods.add(function.name.as_deref().unwrap_or("function")))
             .collect();
-        Self {
+        let seams = seam_of_each(module, seams, &mut methods)?;
+        Ok(Self {
             module,
             info,
             source,
@@ -89,7 +93,8 @@ impl<'a> Context<'a> {
             globals,
             functions,
             entry_points,
-        }
+            seams,
+        })
     }
 
     /// Writes the whole module.
@@ -115,7 +120,15 @@ impl<'a> Context<'a> {
             out.line("");
             let span = self.module.functions.get_span(handle);
             let writer = FunctionWriter::new(self, function, &self.info[handle], span);
-            out.raw(&writer.write_function(self.function_name(handle))?);
+            let name = self.function_name(handle);
+            let Some((path, own)) = &self.seams[handle.index()] else {
+                out.raw(&writer.write_function(name)?);
+                continue;
+            };
+            out.raw(&writer.write_seam(name, path)?);
+            out.line("");
+            let writer = FunctionWriter::new(self, function, &self.info[handle], span);
+            out.raw(&writer.write_function(own)?);
         }
         out.close("}");
         out.line("");
@@ -164,4 +177,23 @@ impl<'a> Context<'a> {
     pub(crate) fn value_names(&self) -> impl Iterator<Item = &str> {
         self.constants.iter().flatten().chain(&self.overrides).map(String::as_str)
     }
+}
+
+/// What stands in for each function of the module, if anything does.
+fn seam_of_each<'a>(
+    module: &Module,
+    seams: &[Seam<'a>],
+    methods: &mut Names,
+) -> Result<Vec<Option<(&'a str, String)>>, NativeError> {
+    let named = |name: &str| {
+        let is = |function: &Function| function.name.as_deref() == Some(name);
+        module.functions.iter().position(|(_, function)| is(function))
+    };
+    let mut found = vec![None; module.functions.len()];
+    for seam in seams {
+        let message = || format!("there is no function `{}` for a seam", seam.function);
+        let index = named(seam.function).ok_or_else(|| NativeError::nowhere(message()))?;
+        found[index] = Some((seam.path, methods.add(&format!("generated_{}", seam.function))));
+    }
+    Ok(found)
 }

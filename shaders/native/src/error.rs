@@ -39,6 +39,11 @@ impl NativeError {
         }
     }
 
+    /// An error about no place in the text.
+    pub(crate) fn nowhere(message: String) -> Self {
+        Self { message, line: 0, column: 0, offset: 0 }
+    }
+
     /// The same error; where it has no place of its own, at `span`.
     pub(crate) fn or_at(self, span: Span, source: &str) -> Self {
         if self.line == 0 { Self::at(span, source, self.message) } else { self }

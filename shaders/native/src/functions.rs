@@ -85,6 +85,30 @@ impl<'a> FunctionWriter<'a> {
 
     /// The method for an ordinary function.
     pub(crate) fn write_function(mut self, name: &str) -> Result<String, NativeError> {
+        let (parameters, result) = self.signature()?;
+        self.write_place();
+        self.out.line("#[inline]");
+        self.out.open(&format!("pub fn {name}(&mut self{parameters}){result} {{"));
+        self.write_body()?;
+        self.out.close("}");
+        Ok(self.out.finish())
+    }
+
+    /// The method that leaves the work to the Rust function at `path`.
+    pub(crate) fn write_seam(mut self, name: &str, path: &str) -> Result<String, NativeError> {
+        let (parameters, result) = self.signature()?;
+        self.write_place();
+        self.out.line("#[inline]");
+        self.out.open(&format!("pub fn {name}(&mut self{parameters}){result} {{"));
+        let mut given = vec!["self".to_owned()];
+        given.extend(self.arguments.iter().cloned());
+        self.out.line(&crate::text::call(path, &given));
+        self.out.close("}");
+        Ok(self.out.finish())
+    }
+
+    /// The parameters behind `self`, and the arrow with the result.
+    fn signature(&self) -> Result<(String, String), NativeError> {
         let mut parameters = String::new();
         for (argument, given) in self.fun.arguments.iter().zip(&self.arguments) {
             let ty = self.parameter_type(argument)?;
@@ -96,12 +120,7 @@ impl<'a> FunctionWriter<'a> {
             }
             None => String::new(),
         };
-        self.write_place();
-        self.out.line("#[inline]");
-        self.out.open(&format!("pub fn {name}(&mut self{parameters}){result} {{"));
-        self.write_body()?;
-        self.out.close("}");
-        Ok(self.out.finish())
+        Ok((parameters, result))
     }
 
     /// The method for an entry point, which resets the private variables.

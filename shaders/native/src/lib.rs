@@ -72,14 +72,34 @@ pub enum Precision {
     F64,
 }
 
-/// Translates a WGSL text.
+/// A function that hand-written Rust may do instead.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Seam<'a> {
+    /// Its name in the WGSL.
+    pub function: &'a str,
+    /// Path of the Rust function, as seen from the generated module. It takes `&mut Kernel` and the
+    /// arguments, and gives the result. The translation is there as well, under the name with
+    /// `generated_` in front, so that it can be called for what the hand-written one does not do.
+    pub path: &'a str,
+}
+
+/// Translates a WGSL text, all of it.
 pub fn generate(source: &str, precision: Precision) -> Result<String, NativeError> {
+    generate_with(source, precision, &[])
+}
+
+/// Translates a WGSL text; calls of the functions of `seams` become calls of Rust functions.
+pub fn generate_with(
+    source: &str,
+    precision: Precision,
+    seams: &[Seam<'_>],
+) -> Result<String, NativeError> {
     let module =
         naga::front::wgsl::parse_str(source).map_err(|error| NativeError::parse(&error, source))?;
     let info = Validator::new(ValidationFlags::all(), Capabilities::all())
         .validate(&module)
         .map_err(|error| NativeError::invalid(&error, source))?;
-    generate_module(&module, &info, source, precision)
+    context::Context::new(&module, &info, source, precision, seams)?.write()
 }
 
 /// Translates a module that is already parsed and validated. `source` is the text that its spans
@@ -90,5 +110,5 @@ pub fn generate_module(
     source: &str,
     precision: Precision,
 ) -> Result<String, NativeError> {
-    context::Context::new(module, info, source, precision).write()
+    context::Context::new(module, info, source, precision, &[])?.write()
 }

@@ -1,7 +1,7 @@
 //! The generated text of every probe is checked in, so that a change of the generator shows as a
 //! change of text. `UPDATE=1 cargo test -p native` writes it again.
 
-use native::{Precision, generate};
+use native::{Precision, Seam, generate, generate_with};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -51,4 +51,36 @@ fn every_generated_file_has_a_probe() {
         let stem = name.trim_end_matches("_f32.rs").trim_end_matches("_f64.rs");
         assert!(stems.iter().any(|s| s == stem), "{name} belongs to no probe");
     }
+}
+
+const SEAM_SOURCE: &str = "
+fn twice(x: f32) -> f32 { return x + x; }
+@group(0) @binding(0) var<storage, read_write> out: array<f32>;
+@compute @workgroup_size(1) fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    out[id.x] = twice(f32(id.x));
+}
+";
+
+#[test]
+fn a_seam_calls_rust_and_keeps_the_translation() {
+    let seam = Seam { function: "twice", path: "crate::hand::twice" };
+    let text = generate_with(SEAM_SOURCE, Precision::F32, &[seam]).unwrap();
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    let at = |line: &str| lines.iter().position(|l| *l == line).unwrap_or_else(|| panic!("{line}"));
+    let call = at("pub fn twice(&mut self, x: Real) -> Real {");
+    assert_eq!(lines[call + 1], "crate::hand::twice(self, x)");
+    assert_eq!(
+        lines[at("pub fn generated_twice(&mut self, x: Real) -> Real {") + 1],
+        "return x + x;"
+    );
+    let main = generate(SEAM_SOURCE, Precision::F32).unwrap();
+    assert!(!main.contains("generated_twice") && main.contains("self.twice("));
+    assert!(text.contains("self.twice("), "callers go through the seam");
+}
+
+#[test]
+fn a_seam_for_no_function_is_an_error() {
+    let seam = Seam { function: "thrice", path: "crate::hand::thrice" };
+    let error = generate_with(SEAM_SOURCE, Precision::F32, &[seam]).unwrap_err();
+    assert_eq!(error.message, "there is no function `thrice` for a seam");
 }

@@ -39,7 +39,8 @@ fn wide_keys(node: WideNode, origin: vec3f, inverse: vec3f, t_max: f32) -> vec4<
     let leave = min(min(far_x, far_y), min(far_z, vec4f(t_max))) * 1.00000095;
     // A box that is inside out can seem to be met from far away.
     let there = vec4<u32>(node.child0, node.child1, node.child2, node.child3) != vec4<u32>(NONE);
-    let keys = (bitcast<vec4<u32>>(enter) & vec4<u32>(0xfffffffcu)) | vec4<u32>(0u, 1u, 2u, 3u);
+    // The sign too: -0 is 0.
+    let keys = (bitcast<vec4<u32>>(enter) & vec4<u32>(0x7ffffffcu)) | vec4<u32>(0u, 1u, 2u, 3u);
     return select(vec4<u32>(WIDE_MISS), keys, (enter <= leave) & there);
 }
 

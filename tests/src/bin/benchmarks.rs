@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-use compiler::bvh::{Fragment, Input, Preset, build};
+use compiler::bvh::{Fragment, Input, Layout, Preset, build};
 use cpu_time::ProcessTime;
 use pack::abi::Triangle;
 use pack::{MapMode, Pack};
@@ -39,9 +39,10 @@ fn main() -> Result<ExitCode, Box<dyn std::error::Error>> {
 }
 
 fn all(root: &Path) -> Result<(), Box<dyn std::error::Error>> {
-    let pack = mesh_pack(root)?;
+    let pack = pack_of("mesh", Layout::Wide)?;
     let mut text = header();
     devices(&pack, &mut text)?;
+    walks(&mut text)?;
     bvh(&pack, &mut text)?;
     open("mesh", &pack, &mut text)?;
     compiling_again(root, &mut text)?;
@@ -72,15 +73,12 @@ fn processor() -> String {
     name.unwrap_or_else(|| "unknown processor".to_owned())
 }
 
-/// Generates and compiles the `mesh` example into a temporary file.
-fn mesh_pack(root: &Path) -> Result<PathBuf, Box<dyn std::error::Error>> {
-    let example = scenes::catalog::find("mesh").ok_or("the mesh example exists")?;
-    let dir = root.join("scenes");
-    example.generate(&dir, scenes::generate::Extent::Full)?;
-    let source = example.source(&dir);
-    let folder = source.parent().ok_or("a scene lies in a folder")?;
-    let compiled = scene::compile_in(folder, &std::fs::read_to_string(&source)?);
-    let path = std::env::temp_dir().join(format!("benchmark-{}.pack", std::process::id()));
+/// Generates and compiles an example into a temporary file.
+fn pack_of(name: &str, layout: Layout) -> Result<PathBuf, Box<dyn std::error::Error>> {
+    let example = scenes::catalog::find(name).ok_or("there is no such example")?;
+    let compiled = scene::full_example(example, layout);
+    let file = format!("benchmark-{}-{name}-{layout}.pack", std::process::id());
+    let path = std::env::temp_dir().join(file);
     std::fs::write(&path, scene::bytes(&compiled))?;
     Ok(path)
 }
@@ -94,9 +92,19 @@ struct Cost {
 }
 
 fn cost(scene: &Scene, device: &DeviceChoice, samples: u32) -> Result<Cost, String> {
+    cost_of(scene, device, samples, |_| {})
+}
+
+fn cost_of(
+    scene: &Scene,
+    device: &DeviceChoice,
+    samples: u32,
+    change: impl FnOnce(&mut Job),
+) -> Result<Cost, String> {
     let mut job = Job::of_scene(scene);
     job.resize(SIZE);
     job.samples = SampleRange { start: 0, end: samples };
+    change(&mut job);
     let control = Control::default();
     let (cpu, wall) = (ProcessTime::now(), Instant::now());
     let outcome: Outcome =
@@ -146,6 +154,54 @@ fn devices(pack: &Path, text: &mut String) -> Result<(), Box<dyn std::error::Err
     }
     if choices.len() == 1 {
         text.push_str("\nNo Vulkan adapter was found, not even a software one.\n");
+    }
+    Ok(())
+}
+
+/// Layouts of nodes, and who walks them on the CPU.
+const WALKS: [(Layout, bool, &str); 3] = [
+    (Layout::Binary, false, "binary nodes, generated walk"),
+    (Layout::Wide, false, "wide nodes, generated walk"),
+    (Layout::Wide, true, "wide nodes, walk by hand"),
+];
+
+fn walks(text: &mut String) -> Result<(), Box<dyn std::error::Error>> {
+    let [width, height] = SIZE;
+    let _ = writeln!(
+        text,
+        "\n## The walk through the tree: {width} x {height}, {SAMPLES} samples a pixel, the CPU kernel\n\n\
+        `generated`: `trace` as it was translated from the WGSL; `by hand`: four lanes at a time \
+        (`runtime/src/walk.rs`). The same picture, bit for bit; all of path tracing is in the times.\n\n\
+        | scene | nodes and walk | CPU s | Mrays | Mrays per CPU s | against the first |\n\
+        |---|---|---|---|---|---|"
+    );
+    for name in ["mesh", "shrine"] {
+        let packs = Layout::ALL.map(|layout| pack_of(name, layout));
+        let [wide, binary] = packs;
+        let (wide, binary) = (wide?, binary?);
+        let open = |path: &Path| Pack::open(path, MapMode::Map).map(Scene::new);
+        let (wide_scene, binary_scene) = (open(&wide)?, open(&binary)?);
+        let mut runs: [Vec<Cost>; 3] = Default::default();
+        for _ in 0..ROUNDS {
+            for ((layout, native, _), runs) in WALKS.iter().zip(&mut runs) {
+                let scene = if *layout == Layout::Wide { &wide_scene } else { &binary_scene };
+                let change = |job: &mut Job| job.native_walk = *native;
+                runs.push(cost_of(scene, &DeviceChoice::Cpu, SAMPLES, change)?);
+            }
+        }
+        let base = median(runs[0].iter().map(|run| run.cpu));
+        for ((_, _, what), runs) in WALKS.iter().zip(&runs) {
+            let cpu = median(runs.iter().map(|run| run.cpu));
+            let mrays = runs[0].rays as f64 / 1e6;
+            let _ = writeln!(
+                text,
+                "| `{name}` | {what} | {cpu:.2} | {mrays:.2} | {:.2} | {:.2}x |",
+                mrays / cpu,
+                cpu / base,
+            );
+        }
+        std::fs::remove_file(wide)?;
+        std::fs::remove_file(binary)?;
     }
     Ok(())
 }

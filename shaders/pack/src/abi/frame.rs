@@ -51,7 +51,8 @@ abi_struct! {
         /// Indices of the `Material`s inside of which the camera is, the one that counts first, then
         /// `NONE`.
         pub inside: [u32; 4],
-        /// 1: the nodes are `WideNode`s, 0: they are `Node`s. The full kernel asks, a specialised one knows.
+        /// 0: the nodes are `Node`s, else `WideNode`s. The full kernel asks, a specialised one knows. 2: on
+        /// the CPU, too, they are walked by what stands in the WGSL.
         pub wide: u32,
         /// First heap word of the table by which the sky is sampled.
         pub sky_table_at: u32,
