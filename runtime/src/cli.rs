@@ -5,7 +5,9 @@
 //! interrupted, after everything complete was written.
 
 mod args;
+mod bench;
 mod console;
+mod measure;
 mod render;
 mod watch;
 
@@ -41,6 +43,7 @@ pub fn run(args: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> ExitC
     };
     code(match &args.command {
         Some(Command::Merge(merge)) => merge_command(merge),
+        Some(Command::Bench(bench)) => bench::command(bench),
         None if args.render.list_devices => list_devices(),
         None if args.render.watch => watch::command(&args.render),
         None => render::command(&args.render, None),

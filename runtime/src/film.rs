@@ -4,7 +4,9 @@
 //! region has arrived. So the film never depends on the order in which tiles finish, and it is
 //! evenly sampled at every moment. It does not know devices or files.
 
+use crate::convergence::{REPLICATES, REPLICATES_U32, luminance, moments};
 use crate::region::{Rect, SampleRange, insert_range};
+use crate::schedule::WorkItem;
 use pack::abi::FilmPixel;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -70,6 +72,9 @@ pub struct Film {
     pub counts: Vec<u32>,
     /// Rays, bad samples, longest path.
     pub counters: Counters,
+    /// Variance of the mean luminance of each pixel, where the picture is the mean of replicates;
+    /// else empty. Then `ranges` are those of one replicate.
+    pub variance: Vec<f64>,
 }
 
 /// Without the pixels, which nobody could read.
@@ -97,7 +102,14 @@ impl Film {
             sums: vec![[0.0; 3]; n],
             counts: vec![0; n],
             counters: Counters::default(),
+            variance: Vec::new(),
         }
+    }
+
+    /// Pictures of independent noise whose mean this is.
+    #[must_use]
+    pub fn replicates(&self) -> u32 {
+        if self.variance.is_empty() { 1 } else { REPLICATES_U32 }
     }
 
     /// Mean radiance of pixel `i` of the region; black without samples.
@@ -153,14 +165,35 @@ struct Plane {
 /// Collects tiles in any order and adds whole batches to the film in ascending order.
 pub(crate) struct Accumulator {
     film: Film,
-    open: BTreeMap<u32, Plane>,
-    /// Sums of a plane that was added, to be used again.
-    spare: Option<Vec<[f32; 3]>>,
+    /// By first sample and replicate.
+    open: BTreeMap<(u32, u32), Plane>,
+    /// Sums of planes that were added, to be used again.
+    spare: Vec<Vec<[f32; 3]>>,
+    /// Sums of luminance of each replicate; empty where there is only one.
+    lumas: Vec<[f64; REPLICATES]>,
+    /// Samples behind each of them.
+    per_replicate: u32,
 }
 
 impl Accumulator {
     pub(crate) fn new(film: Film) -> Self {
-        Self { film, open: BTreeMap::new(), spare: None }
+        let (open, spare, lumas) = (BTreeMap::new(), Vec::new(), Vec::new());
+        Self { film, open, spare, lumas, per_replicate: 0 }
+    }
+
+    /// Keeps the replicates apart too, and adds whole rounds of them only.
+    pub(crate) fn in_rounds(mut self) -> Self {
+        self.lumas = vec![[0.0; REPLICATES]; self.film.sums.len()];
+        self
+    }
+
+    /// Sums of luminance of each replicate, and the samples behind each sum.
+    pub(crate) fn lumas(&self) -> (&[[f64; REPLICATES]], u32) {
+        (&self.lumas, self.per_replicate)
+    }
+
+    fn replicates(&self) -> usize {
+        if self.lumas.is_empty() { 1 } else { REPLICATES }
     }
 
     /// What is complete so far.
@@ -169,19 +202,21 @@ impl Accumulator {
     }
 
     /// Announces a batch. Batches must be announced in ascending order, before their first tile.
-    pub(crate) fn open(&mut self, samples: SampleRange) {
+    pub(crate) fn open(&mut self, samples: SampleRange, replicate: u32) {
         let n = self.film.sums.len();
-        let sums = self.spare.take().unwrap_or_else(|| vec![[0.0; 3]; n]);
+        let sums = self.spare.pop().unwrap_or_else(|| vec![[0.0; 3]; n]);
         let left = self.film.region.pixels();
         let plane = Plane { samples, sums, done: Vec::new(), left, counters: Counters::default() };
-        self.open.insert(samples.start, plane);
+        self.open.insert((samples.start, replicate), plane);
     }
 
     /// Takes a tile of an open batch, row by row.
-    pub(crate) fn deposit(&mut self, samples: SampleRange, tile: Rect, pixels: &[FilmPixel]) {
+    pub(crate) fn deposit(&mut self, item: &WorkItem, pixels: &[FilmPixel]) {
+        let WorkItem { tile, samples, replicate, .. } = *item;
         let region_w = self.film.region.w as usize;
         let mut at = self.film.index(tile.x, tile.y);
-        let plane = self.open.get_mut(&samples.start).expect("tiles belong to open batches");
+        let plane = self.open.get_mut(&(samples.start, replicate));
+        let plane = plane.expect("tiles belong to open batches");
         for (row, y) in pixels.chunks_exact(tile.w as usize).zip(tile.y..) {
             for (pixel, x) in row.iter().zip(tile.x..) {
                 let bad = BadSample { x, y, sample: pixel.first_bad };
@@ -208,21 +243,48 @@ impl Accumulator {
     }
 
     /// Gives a tile of an open batch up: its pixels keep the samples they have.
-    pub(crate) fn give_up(&mut self, samples: SampleRange, tile: Rect) {
-        let plane = self.open.get_mut(&samples.start).expect("tiles belong to open batches");
-        plane.left -= tile.pixels();
+    pub(crate) fn give_up(&mut self, item: &WorkItem) {
+        let plane = self.open.get_mut(&(item.samples.start, item.replicate));
+        plane.expect("tiles belong to open batches").left -= item.tile.pixels();
         self.add_complete();
     }
 
     fn add_complete(&mut self) {
+        if self.replicates() > 1 {
+            return self.add_rounds();
+        }
         while self.open.first_key_value().is_some_and(|(_, plane)| plane.left == 0) {
             if let Some((_, plane)) = self.open.pop_first() {
-                self.add(plane);
+                self.add(plane, 0);
             }
         }
     }
 
-    fn add(&mut self, plane: Plane) {
+    /// A round with a tile that was given up never becomes whole.
+    fn add_rounds(&mut self) {
+        let whole = self.film.region.pixels();
+        let arrived = |plane: &Plane| plane.done.iter().map(|tile| tile.pixels()).sum::<u64>();
+        while let Some((&(start, _), plane)) = self.open.first_key_value() {
+            let count = plane.samples.count();
+            let round = self.open.range((start, 0)..(start, REPLICATES_U32));
+            if round.filter(|(_, plane)| arrived(plane) == whole).count() < REPLICATES {
+                return;
+            }
+            for replicate in 0..REPLICATES {
+                if let Some((_, plane)) = self.open.pop_first() {
+                    self.add(plane, replicate);
+                }
+            }
+            self.per_replicate += count;
+        }
+    }
+
+    fn add(&mut self, plane: Plane, replicate: usize) {
+        if !self.lumas.is_empty() {
+            for (lumas, sum) in self.lumas.iter_mut().zip(&plane.sums) {
+                lumas[replicate] += luminance(sum.map(f64::from));
+            }
+        }
         let region_w = self.film.region.w as usize;
         for tile in &plane.done {
             let mut at = self.film.index(tile.x, tile.y);
@@ -242,18 +304,25 @@ impl Accumulator {
             }
         }
         self.film.counters.add(&plane.counters);
+        // That of the first replicate stands for all.
         insert_range(&mut self.film.ranges, plane.samples);
-        self.spare = Some(plane.sums);
+        self.spare.push(plane.sums);
     }
 
     /// The film with every complete batch. A run that ended inside its first batch leaves the tiles
     /// of that batch that arrived: better than nothing, and marked by uneven counts.
     pub(crate) fn finish(mut self) -> Film {
+        if self.replicates() > 1 {
+            let scale = 1.0 / f64::from(self.per_replicate.max(1));
+            let variance = |sums: &[f64; REPLICATES]| moments(sums, scale).1;
+            self.film.variance = self.lumas.iter().map(variance).collect();
+            return self.film;
+        }
         if self.film.ranges.is_empty()
             && let Some((_, plane)) = self.open.pop_first()
             && !plane.done.is_empty()
         {
-            self.add(plane);
+            self.add(plane, 0);
         }
         self.film
     }
@@ -280,6 +349,10 @@ mod tests {
             .collect()
     }
 
+    fn item(samples: SampleRange, tile: Rect) -> WorkItem {
+        WorkItem { tile, samples, replicate: 0, probe: false }
+    }
+
     fn halves() -> [Rect; 2] {
         let (a, b) = REGION.halves().unwrap();
         [a, b]
@@ -291,11 +364,11 @@ mod tests {
         let run = |order: &[usize]| {
             let mut sum = Accumulator::new(Film::new([20, 10], REGION));
             for batch in &batches {
-                sum.open(*batch);
+                sum.open(*batch, 0);
             }
             for &i in order {
                 let (batch, rect) = (batches[i / 2], halves()[i % 2]);
-                sum.deposit(batch, rect, &tile(rect, batch));
+                sum.deposit(&item(batch, rect), &tile(rect, batch));
             }
             sum.finish()
         };
@@ -310,10 +383,10 @@ mod tests {
     fn an_unfinished_batch_is_left_out() {
         let mut sum = Accumulator::new(Film::new([20, 10], REGION));
         for batch in range(0, 32).batches() {
-            sum.open(batch);
+            sum.open(batch, 0);
         }
-        sum.deposit(range(0, 16), REGION, &tile(REGION, range(0, 16)));
-        sum.deposit(range(16, 32), halves()[0], &tile(halves()[0], range(16, 32)));
+        sum.deposit(&item(range(0, 16), REGION), &tile(REGION, range(0, 16)));
+        sum.deposit(&item(range(16, 32), halves()[0]), &tile(halves()[0], range(16, 32)));
         let film = sum.finish();
         assert_eq!((film.samples(), film.is_even()), ((16, 16), true));
     }
@@ -321,8 +394,8 @@ mod tests {
     #[test]
     fn tiles_of_a_first_batch_that_never_ended_are_kept_and_marked() {
         let mut sum = Accumulator::new(Film::new([20, 10], REGION));
-        sum.open(range(0, 16));
-        sum.deposit(range(0, 16), halves()[1], &tile(halves()[1], range(0, 16)));
+        sum.open(range(0, 16), 0);
+        sum.deposit(&item(range(0, 16), halves()[1]), &tile(halves()[1], range(0, 16)));
         let film = sum.finish();
         assert_eq!((film.samples(), film.is_even()), ((0, 16), false));
         assert!(film.mean(0).iter().all(|x| *x == 0.0));
@@ -331,9 +404,9 @@ mod tests {
     #[test]
     fn a_given_up_tile_does_not_hold_the_others_back() {
         let mut sum = Accumulator::new(Film::new([20, 10], REGION));
-        sum.open(range(0, 16));
-        sum.give_up(range(0, 16), halves()[0]);
-        sum.deposit(range(0, 16), halves()[1], &tile(halves()[1], range(0, 16)));
+        sum.open(range(0, 16), 0);
+        sum.give_up(&item(range(0, 16), halves()[0]));
+        sum.deposit(&item(range(0, 16), halves()[1]), &tile(halves()[1], range(0, 16)));
         assert_eq!(sum.film().samples(), (0, 16));
     }
 
@@ -341,12 +414,12 @@ mod tests {
     fn the_first_bad_sample_is_the_topmost_of_the_earliest_batch() {
         let run = |order: [usize; 2]| {
             let mut sum = Accumulator::new(Film::new([20, 10], REGION));
-            sum.open(range(0, 16));
+            sum.open(range(0, 16), 0);
             for i in order {
                 let mut pixels = tile(halves()[i], range(0, 16));
                 pixels[9].bad = 2;
                 pixels[9].first_bad = 5;
-                sum.deposit(range(0, 16), halves()[i], &pixels);
+                sum.deposit(&item(range(0, 16), halves()[i]), &pixels);
             }
             sum.finish().counters
         };
@@ -354,5 +427,29 @@ mod tests {
         assert_eq!(counters, run([1, 0]));
         assert_eq!(counters.bad, 4);
         assert_eq!(counters.first_bad, Some(BadSample { x: 3, y: 2, sample: 5 }));
+    }
+
+    #[test]
+    fn only_whole_rounds_of_replicates_count() {
+        let mut sum = Accumulator::new(Film::new([20, 10], REGION)).in_rounds();
+        for (samples, last) in [(range(0, 1), 4), (range(1, 2), 3)] {
+            for replicate in 0..4 {
+                sum.open(samples, replicate);
+            }
+            for replicate in 0..last {
+                let mut pixels = tile(REGION, samples);
+                for pixel in &mut pixels {
+                    pixel.sum = [replicate as f32; 3];
+                }
+                sum.deposit(&WorkItem { replicate, ..item(samples, REGION) }, &pixels);
+            }
+        }
+        assert_eq!(sum.lumas().1, 1);
+        let film = sum.finish();
+        assert_eq!((film.samples(), film.replicates()), ((4, 4), 4));
+        assert_eq!(film.ranges, [range(0, 1)]);
+        // 0, 1, 2, 3: mean 1.5, squares of the deviations 5, over 4 times 3.
+        assert_eq!(film.mean(0), [1.5; 3]);
+        assert!((film.variance[5] - 5.0 / 12.0).abs() < 1e-12);
     }
 }

@@ -1,5 +1,6 @@
 //! What to render, in one value: size, crop, samples, seed, limits.
 
+use crate::convergence::{Measure, REPLICATES_U32};
 use crate::region::{Rect, SampleRange};
 use crate::scene::Scene;
 use std::time::Duration;
@@ -58,6 +59,9 @@ pub struct Job {
     pub strict: bool,
     /// Wanted duration of one GPU submission.
     pub submission: Duration,
+    /// Whether the error is measured: then the picture is the mean of `convergence::REPLICATES`
+    /// pictures, and `samples` are those of each.
+    pub measure: Option<Measure>,
 }
 
 /// A job that cannot be run.
@@ -76,6 +80,14 @@ pub enum JobError {
         crop: Rect,
         /// The image.
         size: [u32; 2],
+    },
+    /// Another picture than that of the reference.
+    #[error("the reference shows {}x{} pixels (crop {}), the picture {}x{} (crop {})", reference.0[0], reference.0[1], reference.1, picture.0[0], picture.0[1], picture.1)]
+    Reference {
+        /// Size and crop of the reference.
+        reference: ([u32; 2], Rect),
+        /// Size and crop of the picture.
+        picture: ([u32; 2], Rect),
     },
     /// The f64 kernel exists on the CPU only.
     #[error("the f64 kernel runs on the CPU only")]
@@ -99,7 +111,14 @@ impl Job {
             threads: None,
             strict: false,
             submission: Duration::from_millis(100),
+            measure: None,
         }
+    }
+
+    /// Samples of every pixel that are wanted.
+    #[must_use]
+    pub fn spp(&self) -> u32 {
+        self.samples.count().saturating_mul(if self.measure.is_some() { REPLICATES_U32 } else { 1 })
     }
 
     /// Another image size; the crop becomes the whole image.
@@ -117,6 +136,13 @@ impl Job {
         }
         if !self.crop.fits(size) {
             return Err(JobError::Crop { crop: self.crop, size });
+        }
+        let reference = self.measure.as_ref().and_then(|measure| measure.reference.as_ref());
+        if let Some(reference) = reference.filter(|r| !r.shows(size, self.crop)) {
+            return Err(JobError::Reference {
+                reference: (reference.image_size, reference.region),
+                picture: (size, self.crop),
+            });
         }
         Ok(())
     }

@@ -20,6 +20,7 @@
 mod checkpoint;
 pub mod cli;
 mod control;
+pub mod convergence;
 mod cpu;
 mod film;
 #[cfg(feature = "gpu")]

@@ -1,6 +1,7 @@
 //! Scene + job + device → film: chooses the device, renders, and survives its loss.
 
 use crate::control::Control;
+use crate::convergence::Convergence;
 use crate::cpu;
 use crate::film::Film;
 use crate::job::{Job, JobError};
@@ -67,6 +68,8 @@ pub struct Outcome {
     pub elapsed: Duration,
     /// Whether a checkpoint was written.
     pub saved: bool,
+    /// The error curve, of a run that was measured.
+    pub convergence: Option<Convergence>,
 }
 
 impl Outcome {
@@ -105,6 +108,8 @@ pub fn render_session(
     job.check()?;
     let device = select(choice, job)?;
     let Session { from, keep } = session;
+    // A run that is measured has four pictures to keep, which no checkpoint holds.
+    let (from, keep) = if job.measure.is_some() { (None, None) } else { (from, keep) };
     let saver = keep.as_ref().map(|keep| Saver::new(keep, scene, job, from.as_ref()));
     let mut names: Vec<String> = Vec::new();
     let mut before = Duration::ZERO;
@@ -133,7 +138,7 @@ pub fn render_session(
         error
     });
     let finished = run.finish();
-    let well = matches!(finished.stop, Stop::Complete | Stop::TimeLimit);
+    let well = matches!(finished.stop, Stop::Complete | Stop::TimeLimit | Stop::ErrorReached);
     if let (Some(saver), false) = (&saver, well) {
         saver.last(&finished.film, finished.elapsed, &note);
     }
@@ -156,6 +161,7 @@ pub fn render_session(
         device_error,
         elapsed,
         saved: saver.is_some_and(|saver| saver.has_written()),
+        convergence: finished.convergence,
     })
 }
 

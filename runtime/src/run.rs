@@ -4,6 +4,7 @@
 //! items into pixels. A tile that fails is reported and left out, the others go on.
 
 use crate::control::Control;
+use crate::convergence::{Convergence, Moment, REPLICATES_U32, Times, Tracker};
 use crate::film::{Accumulator, Film};
 use crate::job::Job;
 use crate::region::{Rect, SampleRange};
@@ -39,6 +40,13 @@ struct State {
     scheduler: Scheduler,
     sum: Accumulator,
     failures: Vec<TileFailure>,
+    /// When the first tile was claimed, since the run began.
+    first: Option<Duration>,
+    /// When the last one was deposited.
+    last: Duration,
+    /// Time that deposits took.
+    readback: Duration,
+    tracker: Option<Tracker>,
 }
 
 /// What a run leaves behind.
@@ -47,6 +55,8 @@ pub(crate) struct Finished {
     pub(crate) stop: Stop,
     pub(crate) failures: Vec<TileFailure>,
     pub(crate) elapsed: Duration,
+    /// The error curve, of a run that was measured.
+    pub(crate) convergence: Option<Convergence>,
 }
 
 impl<'a> Run<'a> {
@@ -62,13 +72,19 @@ impl<'a> Run<'a> {
             Some(done) => SampleRange::new(done.end, job.samples.end),
             None => Some(job.samples),
         };
-        let total = job.crop.pixels() * u64::from(job.samples.count());
+        let total = job.crop.pixels() * u64::from(job.spp());
         control.begin(total, film.total_samples());
-        let state = State {
-            scheduler: Scheduler::new(job.crop, rest, job.time_limit),
-            sum: Accumulator::new(film),
-            failures: Vec::new(),
-        };
+        let mut scheduler = Scheduler::new(job.crop, rest, job.time_limit);
+        let mut sum = Accumulator::new(film);
+        let mut tracker = None;
+        if let Some(measure) = &job.measure {
+            scheduler = scheduler.in_rounds(REPLICATES_U32);
+            sum = sum.in_rounds();
+            tracker = Some(Tracker::new(measure.clone(), job.crop.w));
+        }
+        let (failures, first) = (Vec::new(), None);
+        let (last, readback) = (Duration::ZERO, Duration::ZERO);
+        let state = State { scheduler, sum, failures, first, last, readback, tracker };
         Self {
             state: Mutex::new(state),
             ended: Condvar::new(),
@@ -94,9 +110,11 @@ impl<'a> Run<'a> {
         if self.control.is_cancelled() {
             state.scheduler.stop(Stop::Cancelled);
         }
-        let claim = state.scheduler.claim(self.started.elapsed(), pixels);
+        let now = self.started.elapsed();
+        let first = *state.first.get_or_insert(now);
+        let claim = state.scheduler.claim(now.saturating_sub(first), pixels);
         if let Claim::FirstOf(item) = claim {
-            state.sum.open(item.samples);
+            state.sum.open(item.samples, item.replicate);
         }
         claim
     }
@@ -120,9 +138,14 @@ impl<'a> Run<'a> {
     /// Takes the pixels of a claimed item, row by row.
     pub(crate) fn deposit(&self, item: &WorkItem, pixels: &[FilmPixel]) {
         let mut state = self.lock();
+        let began = self.started.elapsed();
         state.scheduler.finished(item);
         if !item.probe {
-            state.sum.deposit(item.samples, item.tile, pixels);
+            state.sum.deposit(item, pixels);
+            let ended = self.started.elapsed();
+            state.last = ended;
+            state.readback += ended.saturating_sub(began);
+            self.track(&mut state);
             if self.strict && pixels.iter().any(|pixel| pixel.bad > 0) {
                 state.scheduler.stop(Stop::Failed);
             }
@@ -134,6 +157,22 @@ impl<'a> Run<'a> {
         }
         drop(state);
         self.ended.notify_all();
+    }
+
+    /// Tells a point of the error curve when a round has become whole and one is due.
+    fn track(&self, state: &mut State) {
+        let now = state.moment();
+        let State { sum, tracker: Some(tracker), scheduler, .. } = state else { return };
+        let (sums, samples) = sum.lumas();
+        if !tracker.is_news(samples) {
+            return;
+        }
+        if let Some(point) = tracker.round(now, sums, samples) {
+            self.control.note(&point.to_string());
+            if tracker.is_met() {
+                scheduler.stop(Stop::ErrorReached);
+            }
+        }
     }
 
     /// A claimed item was not rendered and may be claimed again.
@@ -149,7 +188,7 @@ impl<'a> Run<'a> {
         state.scheduler.finished(item);
         state.scheduler.stop(Stop::Failed);
         if !item.probe {
-            state.sum.give_up(item.samples, item.tile);
+            state.sum.give_up(item);
         }
         state.failures.push(TileFailure { tile: item.tile, sample: item.samples.start, message });
         drop(state);
@@ -178,8 +217,28 @@ impl<'a> Run<'a> {
 
     pub(crate) fn finish(self) -> Finished {
         let elapsed = self.started.elapsed();
-        let state = self.state.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let mut state = self.state.into_inner().unwrap_or_else(PoisonError::into_inner);
         let stop = state.scheduler.why();
-        Finished { film: state.sum.finish(), stop, failures: state.failures, elapsed }
+        let convergence = state.tracker.take().map(|tracker| {
+            let (sums, samples) = state.sum.lumas();
+            let compile = state.first.unwrap_or(elapsed).as_secs_f64();
+            let readback = state.readback.as_secs_f64();
+            let times = Times { compile, readback, ..Times::default() };
+            tracker.finish(sums, samples, times)
+        });
+        Finished { film: state.sum.finish(), stop, failures: state.failures, elapsed, convergence }
+    }
+}
+
+impl State {
+    /// The last deposit, as the error curve sees it.
+    fn moment(&self) -> Moment {
+        let counters = &self.sum.film().counters;
+        Moment {
+            elapsed: self.last.saturating_sub(self.first.unwrap_or_default()),
+            total: self.last,
+            rays: counters.rays,
+            bad: counters.bad,
+        }
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! Both backends read the same bytes from here. It does not render.
 
+use crate::convergence::replicate_seed;
 use crate::job::Job;
 use crate::schedule::WorkItem;
 use glam::UVec4;
@@ -172,6 +173,7 @@ impl Setup<'_> {
             tile_size: [item.tile.w, item.tile.h],
             sample_first: item.samples.start,
             sample_count: item.samples.count(),
+            seed: replicate_seed(self.frame.seed, item.replicate),
             ..self.frame
         }
     }

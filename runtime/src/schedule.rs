@@ -6,6 +6,7 @@
 //! reads no clock: the caller says what time it is.
 
 use crate::region::{Rect, SampleRange, Tiler};
+use pack::abi::BATCH;
 use std::time::Duration;
 
 /// Probe tiles before a run with a time limit.
@@ -20,6 +21,8 @@ pub(crate) struct WorkItem {
     pub(crate) tile: Rect,
     /// Samples of every pixel; inside one canonical batch.
     pub(crate) samples: SampleRange,
+    /// Which of the pictures it belongs to; 0 where there is only one.
+    pub(crate) replicate: u32,
     /// Rendered for its duration only; the result is thrown away.
     pub(crate) probe: bool,
 }
@@ -51,18 +54,30 @@ pub enum Stop {
     Complete,
     /// The time limit.
     TimeLimit,
+    /// The error that was asked for was reached.
+    ErrorReached,
     /// The user interrupted.
     Cancelled,
     /// Something failed; the picture holds what was complete.
     Failed,
 }
 
+/// The pass whose tiles are being handed out.
+struct Pass {
+    samples: SampleRange,
+    replicate: u32,
+    tiler: Tiler,
+}
+
 /// The state of a run.
 pub(crate) struct Scheduler {
     region: Rect,
+    /// Pictures that take turns, pass by pass. A round gives the same samples to each of them; once
+    /// begun it is carried to its end.
+    replicates: u32,
     /// Samples that no pass has covered yet.
     rest: Option<SampleRange>,
-    pass: Option<(SampleRange, Tiler)>,
+    pass: Option<Pass>,
     /// Items that came back from a lost device.
     returned: Vec<WorkItem>,
     limit: Option<Duration>,
@@ -83,6 +98,7 @@ impl Scheduler {
         let probes = probed.map_or_else(Vec::new, |samples| probes(region, samples));
         Self {
             region,
+            replicates: 1,
             rest: samples,
             pass: None,
             returned: Vec::new(),
@@ -94,6 +110,13 @@ impl Scheduler {
             probe_rate: 0.0,
             stop: None,
         }
+    }
+
+    /// The same samples for each of `replicates` pictures, round by round. Small rounds come first,
+    /// and no batch is cut short for a time limit.
+    pub(crate) fn in_rounds(mut self, replicates: u32) -> Self {
+        self.replicates = replicates;
+        self
     }
 
     /// The next tile, of about `pixels` pixels. `now` is the time since the run began.
@@ -125,10 +148,16 @@ impl Scheduler {
             }
             return self.start_pass(now, pixels);
         }
-        if let Some((samples, tiler)) = &mut self.pass
+        if let Some(Pass { samples, replicate, tiler }) = &mut self.pass
             && let Some(tile) = tiler.next(pixels)
         {
-            return Claim::Work(WorkItem { tile, samples: *samples, probe: false });
+            let (samples, replicate) = (*samples, *replicate);
+            return Claim::Work(WorkItem { tile, samples, replicate, probe: false });
+        }
+        if let Some(Pass { samples, replicate, .. }) = self.pass
+            && replicate + 1 < self.replicates
+        {
+            return self.begin_pass(samples, replicate + 1, pixels);
         }
         self.start_pass(now, pixels)
     }
@@ -155,14 +184,12 @@ impl Scheduler {
         let Some(rest) = self.rest.filter(|_| self.stop.is_none()) else {
             return self.ended();
         };
-        let mut pass = rest.first_batch();
+        let mut pass = self.first_part(rest);
         if let Some(limit) = self.limit {
             let fits = self.samples_in(limit.saturating_sub(now), now);
-            if fits < u64::from(pass.count()) {
+            if fits < u64::from(pass.count()) * u64::from(self.replicates) {
                 self.stop = Some(Stop::TimeLimit);
-                // The very first pass always has at least one sample.
-                let count = u32::try_from(fits).unwrap_or(0).max(u32::from(self.pass.is_none()));
-                match SampleRange::new(pass.start, pass.start + count) {
+                match self.part_in_time(pass, fits) {
                     Some(part) => pass = part,
                     None => return self.ended(),
                 }
@@ -170,10 +197,35 @@ impl Scheduler {
         }
         self.rest = rest.after(pass);
         self.started.get_or_insert(now);
+        self.begin_pass(pass, 0, pixels)
+    }
+
+    fn begin_pass(&mut self, samples: SampleRange, replicate: u32, pixels: u64) -> Claim {
         let mut tiler = Tiler::new(self.region);
         let tile = tiler.next(pixels).expect("a region has pixels");
-        self.pass = Some((pass, tiler));
-        Claim::FirstOf(WorkItem { tile, samples: pass, probe: false })
+        self.pass = Some(Pass { samples, replicate, tiler });
+        Claim::FirstOf(WorkItem { tile, samples, replicate, probe: false })
+    }
+
+    /// The next pass: a batch. The first batch of replicates is cut at 1, 2, 4 and 8 samples, so that
+    /// there is something to see early.
+    fn first_part(&self, rest: SampleRange) -> SampleRange {
+        let batch = rest.first_batch();
+        if self.replicates == 1 || batch.start >= BATCH {
+            return batch;
+        }
+        let end = (2 * batch.start).max(1).min(batch.end);
+        SampleRange { start: batch.start, end }
+    }
+
+    /// What of the last pass still fits. The very first one always has at least one sample.
+    fn part_in_time(&self, pass: SampleRange, fits: u64) -> Option<SampleRange> {
+        let first = self.pass.is_none();
+        if self.replicates > 1 {
+            return first.then_some(pass);
+        }
+        let count = u32::try_from(fits).unwrap_or(0).max(u32::from(first));
+        SampleRange::new(pass.start, pass.start + count)
     }
 
     /// While something is under way it may still come back.
@@ -240,7 +292,7 @@ fn probes(region: Rect, samples: SampleRange) -> Vec<WorkItem> {
                 w: side(region.w),
                 h: side(region.h),
             };
-            WorkItem { tile, samples, probe: true }
+            WorkItem { tile, samples, replicate: 0, probe: true }
         })
         .collect()
 }
@@ -292,6 +344,42 @@ mod tests {
         let last = items.last().unwrap().samples;
         assert_eq!((last.start, scheduler.why()), (32, Stop::TimeLimit));
         assert_eq!(last.count(), 14);
+    }
+
+    #[test]
+    fn replicates_take_turns_and_rounds_are_whole() {
+        let mut scheduler = Scheduler::new(REGION, Some(range(0, 40)), None).in_rounds(4);
+        let (items, _) = run(&mut scheduler, 1.0);
+        let mut passes: Vec<_> =
+            items.iter().map(|item| (item.samples.start, item.replicate)).collect();
+        passes.dedup();
+        let starts = [0, 1, 2, 4, 8, 16, 32];
+        let all: Vec<_> = starts.iter().flat_map(|s| (0..4).map(move |r| (*s, r))).collect();
+        assert_eq!(passes, all);
+        assert_eq!(items.iter().map(WorkItem::cost).sum::<u64>(), 4 * 2048 * 40);
+    }
+
+    #[test]
+    fn a_time_limit_cuts_no_round() {
+        let limit = Some(Duration::from_secs(3));
+        let mut scheduler = Scheduler::new(REGION, Some(range(0, 1000)), limit).in_rounds(4);
+        // 81.92 ms for a sample of all: 16 take 1.31 s, 32 take 2.62 s, 48 would take 3.9 s.
+        let (items, end) = run(&mut scheduler, 1e-5);
+        let last = items.last().unwrap();
+        assert_eq!((last.samples, last.replicate), (range(16, 32), 3));
+        assert_eq!(scheduler.why(), Stop::TimeLimit);
+        assert!((2.6..3.0).contains(&end.as_secs_f64()), "{end:?}");
+    }
+
+    #[test]
+    fn a_round_that_was_begun_is_ended_unless_cancelled() {
+        let mut scheduler = Scheduler::new(REGION, Some(range(0, 64)), None).in_rounds(4);
+        let Claim::FirstOf(item) = scheduler.claim(ZERO, 1 << 20) else { panic!("no work") };
+        scheduler.finished(&item);
+        scheduler.stop(Stop::ErrorReached);
+        let (items, _) = run(&mut scheduler, 1.0);
+        assert!(items.iter().all(|item| item.samples == range(0, 1)));
+        assert_eq!((items.last().unwrap().replicate, scheduler.why()), (3, Stop::ErrorReached));
     }
 
     #[test]

@@ -2,8 +2,8 @@
 //!
 //! Turns a ray into the hit that `generated_trace` finds, bit for bit: nodes only decide what is tested,
 //! and of triangles each lane does the operations of `triangle_intersect` in their order. What is rare
-//! (spheres, triangles that move, the way into an instance) is left to the generated functions, as is every question about a hit:
-//! which of two counts, whether it is cut out, whether it ends a shadow ray.
+//! (spheres, triangles that move, the way into an instance) is left to the generated functions, as is
+//! every question about a hit: which of two counts, whether it is cut out, whether it ends a shadow ray.
 //! It does not know how a kernel is bound, and renders nothing.
 
 mod node;

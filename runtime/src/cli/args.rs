@@ -1,5 +1,6 @@
 //! Arguments as clap reads them, and the parsers of their values.
 
+use crate::convergence::Goal;
 use crate::region::{Rect, SampleRange};
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -14,11 +15,18 @@ Examples:
   rtr scene.pack --samples 32..64 -o b.exr   ... the other half there,
   rtr merge a.exr b.exr -o c.exr -o c.png    and both together
   rtr scene.pack -o a.png --resume        go on after Ctrl-C, a crash or a power cut
+  rtr scene.pack --until-error 0.01 --plot error.svg   until the error is 1 %, with its curve
+  rtr scene.pack --until-error p95:0.05 --time 5m      until all but 5 % of the pixels are good
+  rtr scene.pack --report error.csv --reference ref.exr   measured against a converged picture
+  rtr bench old.pack new.pack --time 30s  which has less error in equal time
   rtr scene.pack --watch --time 10s       render again whenever the pack changes
   rtr --list-devices                      what --device can choose from
 
 Exit codes: 0 done; 1 too many samples were not finite; 2 usage; 3 input, output or device;
 70 a bug in rtr; 130 interrupted (what was complete is written).";
+
+/// What renders replicates: no part of another picture, and nothing that can be resumed.
+const MEASURING: [&str; 4] = ["report", "plot", "until_error", "reference"];
 
 /// Renders a pack that `rtc` made, on the GPU or on the CPU.
 #[derive(Debug, Parser)]
@@ -35,6 +43,8 @@ pub(super) struct Args {
 pub(super) enum Command {
     /// Adds parts of one picture that were rendered with --samples.
     Merge(MergeArgs),
+    /// Compares the errors that two packs have after equal time.
+    Bench(BenchArgs),
 }
 
 #[derive(Debug, clap::Args)]
@@ -48,6 +58,84 @@ pub(super) struct MergeArgs {
     /// Print errors only.
     #[arg(long)]
     pub(super) quiet: bool,
+}
+
+const BENCH_EXAMPLES: &str = "\
+Examples:
+  rtr bench old.pack new.pack                          five runs of 30 s each
+  rtr bench a.pack b.pack --time 10s --runs 8 --device cpu --size 320x180
+  rtr bench a.pack b.pack --report bench.json          every run, for other programs
+
+The figure of merit (fom) is 1 / (rel^2 * seconds): twice as large is half the time to the same error.
+Runs alternate, each pair has a seed of its own. The test is an exact permutation test on log fom; it
+takes four runs of each pack to be significant at 5 %.";
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = BENCH_EXAMPLES)]
+pub(super) struct BenchArgs {
+    /// What is compared with.
+    #[arg(value_name = "A.pack")]
+    pub(super) first: PathBuf,
+    /// What is compared.
+    #[arg(value_name = "B.pack")]
+    pub(super) second: PathBuf,
+    /// Time of rendering of each run, without loading and compiling.
+    #[arg(long, default_value = "30s", value_name = "TIME", value_parser = parse_duration)]
+    pub(super) time: Duration,
+    /// Runs of each pack.
+    #[arg(long, default_value = "5", value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10))]
+    pub(super) runs: u32,
+    /// Where to render, as without `bench`.
+    #[arg(long, default_value = "auto", value_name = "DEVICE")]
+    pub(super) device: String,
+    /// Image size in pixels, instead of the scenes'.
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub(super) size: Option<[u32; 2]>,
+    /// Seed of the first pair of runs.
+    #[arg(long, value_name = "N", default_value = "1")]
+    pub(super) seed: u32,
+    /// Threads of the CPU kernel [default: one for each logical CPU].
+    #[arg(long, value_name = "N", value_parser = parse_threads)]
+    pub(super) threads: Option<usize>,
+    /// Write the result and the report of every run as JSON.
+    #[arg(long, value_name = "FILE.json")]
+    pub(super) report: Option<PathBuf>,
+    /// Print errors only.
+    #[arg(long)]
+    pub(super) quiet: bool,
+}
+
+/// Every use of these renders four replicates in turns, and the picture is their mean: other noise
+/// than the usual picture, of the same quality.
+#[derive(Debug, clap::Args)]
+#[command(
+    next_help_heading = "Error against time (renders four replicates in turns; docs/error.md)"
+)]
+pub(super) struct ErrorArgs {
+    /// Write the error at every checkpoint, as .json (everything) or .csv (one line each).
+    #[arg(long, value_name = "FILE")]
+    pub(super) report: Vec<PathBuf>,
+    /// Draw the error against time, as .svg or .png.
+    #[arg(long, value_name = "FILE")]
+    pub(super) plot: Vec<PathBuf>,
+    /// Stop when the relative error is this small: 0.01, or p95:0.05 for all but 5 % of the pixels.
+    /// Samples are limited by --spp only, time by --time; what is reached first ends the run.
+    #[arg(long, value_name = "[p95:]X")]
+    pub(super) until_error: Option<Goal>,
+    /// A converged EXR picture of the same pixels to compare with; best one made with --report, which
+    /// knows its variance.
+    #[arg(long, value_name = "REF.exr")]
+    pub(super) reference: Option<PathBuf>,
+}
+
+impl ErrorArgs {
+    /// Whether the error is to be measured.
+    pub(super) fn any(&self) -> bool {
+        self.until_error.is_some()
+            || self.reference.is_some()
+            || !self.report.is_empty()
+            || !self.plot.is_empty()
+    }
 }
 
 #[derive(Debug, clap::Args)]
@@ -70,6 +158,7 @@ pub(super) struct RenderArgs {
     pub(super) crop: Option<Rect>,
     /// Render these sample indices only, to merge them later.
     #[arg(long, value_name = "A..B", value_parser = parse_samples, conflicts_with = "spp")]
+    #[arg(conflicts_with_all = MEASURING)]
     pub(super) samples: Option<SampleRange>,
     /// Seed of the image, instead of the scene's.
     #[arg(long, value_name = "N")]
@@ -82,11 +171,11 @@ pub(super) struct RenderArgs {
     pub(super) output: Vec<PathBuf>,
     /// Go on from the checkpoint of an earlier run with the same arguments; without one, begin. The
     /// picture is the same, bit for bit, as if nothing had happened.
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = MEASURING)]
     pub(super) resume: bool,
     /// Render again whenever the pack changes, until Ctrl-C: an unfinished picture is dropped, a
     /// broken pack is reported and waited out.
-    #[arg(long, conflicts_with = "resume")]
+    #[arg(long, conflicts_with = "resume", conflicts_with_all = MEASURING)]
     pub(super) watch: bool,
     /// Time between two checkpoints, such as 60s or 5m, or `never`. They lie beside the first
     /// output, as NAME.checkpoint, also after Ctrl-C, and are removed when the picture is complete.
@@ -116,6 +205,8 @@ pub(super) struct RenderArgs {
     /// Precision of the CPU kernel, for tests.
     #[arg(long, hide = true, default_value = "f32")]
     pub(super) precision: PrecisionArg,
+    #[command(flatten)]
+    pub(super) error: ErrorArgs,
 }
 
 /// Numbers are those of `Frame::estimator`.

@@ -3,6 +3,7 @@
 use super::Exit;
 use super::args::{Every, PrecisionArg, RenderArgs};
 use super::console::{Console, Watched, duration_text, mrays, reset_interrupts};
+use super::measure;
 use super::watch::Change;
 use crate::checkpoint::{Checkpoint, CheckpointError};
 use crate::control::Control;
@@ -17,9 +18,11 @@ use pack::{MapMode, Pack};
 use std::ffi::OsStr;
 use std::path::{Component, Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 /// `change`: what makes the picture pointless while it is rendered; then nothing is written.
 pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
+    let began = Instant::now();
     let console = Console::with_progress(args.quiet);
     let Some(path) = &args.pack else {
         console.warn("error: no pack was named");
@@ -42,7 +45,10 @@ pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
             return console.fail_about(path, &error, Exit::World);
         }
     };
-    let job = job(args, &scene);
+    let mut job = job(args, &scene);
+    if let Err(exit) = measure::prepare(args, &console, &mut job) {
+        return exit;
+    }
     if let Err(error) = job.check() {
         return console.fail(&error, Exit::Usage);
     }
@@ -51,6 +57,7 @@ pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
         console.warn(&format!("error: {text}"));
         return Exit::World;
     }
+    let load = began.elapsed();
     let checkpoint = checkpoint_path(&outputs);
     let from = match earlier(args, &console, &checkpoint, &scene, &job) {
         Ok(from) => from,
@@ -69,7 +76,7 @@ pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
         Every::After(every) if !args.watch => Some(Keep { path: checkpoint, every }),
         _ => None,
     };
-    let plan = Plan { scene: &scene, job: &job, outputs: &outputs, change };
+    let plan = Plan { scene: &scene, job: &job, outputs: &outputs, change, load };
     run(args, &console, &plan, Session { from, keep })
 }
 
@@ -102,16 +109,18 @@ struct Plan<'a> {
     job: &'a Job,
     outputs: &'a [PathBuf],
     change: Option<&'a Change>,
+    /// Time that opening the pack took.
+    load: Duration,
 }
 
 fn run(args: &RenderArgs, console: &Console, plan: &Plan<'_>, session: Session) -> Exit {
-    let Plan { scene, job, outputs, change } = *plan;
+    let Plan { scene, job, outputs, change, load } = *plan;
     if change.is_none() {
         reset_interrupts();
     }
     let notes = console.clone();
     let control = Control::new(move |text| notes.note(text));
-    let watched = Watched { spp: job.samples.count(), limit: job.time_limit, change };
+    let watched = Watched { spp: job.spp(), limit: job.time_limit, change };
     let over = AtomicBool::new(false);
     let outcome = std::thread::scope(|scope| {
         let watcher = scope.spawn(|| console.watch(&control, &watched, &over));
@@ -135,13 +144,17 @@ fn run(args: &RenderArgs, console: &Console, plan: &Plan<'_>, session: Session) 
     }
     let residual =
         args.samples.is_some() || job.time_limit.is_some() || !outcome.picture.meta.complete;
-    let mut failed = None;
+    let (mut failed, began) = (None, Instant::now());
     for path in outputs {
         match output::write(path, &outcome.picture, residual) {
             Ok(()) => console.result(&format!("wrote {}", path.display())),
             // The other file may still succeed.
             Err(error) => failed = Some(console.fail(&error, Exit::World)),
         }
+    }
+    let times = measure::Outside { load, write: began.elapsed() };
+    if let Some(exit) = measure::write(args, console, scene, job, &outcome, &times) {
+        failed = Some(exit);
     }
     let exit = failed.or_else(|| exit(&outcome)).unwrap_or(Exit::Done);
     settle(&checkpoint_path(outputs), args, console, &outcome, exit);
@@ -229,12 +242,13 @@ fn report(console: &Console, outcome: &Outcome, job: &Job) {
     let why = match outcome.stop {
         Stop::Complete => "",
         Stop::TimeLimit => ", time limit",
+        Stop::ErrorReached => ", error reached",
         Stop::Cancelled => ", interrupted",
         Stop::Failed => ", failed",
     };
     console.note(&format!(
         "{most} of {} spp in {}{why}: {:.2} Mrays/s, {} rays, longest path {}",
-        job.samples.count(),
+        job.spp(),
         duration_text(outcome.elapsed),
         mrays(counters.rays, outcome.elapsed),
         counters.rays,

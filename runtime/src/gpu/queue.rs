@@ -97,7 +97,7 @@ impl Slot {
         });
         let nothing = SampleRange { start: 0, end: 1 };
         let tile = Rect { x: 0, y: 0, w: 1, h: 1 };
-        let item = WorkItem { tile, samples: nothing, probe: true };
+        let item = WorkItem { tile, samples: nothing, replicate: 0, probe: true };
         let mapped = Arc::new(AtomicBool::new(false));
         Self { item, capacity, uniform, film, readback, bindings, mapped }
     }
@@ -133,7 +133,7 @@ impl Slot {
             device,
             setup,
             std::slice::from_mut(self),
-            &[WorkItem { tile, samples, probe: true }],
+            &[WorkItem { tile, samples, replicate: 0, probe: true }],
             None,
         )
     }

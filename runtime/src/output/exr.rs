@@ -2,6 +2,7 @@
 //!
 //! Channels `R`, `G`, `B` hold the mean radiance. `residual.R` and so on, where present, hold what
 //! rounding the `f64` mean to `f32` left over, so that mean + residual is good to about 2^-48.
+//! `variance.Y` is the variance of the mean luminance, in pictures that are the mean of replicates.
 //! `samples` is there where pixels have different numbers of samples.
 
 use super::{Meta, OutputError, Picture, parse_ranges, ranges_text, write_atomic};
@@ -18,6 +19,7 @@ use std::path::Path;
 const COLOURS: [&str; 3] = ["R", "G", "B"];
 const RESIDUALS: [&str; 3] = ["residual.R", "residual.G", "residual.B"];
 const SAMPLES: &str = "samples";
+const VARIANCE: &str = "variance.Y";
 
 /// Chromaticities of Rec. 709 with white D65: red, green, blue, white.
 const REC_709: [[f32; 2]; 4] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06], [0.3127, 0.3290]];
@@ -34,6 +36,9 @@ pub fn write_exr(path: &Path, picture: &Picture, residual: bool) -> Result<(), O
             if rest.is_finite() { rest } else { 0.0 }
         });
         channels.extend(RESIDUALS.iter().zip(rest).map(|(n, p)| channel(n, p)));
+    }
+    if !film.variance.is_empty() {
+        channels.push(channel(VARIANCE, film.variance.iter().map(|v| round(*v)).collect()));
     }
     if !film.is_even() {
         channels.push(AnyChannel::new(SAMPLES, FlatSamples::U32(film.counts.clone())));
@@ -175,10 +180,17 @@ fn parse_film(
     }
     let mut film = Film { ranges, counters, ..Film::new(image_size, region) };
     let find = |name: &str| layer.channel_data.list.iter().find(|c| c.name.eq(name));
+    if let Some(FlatSamples::F32(variance)) = find(VARIANCE).map(|channel| &channel.sample_data) {
+        film.variance = variance.iter().map(|v| f64::from(*v)).collect();
+    }
+    let replicates = film.replicates();
     match find(SAMPLES).map(|channel| &channel.sample_data) {
         Some(FlatSamples::U32(counts)) => film.counts.clone_from(counts),
         Some(_) => return Err(format!("channel `{SAMPLES}` is not of whole numbers")),
-        None => film.counts.fill(film.ranges.iter().map(|range| range.count()).sum()),
+        None => {
+            let count: u32 = film.ranges.iter().map(|range| range.count()).sum();
+            film.counts.fill(count.saturating_mul(replicates));
+        }
     }
     for (c, (colour, residual)) in COLOURS.iter().zip(RESIDUALS).enumerate() {
         let Some(FlatSamples::F32(mean)) = find(colour).map(|channel| &channel.sample_data) else {

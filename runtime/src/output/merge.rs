@@ -36,6 +36,12 @@ pub enum MergeError {
         /// Ranges of all parts before it.
         expected: String,
     },
+    /// A picture whose error was measured.
+    #[error("part {part}: it is the mean of replicates, made by measuring its error, and no part")]
+    Replicates {
+        /// Number of the part, from 1.
+        part: usize,
+    },
     /// A part whose pixels have different numbers of samples.
     #[error(
         "part {part}: its pixels have between {least} and {most} samples; a part must be evenly sampled"
@@ -94,6 +100,9 @@ fn check(parts: &[Picture]) -> Result<(), MergeError> {
             if found != expected {
                 return Err(MergeError::Differs { part, what, found, expected });
             }
+        }
+        if picture.film.replicates() > 1 {
+            return Err(MergeError::Replicates { part });
         }
         let (least, most) = picture.film.samples();
         if least != most || most == 0 {

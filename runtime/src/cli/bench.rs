@@ -1,0 +1,194 @@
+//! `rtr bench A.pack B.pack`: two packs in turns, equal time each → which has less error, and whether
+//! that could be chance.
+
+use super::Exit;
+use super::args::BenchArgs;
+use super::console::{Console, Watched, reset_interrupts};
+use crate::control::Control;
+use crate::convergence::{Comparison, Measure, Point, Report, Spread, compare};
+use crate::job::Job;
+use crate::output::write_atomic;
+use crate::region::SampleRange;
+use crate::render::{DeviceChoice, render};
+use crate::scene::Scene;
+use crate::schedule::Stop;
+use pack::{MapMode, Pack};
+use serde::Serialize;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// More samples than any time is long.
+const ENDLESS: SampleRange = SampleRange { start: 0, end: 1 << 28 };
+
+/// One of the two.
+struct Side<'a> {
+    path: &'a Path,
+    scene: Scene,
+    points: Vec<Point>,
+    reports: Vec<Report>,
+}
+
+impl Side<'_> {
+    fn foms(&self) -> Vec<f64> {
+        self.points.iter().map(Point::fom).collect()
+    }
+}
+
+/// What the file says.
+#[derive(Serialize)]
+struct Verdict<'a> {
+    packs: [String; 2],
+    time_s: f64,
+    fom: [Vec<f64>; 2],
+    ratio: Option<f64>,
+    p: Option<f64>,
+    test: &'static str,
+    runs: [&'a [Report]; 2],
+}
+
+const TEST: &str = "exact two-sided permutation test on log fom";
+
+pub(super) fn command(args: &BenchArgs) -> Exit {
+    let console = Console::with_progress(args.quiet);
+    reset_interrupts();
+    let mut sides = Vec::new();
+    for path in [&args.first, &args.second] {
+        match Pack::open(path, MapMode::Map) {
+            Ok(pack) => {
+                let scene = Scene::new(pack);
+                sides.push(Side { path, scene, points: Vec::new(), reports: Vec::new() });
+            }
+            Err(error) => return console.fail_about(path, &error, Exit::World),
+        }
+    }
+    for run in 0..args.runs {
+        // Who is first changes, so that what warms up or slows down favours neither.
+        let order = if run % 2 == 0 { [0, 1] } else { [1, 0] };
+        for i in order {
+            if let Err(exit) = one(args, &console, run, &mut sides[i]) {
+                return exit;
+            }
+        }
+    }
+    conclude(args, &console, &sides)
+}
+
+/// One run of one side.
+fn one(args: &BenchArgs, console: &Console, run: u32, side: &mut Side<'_>) -> Result<(), Exit> {
+    let mut job = Job::of_scene(&side.scene);
+    if let Some(size) = args.size {
+        job.resize(size);
+    }
+    job.samples = ENDLESS;
+    job.seed = args.seed.wrapping_add(run);
+    job.time_limit = Some(args.time);
+    job.threads = args.threads;
+    job.measure = Some(Measure::default());
+    let control = Control::default();
+    let over = AtomicBool::new(false);
+    let watched = Watched { spp: job.spp(), limit: job.time_limit, change: None };
+    let outcome = std::thread::scope(|scope| {
+        let watcher = scope.spawn(|| console.watch(&control, &watched, &over));
+        let outcome = render(&side.scene, &job, &DeviceChoice::parse(&args.device), &control);
+        over.store(true, Ordering::Relaxed);
+        watcher.thread().unpark();
+        outcome
+    });
+    let outcome = outcome.map_err(|error| console.fail(&error, Exit::World))?;
+    if outcome.stop == Stop::Cancelled {
+        return Err(Exit::Interrupted);
+    }
+    if let Some(error) = &outcome.device_error {
+        console.warn(&format!("error: {error}"));
+        return Err(Exit::World);
+    }
+    let Some(convergence) = &outcome.convergence else { return Err(Exit::Bug) };
+    let Some(point) = convergence.points.last().filter(|_| outcome.failures.is_empty()) else {
+        console.warn("error: a run ended without a picture");
+        return Err(Exit::Bug);
+    };
+    console.note(&format!("{} run {}: {point}", side.path.display(), run + 1));
+    side.points.push(*point);
+    side.reports.push(Report::new(&side.scene, &job, &outcome, convergence, convergence.times));
+    Ok(())
+}
+
+fn conclude(args: &BenchArgs, console: &Console, sides: &[Side<'_>]) -> Exit {
+    let [a, b] = sides else { return Exit::Bug };
+    for side in [a, b] {
+        let of = |f: fn(&Point) -> f64| Spread::of(&side.points.iter().map(f).collect::<Vec<_>>());
+        let (fom, rel) = (of(Point::fom), of(|point| point.noise.rel));
+        console.result(&format!(
+            "{}: fom {:.1}/s ({:.1} to {:.1}), rel {:.5} ({:.5} to {:.5}), median of {} runs of {:.1} s",
+            side.path.display(),
+            fom.median,
+            fom.least,
+            fom.most,
+            rel.median,
+            rel.least,
+            rel.most,
+            side.points.len(),
+            of(|point| point.t_render).median,
+        ));
+    }
+    let comparison = compare(&a.foms(), &b.foms());
+    console.result(&verdict(a.path, b.path, comparison));
+    if let Some(text) = other_picture(a, b) {
+        console.warn(&text);
+    }
+    if let Some(path) = &args.report {
+        let result = Verdict {
+            packs: [a, b].map(|side| side.path.display().to_string()),
+            time_s: args.time.as_secs_f64(),
+            fom: [a.foms(), b.foms()],
+            ratio: comparison.map(|c| c.ratio),
+            p: comparison.map(|c| c.p),
+            test: TEST,
+            runs: [&a.reports, &b.reports],
+        };
+        let text = serde_json::to_string_pretty(&result).expect("numbers and texts") + "\n";
+        if let Err(error) = write_atomic(path, text.as_bytes()) {
+            return console.fail(&error, Exit::World);
+        }
+        console.result(&format!("wrote {}", path.display()));
+    }
+    Exit::Done
+}
+
+/// `b.pack is better: 1.52 times the fom (p = 0.008, significant; ...)`.
+fn verdict(a: &Path, b: &Path, comparison: Option<Comparison>) -> String {
+    let Some(found) = comparison else {
+        return "no comparison: a picture has no error".to_owned();
+    };
+    let (better, ratio) =
+        if found.ratio >= 1.0 { (b, found.ratio) } else { (a, 1.0 / found.ratio) };
+    let significance = if found.is_significant() {
+        "significant"
+    } else if found.least_p > 0.05 {
+        "so few runs cannot be significant"
+    } else {
+        "not significant"
+    };
+    let name = if found.is_significant() { "is better" } else { "seems better" };
+    format!(
+        "{} {name}: {ratio:.3} times the fom, {:.1} % of the time for the same error (p = {:.3}, \
+         {significance}; {TEST})",
+        better.display(),
+        100.0 / ratio,
+        found.p,
+    )
+}
+
+/// Packs whose means differ do not show the same, and less noise is then no merit.
+fn other_picture(a: &Side<'_>, b: &Side<'_>) -> Option<String> {
+    let means = |side: &Side<'_>| side.points.iter().map(|p| p.noise.mean).collect::<Vec<_>>();
+    let (a, b) = (Spread::of(&means(a)), Spread::of(&means(b)));
+    let apart = a.most < b.least || b.most < a.least;
+    let far = (a.median - b.median).abs() > 0.01 * a.median.max(b.median);
+    (apart && far).then(|| {
+        format!(
+            "warning: the pictures have mean luminances of {:.4} and {:.4}: they do not show the same",
+            a.median, b.median
+        )
+    })
+}

@@ -1,0 +1,394 @@
+//! Rounds of replicates → points of the error curve, and when the picture is good enough.
+//!
+//! It reads no clock: the run says what time it is. Points lie at 4, 8, ... 64 samples, then at every
+//! 1.25-fold time, never so close that measuring takes more than 0.5 % of the time.
+
+use super::estimate::{Noise, noise};
+use super::reference::Versus;
+use super::{Measure, REPLICATES};
+use std::fmt;
+use std::str::FromStr;
+use std::time::{Duration, Instant};
+
+/// Samples up to which every doubling is a point, and below which no run is good enough.
+const EARLY: u32 = 64;
+/// Between two later points.
+const STEP: f64 = 1.25;
+/// Time between two points over the time that one takes: 0.5 %.
+const PATIENCE: f64 = 200.0;
+/// Points behind a slope.
+const SLOPE_POINTS: usize = 4;
+
+/// Which error is to become small.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// `Noise::rel`, at the upper end of its interval.
+    Rel,
+    /// `Noise::p95`.
+    P95,
+}
+
+/// When a picture is good enough: at two points in a row the quantity is at most `limit`, with 64
+/// samples or more and without a heavy tail.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Goal {
+    /// What is looked at.
+    pub quantity: Quantity,
+    /// How large it may be.
+    pub limit: f64,
+}
+
+impl Goal {
+    fn is_met_by(&self, point: &Point) -> bool {
+        let value = match self.quantity {
+            Quantity::Rel => point.noise.rel_hi,
+            Quantity::P95 => point.noise.p95,
+        };
+        value <= self.limit && point.spp >= EARLY && point.noise.top <= 0.5
+    }
+}
+
+impl fmt::Display for Goal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = match self.quantity {
+            Quantity::Rel => "rel",
+            Quantity::P95 => "p95",
+        };
+        write!(f, "{name} {}", self.limit)
+    }
+}
+
+impl FromStr for Goal {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (quantity, number) = match text.split_once(':') {
+            None => (Quantity::Rel, text),
+            Some(("rel", number)) => (Quantity::Rel, number),
+            Some(("p95", number)) => (Quantity::P95, number),
+            Some(_) => return Err("write it as 0.01 or p95:0.05".to_owned()),
+        };
+        match number.parse() {
+            Ok(limit) if limit > 0.0 && limit < f64::INFINITY => Ok(Self { quantity, limit }),
+            _ => Err("write it as 0.01 or p95:0.05".to_owned()),
+        }
+    }
+}
+
+/// One point of an error curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// Seconds of rendering: from the first tile, without the time that points took.
+    pub t_render: f64,
+    /// Seconds since the device was asked for.
+    pub t_total: f64,
+    /// Samples of every pixel, all replicates together.
+    pub spp: u32,
+    /// Samples of all pixels.
+    pub samples: u64,
+    /// Rays traced.
+    pub rays: u64,
+    /// Samples that were not finite.
+    pub bad: u64,
+    /// The error.
+    pub noise: Noise,
+    /// The error against the reference.
+    pub versus: Option<Versus>,
+    /// Exponent of `rel` over time, from the last four points.
+    pub slope: Option<f64>,
+}
+
+impl Point {
+    /// Figure of merit `1 / (rel^2 t)`, per second; twice as large: half the time for the same error.
+    #[must_use]
+    pub fn fom(&self) -> f64 {
+        1.0 / (self.noise.rel * self.noise.rel * self.t_render)
+    }
+
+    /// Seconds to an error of 1 %, if it goes on to fall with the root of time.
+    #[must_use]
+    pub fn ttu(&self) -> f64 {
+        self.noise.rel * self.noise.rel * self.t_render / 1e-4
+    }
+}
+
+/// `12.4 s  256 spp  rel 0.0131 [0.0129,0.0133]  p95 0.041  slope -0.58  1 % in ~18 s  ...`.
+impl fmt::Display for Point {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Noise { rel, rel_lo, rel_hi, p95, .. } = self.noise;
+        let slope = self.slope.map_or("-".to_owned(), |slope| format!("{slope:.2}"));
+        let [t, rel, lo, hi] = [self.t_render, rel, rel_lo, rel_hi].map(|x| digits(x, 3));
+        let [p95, ttu, fom] =
+            [(p95, 2), (self.ttu(), 2), (self.fom(), 3)].map(|(x, n)| digits(x, n));
+        write!(f, "{t} s  {} spp  rel {rel} [{lo},{hi}]  p95 {p95}  slope {slope}", self.spp)?;
+        write!(f, "  1 % in ~{ttu} s  fom {fom}/s  nan {}", self.bad)?;
+        if let Some(versus) = &self.versus {
+            write!(f, "  reference {} ({})", digits(versus.rel, 3), versus.verdict())?;
+        }
+        if self.noise.is_heavy_tailed() {
+            write!(f, "  heavy tail: error bar is a lower bound")?;
+        }
+        Ok(())
+    }
+}
+
+/// `x` with `n` significant digits, never in powers of ten.
+pub(super) fn digits(x: f64, n: i32) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return format!("{x}");
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "a decimal exponent is small")]
+    let exponent = x.abs().log10().floor() as i32;
+    let decimals = usize::try_from(n - 1 - exponent).unwrap_or(0).min(12);
+    format!("{x:.decimals$}")
+}
+
+/// Where the time of a run went, in seconds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+pub struct Times {
+    /// Opening and checking the pack; known to the command line only.
+    pub load: f64,
+    /// From asking for the device to the first tile: uploads, and on a GPU the compiler.
+    pub compile: f64,
+    /// From the first tile to the end of the first round.
+    pub first_frame: f64,
+    /// From the first tile to the end, without `estimate`.
+    pub render: f64,
+    /// Adding finished tiles to the sums, on a GPU out of its mapped memory; part of `render`.
+    pub readback: f64,
+    /// Measuring the points.
+    pub estimate: f64,
+    /// Writing pictures; known to the command line only.
+    pub write: f64,
+}
+
+/// What a run that is measured gives beside the picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Convergence {
+    /// The error curve, in order of time.
+    pub points: Vec<Point>,
+    /// Where the time went.
+    pub times: Times,
+    /// What was to be reached.
+    pub goal: Option<Goal>,
+}
+
+/// What the run knows when a round is whole.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Moment {
+    /// Since the first tile.
+    pub(crate) elapsed: Duration,
+    /// Since the run began.
+    pub(crate) total: Duration,
+    pub(crate) rays: u64,
+    pub(crate) bad: u64,
+}
+
+/// Measures one run.
+#[derive(Debug)]
+pub(crate) struct Tracker {
+    measure: Measure,
+    /// Columns of the picture.
+    width: usize,
+    points: Vec<Point>,
+    /// Seconds of rendering at which the next point is due.
+    next: f64,
+    first_frame: f64,
+    estimate: Duration,
+    /// Samples of the rounds that are whole.
+    seen: u32,
+    /// When the last one became so.
+    latest: Moment,
+}
+
+impl Tracker {
+    pub(crate) fn new(measure: Measure, width: u32) -> Self {
+        let (points, estimate) = (Vec::new(), Duration::ZERO);
+        let (width, latest) = (width as usize, Moment::default());
+        Self { measure, width, points, next: 0.0, first_frame: 0.0, estimate, seen: 0, latest }
+    }
+
+    /// Whether rounds up to `samples` samples were not seen yet.
+    pub(crate) fn is_news(&mut self, samples: u32) -> bool {
+        std::mem::replace(&mut self.seen, samples) != samples
+    }
+
+    /// A round is whole: each sum is of `samples` samples. Gives a point when one is due.
+    pub(crate) fn round(
+        &mut self,
+        now: Moment,
+        sums: &[[f64; REPLICATES]],
+        samples: u32,
+    ) -> Option<&Point> {
+        self.latest = now;
+        if self.first_frame == 0.0 {
+            self.first_frame = now.elapsed.as_secs_f64();
+        }
+        let spp = samples * super::REPLICATES_U32;
+        let early = spp <= EARLY && spp.is_power_of_two();
+        let seconds = self.rendering(now);
+        if !early && seconds < self.next {
+            return None;
+        }
+        let began = Instant::now();
+        self.measure(now, sums, samples);
+        let cost = began.elapsed();
+        self.estimate += cost;
+        self.next = (seconds * STEP).max(seconds + PATIENCE * cost.as_secs_f64());
+        self.points.last()
+    }
+
+    /// Seconds of rendering.
+    fn rendering(&self, now: Moment) -> f64 {
+        now.elapsed.saturating_sub(self.estimate).as_secs_f64()
+    }
+
+    fn measure(&mut self, now: Moment, sums: &[[f64; REPLICATES]], samples: u32) {
+        let scale = 1.0 / f64::from(samples);
+        let noise = noise(sums, self.width, scale);
+        let reference = self.measure.reference.as_ref();
+        let spp = samples * super::REPLICATES_U32;
+        self.points.push(Point {
+            t_render: self.rendering(now),
+            t_total: now.total.as_secs_f64(),
+            spp,
+            samples: u64::from(spp) * sums.len() as u64,
+            rays: now.rays,
+            bad: now.bad,
+            noise,
+            versus: reference.map(|reference| reference.judge(sums, scale, noise.e)),
+            slope: None,
+        });
+        let slope = slope(&self.points);
+        if let Some(point) = self.points.last_mut() {
+            point.slope = slope;
+        }
+    }
+
+    /// Whether the last two points reach the goal.
+    pub(crate) fn is_met(&self) -> bool {
+        let Some(goal) = self.measure.goal else { return false };
+        let met = |point: &Point| goal.is_met_by(point);
+        matches!(&self.points[..], [.., a, b] if met(a) && met(b))
+    }
+
+    /// The curve, with a point at the end of it.
+    pub(crate) fn finish(
+        mut self,
+        sums: &[[f64; REPLICATES]],
+        samples: u32,
+        times: Times,
+    ) -> Convergence {
+        let last = self.points.last().map_or(0, |point| point.spp);
+        if samples > 0 && last != samples * super::REPLICATES_U32 {
+            let began = Instant::now();
+            self.measure(self.latest, sums, samples);
+            self.estimate += began.elapsed();
+        }
+        let times = Times {
+            first_frame: self.first_frame,
+            render: self.points.last().map_or(0.0, |point| point.t_render),
+            estimate: self.estimate.as_secs_f64(),
+            ..times
+        };
+        Convergence { points: self.points, times, goal: self.measure.goal }
+    }
+}
+
+/// Least squares of `log rel` on `log t` over the last four points.
+fn slope(points: &[Point]) -> Option<f64> {
+    let last = points.len().checked_sub(SLOPE_POINTS).map(|first| &points[first..])?;
+    let logs: Vec<_> = last.iter().map(|p| (p.t_render.ln(), p.noise.rel.ln())).collect();
+    let n = logs.len() as f64;
+    let (x0, y0) = (
+        logs.iter().map(|(x, _)| x).sum::<f64>() / n,
+        logs.iter().map(|(_, y)| y).sum::<f64>() / n,
+    );
+    let above = logs.iter().map(|(x, y)| (x - x0) * (y - y0)).sum::<f64>();
+    let below = logs.iter().map(|(x, _)| (x - x0) * (x - x0)).sum::<f64>();
+    Some(above / below).filter(|slope| slope.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn point(t_render: f64, rel: f64) -> Point {
+        let noise =
+            Noise { rel, rel_lo: 0.9 * rel, rel_hi: 1.1 * rel, p95: 3.0 * rel, ..Noise::default() };
+        Point {
+            t_render,
+            t_total: t_render,
+            spp: 256,
+            samples: 0,
+            rays: 0,
+            bad: 0,
+            noise,
+            versus: None,
+            slope: None,
+        }
+    }
+
+    fn tracker(goal: &str, points: Vec<Point>) -> Tracker {
+        let measure = Measure { goal: Some(goal.parse().unwrap()), reference: None };
+        Tracker { points, ..Tracker::new(measure, 8) }
+    }
+
+    #[test]
+    fn a_goal_needs_two_points_in_a_row_at_the_upper_end() {
+        let good = point(1.0, 0.009);
+        let bad = point(1.0, 0.0095);
+        assert!(tracker("0.01", vec![good, good]).is_met());
+        assert!(!tracker("0.01", vec![good]).is_met());
+        assert!(!tracker("0.01", vec![good, bad]).is_met());
+        assert!(!tracker("0.01", vec![good, bad, good]).is_met());
+        assert!(tracker("p95:0.03", vec![good, bad]).is_met());
+        assert!(!tracker("p95:0.02", vec![good, bad]).is_met());
+        let few = Point { spp: 32, ..good };
+        assert!(!tracker("0.01", vec![few, few]).is_met());
+        let tail = Point { noise: Noise { top: 0.6, ..good.noise }, ..good };
+        assert!(!tracker("0.01", vec![tail, tail]).is_met());
+    }
+
+    #[test]
+    fn goals_are_read_and_nonsense_is_refused() {
+        assert_eq!("p95:0.05".parse(), Ok(Goal { quantity: Quantity::P95, limit: 0.05 }));
+        assert_eq!("0.01".parse::<Goal>().unwrap().to_string(), "rel 0.01");
+        for text in ["", "0", "-1", "nan", "inf", "p96:1", "p95:", "1%"] {
+            assert!(text.parse::<Goal>().is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn the_slope_of_a_power_is_its_exponent() {
+        let at = |t: f64| point(t, 0.3 * t.powf(-0.75));
+        let points: Vec<_> = [1.0, 1.3, 2.0, 3.0, 5.0].map(at).into();
+        assert!((slope(&points).unwrap() + 0.75).abs() < 1e-9);
+        assert_eq!(slope(&points[..3]), None);
+        assert_eq!(slope(&[point(1.0, 0.0); 4]), None);
+    }
+
+    #[test]
+    fn a_line_has_the_numbers_that_matter() {
+        let point = Point { slope: Some(-0.576), ..point(12.41, 0.01312) };
+        let text = "12.4 s  256 spp  rel 0.0131 [0.0118,0.0144]  p95 0.039  slope -0.58  \
+                    1 % in ~21 s  fom 468/s  nan 0";
+        assert_eq!(point.to_string(), text);
+        assert_eq!(digits(0.000_123_45, 2), "0.00012");
+        assert_eq!(digits(12345.0, 3), "12345");
+    }
+
+    #[test]
+    fn points_come_at_doublings_first_and_then_with_time() {
+        let mut tracker = Tracker::new(Measure::default(), 4);
+        let sums = [[1.0, 2.0, 3.0, 4.0]; 16];
+        let mut spp = Vec::new();
+        for samples in [1, 2, 4, 8, 16].into_iter().chain((40..=320).step_by(16)) {
+            let elapsed = Duration::from_secs(u64::from(samples));
+            let now = Moment { elapsed, total: elapsed, rays: 0, bad: 0 };
+            spp.extend(tracker.round(now, &sums, samples).map(|point| point.spp));
+        }
+        // After 16 s at every 1.25-fold time, at the next multiple of 16 s after 40 s.
+        assert_eq!(spp, [4, 8, 16, 32, 64, 160, 224, 288, 416, 544, 736, 928, 1184]);
+    }
+}
