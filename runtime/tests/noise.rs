@@ -38,9 +38,10 @@ fn picture(seed: u64, sigma: f64) -> Vec<[f64; REPLICATES]> {
 fn the_interval_covers_the_truth_as_often_as_it_says() {
     const SEEDS: u64 = 1000;
     let sigma = 0.02_f64;
-    // The mean of four: variance sigma^2 / 4, over 1 + e^2, and E[1 / Y^2] = 1 + 3 var(Y).
+    // The mean of four: variance sigma^2 / 4, over 1 + e^2; and with the mean of the other three,
+    // E[1 / Y^2] = 1 + 3 var(Y).
     let variance = sigma * sigma / 4.0;
-    let truth = (variance * (1.0 + 3.0 * variance) / (1.0 + 1e-4)).sqrt();
+    let truth = (variance * (1.0 + sigma * sigma) / (1.0 + 1e-4)).sqrt();
     let (mut covered, mut sum) = (0, 0.0);
     for seed in 0..SEEDS {
         let found = noise(&picture(seed, sigma), SIDE, 1.0);

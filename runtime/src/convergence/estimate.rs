@@ -25,7 +25,7 @@ pub struct Noise {
     pub mse: f64,
     /// Its root.
     pub rmse: f64,
-    /// `sqrt(mean(V / (Y^2 + e^2)))`.
+    /// `sqrt(mean(V / (Y^2 + e^2)))`, see `relative`.
     pub rel: f64,
     /// Lower end of the 95 % interval of `rel`.
     pub rel_lo: f64,
@@ -64,8 +64,11 @@ pub fn noise(sums: &[[f64; REPLICATES]], width: usize, scale: f64) -> Noise {
     let mean = pixels.iter().map(|(y, _)| y).sum::<f64>() / n;
     let mse = pixels.iter().map(|(_, v)| v).sum::<f64>() / n;
     let e = FLOOR * mean;
-    let relative = |&(y, v): &(f64, f64)| share(v, y * y + e * e);
-    let blocks = Blocks::of(pixels.iter().map(relative), width, pixels.len() / width.max(1));
+    let relative = sums.iter().map(|sums| {
+        let [squares, _] = relative(sums, scale, e);
+        squares / (REPLICATES * (REPLICATES - 1)) as f64
+    });
+    let blocks = Blocks::of(relative, width, pixels.len() / width.max(1));
     let (lo, hi) = blocks.interval();
     let mut worst: Vec<f64> = pixels.iter().map(|(_, v)| *v).collect();
     let mut local: Vec<f64> = pixels.iter().map(|&(y, v)| share(v.sqrt(), y.abs() + e)).collect();
@@ -79,7 +82,7 @@ pub fn noise(sums: &[[f64; REPLICATES]], width: usize, scale: f64) -> Noise {
         rel_hi: hi.sqrt(),
         p95: percentile(&mut local, 0.95),
         top: share(sum_of_largest(&mut worst, WORST), mse * n),
-        kurtosis: kurtosis(sums, &pixels, scale, e),
+        kurtosis: kurtosis(sums, scale, e),
     }
 }
 
@@ -121,16 +124,30 @@ fn index(x: f64) -> usize {
     x as usize
 }
 
-/// Of the deviations of replicates from their mean, each over what its pixel is judged by.
-fn kurtosis(sums: &[[f64; REPLICATES]], pixels: &[(f64, f64)], scale: f64, e: f64) -> f64 {
+/// Sums of the second and of the fourth powers of the deviations of the replicates from their mean,
+/// each over `Y^2 + e^2` of the other replicates: an outlier makes its own pixel bright, and must not
+/// be judged by that.
+fn relative(sums: &[f64; REPLICATES], scale: f64, e: f64) -> [f64; 2] {
+    const R: f64 = REPLICATES as f64;
+    let total: f64 = sums.iter().sum();
     let (mut second, mut fourth) = (0.0, 0.0);
-    for (sums, (y, _)) in sums.iter().zip(pixels) {
-        for sum in sums {
-            let deviation = sum * scale - y;
-            let square = share(deviation * deviation, y * y + e * e);
-            second += square;
-            fourth += square * square;
-        }
+    for sum in sums {
+        let deviation = (sum - total / R) * scale;
+        let others = (total - sum) / (R - 1.0) * scale;
+        let square = share(deviation * deviation, others * others + e * e);
+        second += square;
+        fourth += square * square;
+    }
+    [second, fourth]
+}
+
+/// Of the relative deviations of all replicates of all pixels.
+fn kurtosis(sums: &[[f64; REPLICATES]], scale: f64, e: f64) -> f64 {
+    let (mut second, mut fourth) = (0.0, 0.0);
+    for sums in sums {
+        let [square, power] = relative(sums, scale, e);
+        second += square;
+        fourth += power;
     }
     share(fourth * (sums.len() * REPLICATES) as f64, second * second)
 }

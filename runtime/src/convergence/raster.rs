@@ -15,7 +15,8 @@ const SCANS: u32 = 4;
 pub(super) fn png(canvas: &Canvas) -> Vec<u8> {
     let image = draw(canvas);
     let mut file = Vec::new();
-    let (w, h) = (index(canvas.width) as u32, index(canvas.height) as u32);
+    let side = |n: usize| u32::try_from(n).expect("a chart is small");
+    let (w, h) = (side(image.width), side(image.height));
     let written =
         PngEncoder::new(&mut file).write_image(&image.bytes, w, h, ExtendedColorType::Rgb8);
     written.expect("memory takes every picture of this size");
