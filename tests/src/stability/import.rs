@@ -16,7 +16,8 @@ pub const CASES: &[Case] = &[Case {
 
 fn scene() -> String {
     format!(
-        "asset thing = obj(\"thing.obj\", unit: m, up: +y)
+        "sky heaven: constant {{ color = linear(1) }}
+asset thing = obj(\"thing.obj\", unit: m, up: +y)
 material m: diffuse {{ color = linear(0.5) }}
 instance it {{ shape = thing, material = m }}
 {}",
@@ -50,7 +51,7 @@ pub(super) fn no_area() -> Vec<Row> {
 
 /// The first line of what was said, its paths without their folders.
 fn without_folder(said: &str) -> String {
-    let line = said.lines().next().unwrap_or("nothing");
+    let line = &super::tools::first_error(said);
     let word = |w: &str| {
         let rest = w.rsplit('/').next().unwrap_or(w);
         if Path::new(w.trim_start_matches('`')).is_absolute() { rest.to_owned() } else { w.to_owned() }
@@ -82,7 +83,7 @@ fn bad_files() -> Vec<Row> {
             let _ = write!(place, ":{line}");
         }
         let holds = triangles.is_none() && said.contains("error[") && said.contains(&place);
-        let shown: String = without_folder(&said).chars().take(110).collect();
+        let shown: String = without_folder(&said).chars().take(140).collect();
         rows.push(Row::fact(name, &format!("error at {place}"), &shown, holds));
     }
     rows

@@ -1,11 +1,12 @@
 //! Lights that are tiny, touched, bright, faint or many.
 
 use std::fmt::Write as _;
+use std::path::Path;
 
 use glam::DVec3;
 use pack::abi::Light;
 
-use super::tools::{estimates, films, films_of, means, sized, view};
+use super::tools::{estimates, films_of, means, sized, view};
 use super::{Case, Row};
 use crate::kernel::Bench;
 use crate::picture::Estimate;
@@ -108,17 +109,22 @@ fn touching() -> Vec<Row> {
 }
 
 fn brightness() -> Vec<Row> {
-    let text = |strength: f64| {
-        format!(
-            "{WHITE_FLOOR}light bulb: sphere {{ center = (0, 1, 0)m, radius = 10cm, strength = {strength:e} }}\n{}",
-            view([-3.0, 0.5, 0.0], [0.0; 3], 4)
-        )
+    let text = format!(
+        "rts 1\n{WHITE_FLOOR}light bulb: sphere {{ center = (0, 1, 0)m, radius = 10cm }}\n{}",
+        view([-3.0, 0.5, 0.0], [0.0; 3], 4)
+    );
+    // After the text: the language has no numbers above 1e15.
+    let lit = |strength: f64| {
+        let compiled = scene::compile_changed(Path::new(""), &text, |scene| {
+            scene.lights[0].radiance = [strength; 3];
+        });
+        films_of(&scene::bytes(&compiled), sized(16, 32))
     };
-    let base = films(&text(1.0), 16, 32);
+    let base = lit(1.0);
     let mut rows = Vec::new();
     for power in [60, -60] {
         let factor = 2.0_f64.powi(power);
-        let other = films(&text(factor), 16, 32);
+        let other = lit(factor);
         let differ = [0, 1].map(|i| {
             let pairs = base[i].sums.iter().zip(&other[i].sums);
             pairs.filter(|(a, b)| a.map(|x| (x * factor).to_bits()) != b.map(f64::to_bits)).count() as u64
@@ -127,7 +133,7 @@ fn brightness() -> Vec<Row> {
     }
     let mean = estimates(&base);
     for strength in [1e9, 1e15, 1e-20] {
-        let other = estimates(&films(&text(strength), 16, 32));
+        let other = estimates(&lit(strength));
         let off = [0, 1].map(|i| (other[i].mean / strength / mean[i].mean - 1.0).abs());
         rows.push(Row::below(format!("{strength:e}: relative difference of the mean"), 1e-6, off));
     }

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
 
-use super::tools::{WHITE_SKY, diagnose, films, means, shot, view};
+use super::tools::{WHITE_SKY, diagnose, films, first_error, means, shot, view};
 use super::{Case, Row};
 use crate::kernel::{Bench, Lobe};
 use crate::picture::{Estimate, channel};
@@ -58,10 +58,12 @@ pub const CASES: &[Case] = &[
 ];
 
 fn invisible() -> Vec<Row> {
-    // The background has a gradient of its own, so that bent rays would show.
+    // A wall of light behind the ball and darkness behind the camera: what is reflected is missing.
     let scene = |ball: &str| {
         format!(
-            "sky day: gradient {{ base = 2, blend.high = 0.9, blend.low = 0.1 }}\n{ball}{}",
+            "material lamp: emissive {{ color = linear(1) }}
+instance wall {{ shape = rectangle(size: (24, 24)m), material = lamp, rotate = (90, 0, 0)deg, at = (0, 0, -4)m }}
+{ball}{}",
             shot([0.0, 0.4, 6.0], [0.0; 3], 22.0, 64)
         )
     };
@@ -289,7 +291,7 @@ fn refused(name: &str, material: &str) -> Row {
         view([0.0, 0.0, 5.0], [0.0; 3], 2)
     );
     let (compiled, said) = diagnose(Path::new(""), &text);
-    let line = said.lines().next().unwrap_or("nothing").to_owned();
+    let line = first_error(&said);
     Row::fact(name, "an error at the value", &line, compiled.is_none() && line.contains("error["))
 }
 

@@ -2,7 +2,7 @@
 
 use pack::abi::{Material, MaterialKind};
 
-use super::tools::{WHITE_SKY, estimates, films, means, view};
+use super::tools::{WHITE_SKY, endless, estimates, films, films_of, means, sized, view};
 use super::{Case, Row};
 use crate::kernel::{Bench, Lobe};
 use crate::picture::Estimate;
@@ -85,17 +85,26 @@ fn thin() -> Vec<Row> {
     vec![row(1e-6), row(1e-3)]
 }
 
+const WHY_DENSE: &str = "a ray starts a millionth of the scene beyond the surface that it crosses, in both precisions: \
+    what is scattered nearer than that begins too deep";
+
+const WHY_THIN: &str = "a ray starts a millionth of the scene beyond the surface that it crosses, which is beyond the \
+    other side of a slab this thin: it is never left, and absorbs all the way to the sky";
+
 /// Chandrasekhar's 1 - H(1) sqrt(1 - a) for albedo 0.9.
 const HALF_SPACE: f64 = 0.414_947;
 
 fn dense() -> Vec<Row> {
-    let text = near("sigma_a = 1e5/m, sigma_s = 9e5/m", "0.5", 1024);
-    let films = films(&text, 16, 512);
-    let bad = [0, 1].map(|i| films[i].counters.bad);
-    vec![
-        Row::mean("albedo 0.9, along the normal", HALF_SPACE, 1e-4, estimates(&films)),
-        Row::never("samples that are not finite", 131_072, bad),
-    ]
+    let mut rows = Vec::new();
+    for (sigma, known) in [(1e3, None), (1e4, None), (1e6, Some(WHY_DENSE))] {
+        let medium = format!("sigma_a = {:e}/m, sigma_s = {:e}/m", 0.1 * sigma, 0.9 * sigma);
+        let films = films(&near(&medium, "0.5", 1024), 16, 512);
+        let row = Row::mean(format!("{sigma:e}/m, albedo 0.9"), HALF_SPACE, 1e-4, estimates(&films));
+        rows.push(known.map_or(row.clone(), |why| row.known(why)));
+        let bad = [0, 1].map(|i| films[i].counters.bad);
+        rows.push(Row::never(format!("{sigma:e}/m: samples that are not finite"), 131_072, bad));
+    }
+    rows
 }
 
 fn channels() -> Vec<Row> {
@@ -104,8 +113,8 @@ fn channels() -> Vec<Row> {
         ("(0.1, 1, 10)/m over 1 m", "(0.1, 1, 10)", "1"),
         ("(1, 1e3, 1e6)/m over 10 um", "(1, 1000, 1000000)", "1e-5"),
     ] {
-        let text = near(&format!("sigma_s = {sigma}/m"), thickness, 4096);
-        let films = films(&text, 8, 64);
+        let text = near(&format!("sigma_s = {sigma}/m"), thickness, 1024);
+        let films = films_of(&endless(&text), sized(8, 64));
         for (k, colour) in ["red", "green", "blue"].into_iter().enumerate() {
             let found = [0, 1].map(|i| Estimate::of(&crate::picture::channel(&films[i], k)));
             rows.push(Row::mean(format!("{name}, {colour}"), 1.0, 2e-5, found));
@@ -115,10 +124,15 @@ fn channels() -> Vec<Row> {
 }
 
 fn thickness() -> Vec<Row> {
-    let thin = means(&near("sigma_a = 1/m", "1e-7", 64), 8, 16);
+    let thin = |thickness: &str, expected: f64| {
+        let found = means(&near("sigma_a = 1/m", thickness, 64), 8, 16);
+        Row::near(format!("{thickness} m of 1/m"), expected, 1e-6, found.map(|e| e.mean))
+    };
     let text = slab("mean_free_path = 1m, albedo = linear(0.9)", "1000", 1024);
     vec![
-        Row::near("1e-7 m of 1/m", 1.0, 1e-6, thin.map(|e| e.mean)),
+        thin("1e-4", (-1e-4_f64).exp()),
+        thin("1e-5", (-1e-5_f64).exp()),
+        thin("1e-7", 1.0).known(WHY_THIN),
         Row::mean("1e3 free paths, albedo 0.9", HALF_SPACE, 1e-4, means(&text, 16, 512)),
     ]
 }
@@ -157,6 +171,8 @@ fn fogs() -> Vec<Row> {
     let fog = |density: &str, colour: &str| {
         format!(
             "{WHITE_SKY}medium mist: fog {{ density = {density}/m, color = linear({colour}), sky_distance = 100m }}
+material clay: diffuse {{ color = linear(0.5) }}
+instance ball {{ shape = sphere(radius: 1m), material = clay, at = (0, 0, 9)m }}
 {}",
             view([0.0, 0.0, 5.0], [0.0; 3], 4).replace("depth = 4", "depth = 4, atmosphere = mist")
         )
@@ -166,13 +182,13 @@ fn fogs() -> Vec<Row> {
         "{WHITE_SKY}medium x: homogeneous {{ mean_free_path = 0.02m, albedo = linear(1) }}
 material m: dielectric {{ ior = 1, interior = x }}
 instance ball {{ shape = sphere(radius: 0.5m), material = m }}\n{}",
-        view([0.0, 0.3, 5.0], [0.0; 3], 65536)
+        view([0.0, 0.3, 5.0], [0.0; 3], 1024)
     );
     vec![
         Row::near("depth 1e-8: the sky", 1.0, 1e-6, value(&fog("1e-10", "0.2"))),
         Row::near("depth 100: the fog", 0.2, 1e-6, value(&fog("1", "0.2"))),
         Row::near("in its own light", 1.0, 1e-6, value(&fog("0.01", "1"))),
-        Row::mean("a white ball that scatters, 50 free paths wide", 1.0, 2e-5, means(&milk, 8, 8)),
+        Row::mean("a white ball that scatters, 50 free paths wide", 1.0, 2e-5, estimates(&films_of(&endless(&milk), sized(8, 8)))),
     ]
 }
 

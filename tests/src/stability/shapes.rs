@@ -3,11 +3,12 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use compiler::bvh::{Layout, Preset};
 use compiler::lower::Lowered;
 use runtime::Film;
 
 use super::tools::{
-    WHITE_SKY, count, diagnose, distance, estimates, films, films_of, means, same, shot, sized, view,
+    WHITE_SKY, count, diagnose, distance, estimates, films, first_error, films_of, means, same, shot, sized, view,
 };
 use super::{Case, Row};
 use crate::scene;
@@ -139,10 +140,21 @@ pub(super) fn one_centroid(n: usize) -> String {
 }
 
 fn centroids() -> Vec<Row> {
-    let compiled =
-        mesh(&one_centroid(100_000), CLAY, &shot([0.0, 0.0, 5.0], [0.0; 3], 30.0, 4));
-    let n = compiled.lowered.triangles.len();
-    vec![depth(&compiled.lowered), Row::fact("triangles", "≥ 100000", &n.to_string(), n >= 100_000)]
+    let dir = tempfile::tempdir().expect("a temporary directory can be made");
+    std::fs::write(dir.path().join("thing.obj"), one_centroid(100_000)).expect("writable");
+    let eye = shot([0.0, 0.0, 5.0], [0.0; 3], 30.0, 4);
+    let text = format!("rts 1\nasset thing = obj(\"thing.obj\", unit: m, up: +y)\n{CLAY}{eye}");
+    let binary = scene::compile_built(dir.path(), &text, Preset::default(), Layout::Binary);
+    let wide = scene::compile_in(dir.path(), &text).lowered.render.stack_need;
+    let room = runtime::kernel::f32::STACK_SIZE;
+    let n = binary.lowered.triangles.len();
+    let fits = Row::fact(
+        "stack of the wide tree, up to three entries a level",
+        &format!("≤ {room}, the kernel's"),
+        &wide.to_string(),
+        wide <= room,
+    );
+    vec![depth(&binary.lowered), fits, Row::fact("triangles", "≥ 100000", &n.to_string(), n >= 100_000)]
 }
 
 fn coplanar() -> Vec<Row> {
@@ -330,28 +342,36 @@ instance floor {{ shape = rectangle(size: (4, 4)m), material = m }}
 fn open_mesh() -> Vec<Row> {
     let obj = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1
 f 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
-    let parts = "sky heaven: constant { color = linear(1) }
-medium ink: homogeneous { sigma_a = 0.5/m }
-material m: dielectric { ior = 1.5, interior = ink }
-instance it { shape = thing, material = m }
-";
+    let scene = |glass: &str| {
+        format!(
+            "asset thing = obj(\"thing.obj\", unit: m, up: +y)
+{WHITE_SKY}medium ink: homogeneous {{ sigma_a = 0.5/m }}
+material m: dielectric {{ ior = 1.5, {glass} }}
+material n: dielectric {{ ior = 1.3, interior = ink, priority = 1 }}
+instance it {{ shape = thing, material = m }}
+instance ball {{ shape = sphere(radius: 1.2m), material = n }}\n{}",
+            shot([1.0, 1.5, 5.0], [0.0; 3], 40.0, 16)
+        )
+    };
     let dir = tempfile::tempdir().expect("a temporary directory can be made");
     std::fs::write(dir.path().join("thing.obj"), obj).expect("writable");
-    let text = format!(
-        "asset thing = obj(\"thing.obj\", unit: m, up: +y)\n{parts}{}",
-        shot([1.0, 1.5, 5.0], [0.0; 3], 40.0, 16)
-    );
-    let (compiled, said) = diagnose(dir.path(), &text);
+    let (compiled, said) = diagnose(dir.path(), &scene("interior = ink"));
+    let told = first_error(&said);
+    let told = told.rsplit("error").next().unwrap_or("").to_owned();
+    let refused = compiled.is_none() && told.contains("is open");
+    let mut rows = vec![Row::fact("with an interior", "an error that says so", &told, refused)];
+    let (compiled, said) = diagnose(dir.path(), &scene("priority = 2"));
     let Some(compiled) = compiled else {
-        return vec![Row::fact("the open mesh", "a pack", &said, false)];
+        rows.push(Row::fact("with a priority", "a pack", &said, false));
+        return rows;
     };
     let films = films_of(&scene::bytes(&compiled), sized(24, 16));
     let leaks = [0, 1].map(|i| films[i].counters.leaks);
     let bad = [0, 1].map(|i| films[i].counters.bad);
-    vec![
-        Row::fact("leaks counted", "> 0", &format!("{} and {}", leaks[0], leaks[1]), leaks[0] > 0 && leaks[1] > 0),
-        Row::never("samples that are not finite", 9216, bad),
-    ]
+    let counted = leaks.iter().all(|n| *n > 0);
+    rows.push(Row::fact("leaks counted", "> 0", &format!("{} and {}", leaks[0], leaks[1]), counted));
+    rows.push(Row::never("samples that are not finite", 9216, bad));
+    rows
 }
 
 fn shells() -> Vec<Row> {
@@ -399,7 +419,7 @@ fn thin_rectangles() -> Vec<Row> {
         view([0.0, 1.0, 5.0], [0.0; 3], 2)
     );
     let (compiled, said) = diagnose(Path::new(""), &flat);
-    let line = said.lines().next().unwrap_or("").to_owned();
+    let line = first_error(&said);
     let refused = compiled.is_none() && line.contains("error[");
     let edge = format!(
         "{lamp}instance r {{ shape = rectangle(size: (2, 2)m), material = lamp }}

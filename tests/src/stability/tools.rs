@@ -141,6 +141,21 @@ pub fn distance(a: Estimate, b: Estimate) -> f64 {
     if a == b { 0.0 } else { (a.mean - b.mean).abs() / a.error.hypot(b.error) }
 }
 
+/// The first error of what was said.
+#[must_use]
+pub fn first_error(said: &str) -> String {
+    let errors = |line: &&str| line.contains("error[");
+    said.lines().find(errors).or(said.lines().next()).unwrap_or("nothing").to_owned()
+}
+
+/// The bytes of a text's pack, with paths as long as a pack allows: longer than the language does.
+#[must_use]
+pub fn endless(text: &str) -> Vec<u8> {
+    let mut compiled = scene::compile(&format!("rts 1\n{text}"));
+    compiled.lowered.render.max_depth = 65_535;
+    scene::bytes(&compiled)
+}
+
 struct NoImports;
 
 impl Loader for NoImports {
@@ -166,6 +181,11 @@ pub fn diagnose(root: &Path, text: &str) -> (Option<Compiled>, String) {
     let compiled = analysis.scene.and_then(|scene| {
         pipeline::compile(&scene, &analysis.sources, &options, &mut diagnostics).ok()
     });
-    let lines = diagnostics.iter().map(|d| lang::diagnostic::short(&analysis.sources, d));
+    let lines = diagnostics.iter().map(|d| {
+        let labels = d.labels.iter().map(|label| label.text.as_str());
+        let more = labels.chain(d.notes.iter().map(String::as_str)).filter(|text| !text.is_empty());
+        let more: Vec<_> = more.collect();
+        format!("{}: {}", lang::diagnostic::short(&analysis.sources, d), more.join("; "))
+    });
     (compiled, lines.collect::<Vec<_>>().join("\n"))
 }
