@@ -118,7 +118,7 @@ pub fn write(path: &Path, picture: &Picture, residual: bool) -> Result<(), Outpu
 }
 
 /// Writes `bytes` beside `path`, then renames.
-fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+pub(crate) fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     pack::write_atomic(path, |out| out.write_all(bytes)).map_err(OutputError::Write)
 }
 
