@@ -132,8 +132,9 @@ pub fn compare(scene: &Scene, job: &Job) -> Result<Report, CheckError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(job.threads.unwrap_or(0)).build()?;
     let frame = frame(&setup, job);
     let [width, height] = job.image_size;
-    let rows: Vec<Row> = pool
-        .install(|| (0..height).into_par_iter().map(|y| row(&setup, &frame, width, y, job)).collect());
+    let rows: Vec<Row> = pool.install(|| {
+        (0..height).into_par_iter().map(|y| row(&setup, &frame, width, y, job)).collect()
+    });
     let mut report = Report {
         size: job.image_size,
         samples: job.samples.count(),
@@ -167,8 +168,20 @@ pub fn replay(scene: &Scene, job: &Job, at: BadSample) -> Result<[Sample; 2], Ch
     let frame = frame(&setup, job);
     let pixel = [at.x, at.y];
     Ok([
-        path::single::sample(&mut path::single::open(&setup, &frame), pixel, at.sample, job.seed, true),
-        path::double::sample(&mut path::double::open(&setup, &frame), pixel, at.sample, job.seed, true),
+        path::single::sample(
+            &mut path::single::open(&setup, &frame),
+            pixel,
+            at.sample,
+            job.seed,
+            true,
+        ),
+        path::double::sample(
+            &mut path::double::open(&setup, &frame),
+            pixel,
+            at.sample,
+            job.seed,
+            true,
+        ),
     ])
 }
 
@@ -190,7 +203,8 @@ struct Row {
 }
 
 fn row(setup: &Setup<'_>, frame: &Frame, width: u32, y: u32, job: &Job) -> Row {
-    let (mut single, mut double) = (path::single::open(setup, frame), path::double::open(setup, frame));
+    let (mut single, mut double) =
+        (path::single::open(setup, frame), path::double::open(setup, frame));
     let mut row =
         Row { pixels: Vec::new(), counters: [Counters::default(); 2], parted: 0, bad: [[0; 2]; 2] };
     for x in 0..width {

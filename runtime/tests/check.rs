@@ -6,7 +6,11 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 fn rtr(folder: &Path, args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_rtr")).current_dir(folder).args(args).output().expect("rtr starts")
+    Command::new(env!("CARGO_BIN_EXE_rtr"))
+        .current_dir(folder)
+        .args(args)
+        .output()
+        .expect("rtr starts")
 }
 
 fn text(bytes: &[u8]) -> String {
@@ -27,7 +31,9 @@ fn it_compares_and_writes_a_heat_map() {
     let output = rtr(folder.path(), &args);
     let said = text(&output.stdout);
     assert_eq!(output.status.code(), Some(0), "{said}{}", text(&output.stderr));
-    for part in ["36x20, 4 spp, in f32 and in f64", "f32: ", "f64: ", "wrote heat.png", "verdict: stable"] {
+    for part in
+        ["36x20, 4 spp, in f32 and in f64", "f32: ", "f64: ", "wrote heat.png", "verdict: stable"]
+    {
         assert!(said.contains(part), "{part}: {said}");
     }
     let heat = image::open(folder.path().join("heat.png")).expect("a picture");

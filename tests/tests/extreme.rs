@@ -56,7 +56,9 @@ fn heavy_measurements_were_made_as_they_are_said_to_be() {
     let results = std::fs::read_to_string(heavy::results()).unwrap_or_default();
     for line in results.lines() {
         let cells: Vec<&str> = line.split('\t').collect();
-        let known = heavy::HEAVY.iter().any(|(id, what, expected, _)| cells[..3] == [*id, *what, *expected]);
+        let known = heavy::HEAVY
+            .iter()
+            .any(|(id, what, expected, _)| cells[..3] == [*id, *what, *expected]);
         assert!(known && cells.len() == 5, "no measurement makes this line: {line}");
     }
 }

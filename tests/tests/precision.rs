@@ -23,7 +23,7 @@ fn pebble() -> Pack<Checked> {
 sky heaven: constant {{ color = linear(1) }}
 material black: diffuse {{ color = linear(0) }}
 instance ball {{ shape = sphere(radius: {PEBBLE:e}m), material = black }}
-camera eye: perspective {{ from = (0, 0, 1000)m, to = (0, 0, 0)m, fov.vertical = {:e}deg }}
+camera eye: perspective {{ from = (600, 480, 640)m, to = (0, 0, 0)m, fov.vertical = {:e}deg }}
 film f {{ size = (32, 32)px }}
 render main: path {{ camera = eye, film = f, samples = 16, depth = 2, seed = 7 }}
 ",
@@ -92,7 +92,11 @@ fn a_replay_is_what_was_rendered() {
                 });
                 let film = outcome.film();
                 let rounded = found.radiance.map(|x| (x as f32).to_bits());
-                assert_eq!(film.sums[0].map(|x| (x as f32).to_bits()), rounded, "{name} {x},{y},{sample}");
+                assert_eq!(
+                    film.sums[0].map(|x| (x as f32).to_bits()),
+                    rounded,
+                    "{name} {x},{y},{sample}"
+                );
                 assert_eq!(film.counters.rays, u64::from(found.rays), "{name} {x},{y},{sample}");
                 assert_eq!(found.steps.len(), found.rays as usize);
                 lit += u32::from(found.radiance[1] > 0.0);

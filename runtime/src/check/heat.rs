@@ -31,7 +31,11 @@ fn color(off: f64) -> [u8; 3] {
         let t = at - i as f64;
         if (0.0..=1.0).contains(&t) {
             let mix = |k: usize| pair[0][k] + (pair[1][k] - pair[0][k]) * t;
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 ..= 255")]
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "0 ..= 255"
+            )]
             let byte = |k: usize| mix(k).round() as u8;
             color = [0, 1, 2].map(byte);
         }
@@ -50,7 +54,10 @@ pub fn write_heat(path: &Path, report: &Report) -> Result<(), OutputError> {
     let [width, height] = report.size;
     encoder
         .write_image(pixels.as_flattened(), width, height, image::ExtendedColorType::Rgb8)
-        .map_err(|error| OutputError::Encode { path: path.to_owned(), message: error.to_string() })?;
+        .map_err(|error| OutputError::Encode {
+            path: path.to_owned(),
+            message: error.to_string(),
+        })?;
     write_atomic(path, &file)
 }
 

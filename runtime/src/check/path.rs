@@ -64,7 +64,10 @@ macro_rules! precision {
             use pack::abi::{Frame, NONE};
 
             /// The kernel of a scene.
-            pub(in crate::check) fn open<'a>(setup: &'a Setup<'_>, frame: &'a Frame) -> k::Kernel<'a> {
+            pub(in crate::check) fn open<'a>(
+                setup: &'a Setup<'_>,
+                frame: &'a Frame,
+            ) -> k::Kernel<'a> {
                 let frame_words: &[UVec4] = bytemuck::cast_slice(std::slice::from_ref(frame));
                 k::Kernel::new(k::Bindings {
                     frame_words,

@@ -27,16 +27,25 @@ impl Verdict {
             }
         };
         let bad = report.counters.map(|counters| counters.bad);
-        fails(bad != [0, 0], format!("samples are not finite: {} in f32, {} in f64", bad[0], bad[1]));
+        fails(
+            bad != [0, 0],
+            format!("samples are not finite: {} in f32, {} in f64", bad[0], bad[1]),
+        );
         let paths = report.share_of_paths();
         fails(paths > PATHS, format!("{:.2} % of the paths part, more than 1 %", 100.0 * paths));
         let mean = report.mean();
-        fails(mean > MEAN, format!("pixels differ by {mean:.1e} in the mean, more than {MEAN:.0e}"));
+        fails(
+            mean > MEAN,
+            format!("pixels differ by {mean:.1e} in the mean, more than {MEAN:.0e}"),
+        );
         let brightness = report.brightness();
         fails(brightness > MEAN, format!("the image's mean differs by {brightness:.1e}"));
         if strict {
             let largest = report.largest();
-            fails(largest > PARTED, format!("a pixel differs by {largest:.1e}, more than {PARTED:.0e}"));
+            fails(
+                largest > PARTED,
+                format!("a pixel differs by {largest:.1e}, more than {PARTED:.0e}"),
+            );
             let of = |n: [u64; 2], what: &str| format!("{what}: {} in f32, {} in f64", n[0], n[1]);
             let leaks = report.counters.map(|counters| counters.leaks);
             fails(leaks != [0, 0], of(leaks, "media leak"));

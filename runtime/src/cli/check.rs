@@ -121,7 +121,9 @@ fn replay(args: &CheckArgs, console: &Console, scene: &Scene, job: &Job, at: Bad
     }
     for (name, sample) in [("f32", &single), ("f64", &double)] {
         let Sample { radiance: [r, g, b], segments, rays, .. } = sample;
-        console.result(&format!("{name}: radiance {r:?} {g:?} {b:?}, {segments} segments, {rays} rays"));
+        console.result(&format!(
+            "{name}: radiance {r:?} {g:?} {b:?}, {segments} segments, {rays} rays"
+        ));
     }
     console.result(if single.way == double.way { "the same way" } else { "another way" });
     Exit::Done

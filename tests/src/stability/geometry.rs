@@ -300,7 +300,8 @@ struct Setting {
 
 const WHY_FAR: &str = "a sphere a millionth of its distance wide: the foot of the centre on the ray is known to 3 % of the \
     radius, because products of numbers of 1e3 are rounded to 3e-5";
-const WHY_GROUND: &str = "the worst of 1e5 rays only: the square of 1e5 + 1 less that of 1e5 has four digits left";
+const WHY_GROUND: &str =
+    "the worst of 1e5 rays only: the square of 1e5 + 1 less that of 1e5 has four digits left";
 
 fn far_spheres() -> Vec<Row> {
     let mut rows = Vec::new();
@@ -310,7 +311,8 @@ fn far_spheres() -> Vec<Row> {
     ] {
         let [a, b] = both!(sphere_errors(setting, 100_000));
         let share = Row::below(format!("{name}: share judged wrongly"), 2e-3, [a[0], b[0]]);
-        let distance = Row::below(format!("{name}: relative error of distance"), 1e-2, [a[1], b[1]]);
+        let distance =
+            Row::below(format!("{name}: relative error of distance"), 1e-2, [a[1], b[1]]);
         let far = setting.height > 1.0;
         rows.push(if far { share.known(WHY_FAR) } else { share });
         rows.push(if far { distance } else { distance.known(WHY_GROUND) });

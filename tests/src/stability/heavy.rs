@@ -67,20 +67,29 @@ instance i {{ shape = t, material = m }}\n{}",
     let films = films_of(&scene::bytes(&compiled), sized(64, 1));
     let right = films.iter().all(|film| film.means().iter().all(|rgb| (rgb[1] - 0.5).abs() < 1e-6));
     (
-        format!("{triangles} triangles, {time:.0} s, depth {need}, radiance {}", if right { "right" } else { "wrong" }),
+        format!(
+            "{triangles} triangles, {time:.0} s, depth {need}, radiance {}",
+            if right { "right" } else { "wrong" }
+        ),
         right && need <= 65 && triangles >= 9_999_000,
     )
 }
 
 fn sky() -> Vec<u8> {
-    scene::bytes(&scene::compile(&format!("rts 1\n{WHITE_SKY}{}", view([0.0, 0.0, 5.0], [0.0; 3], 2))))
+    scene::bytes(&scene::compile(&format!(
+        "rts 1\n{WHITE_SKY}{}",
+        view([0.0, 0.0, 5.0], [0.0; 3], 2)
+    )))
 }
 
 fn a_million_samples() -> (String, bool) {
     let films = films_of(&sky(), sized(1, 1 << 20));
     let values = films.each_ref().map(|film| film.mean(0)[1]);
     let rays = films.each_ref().map(|film| film.counters.rays);
-    (format!("{} and {}, {} rays", values[0], values[1], rays[0]), values == [1.0, 1.0] && rays == [1 << 20; 2])
+    (
+        format!("{} and {}, {} rays", values[0], values[1], rays[0]),
+        values == [1.0, 1.0] && rays == [1 << 20; 2],
+    )
 }
 
 fn a_large_image() -> (String, bool) {

@@ -54,7 +54,11 @@ fn without_folder(said: &str) -> String {
     let line = &super::tools::first_error(said);
     let word = |w: &str| {
         let rest = w.rsplit('/').next().unwrap_or(w);
-        if Path::new(w.trim_start_matches('`')).is_absolute() { rest.to_owned() } else { w.to_owned() }
+        if Path::new(w.trim_start_matches('`')).is_absolute() {
+            rest.to_owned()
+        } else {
+            w.to_owned()
+        }
     };
     let text: String = line.split(' ').map(word).collect::<Vec<_>>().join(" ");
     text.replace('|', "/")
@@ -69,7 +73,11 @@ fn bad_files() -> Vec<Row> {
     long.push('\n');
     let mut files = vec![("a line of 1e7 characters".to_owned(), long, Some(4))];
     for number in ["nan", "inf", "1e39"] {
-        files.push((number.into(), format!("v 0 0 0\nv {number} 0 0\nv 0 1 0\nf 1 2 3\n"), Some(2)));
+        files.push((
+            number.into(),
+            format!("v 0 0 0\nv {number} 0 0\nv 0 1 0\nf 1 2 3\n"),
+            Some(2),
+        ));
     }
     for index in ["0", "4", "-4", "99999999999999999999"] {
         files.push((format!("index {index}"), format!("{good}f 1 2 {index}\n"), Some(4)));

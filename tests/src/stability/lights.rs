@@ -127,9 +127,14 @@ fn brightness() -> Vec<Row> {
         let other = lit(factor);
         let differ = [0, 1].map(|i| {
             let pairs = base[i].sums.iter().zip(&other[i].sums);
-            pairs.filter(|(a, b)| a.map(|x| (x * factor).to_bits()) != b.map(f64::to_bits)).count() as u64
+            pairs.filter(|(a, b)| a.map(|x| (x * factor).to_bits()) != b.map(f64::to_bits)).count()
+                as u64
         });
-        rows.push(Row::never(format!("2^{power}: pixels that are not the image times that"), 256, differ));
+        rows.push(Row::never(
+            format!("2^{power}: pixels that are not the image times that"),
+            256,
+            differ,
+        ));
     }
     let mean = estimates(&base);
     for strength in [1e9, 1e15, 1e-20] {

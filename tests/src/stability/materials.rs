@@ -3,13 +3,12 @@
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
-
 use super::tools::{WHITE_SKY, diagnose, films, first_error, means, shot, view};
 use super::{Case, Row};
 use crate::kernel::{Bench, Lobe};
 use crate::picture::{Estimate, channel};
-use crate::statistics::{Counts, grid};
 use crate::statistics::stream::Stream;
+use crate::statistics::{Counts, grid};
 
 /// The cases of this file.
 pub const CASES: &[Case] = &[
@@ -80,7 +79,11 @@ instance wall {{ shape = rectangle(size: (24, 24)m), material = lamp, rotate = (
             let [a, b] = [&back[i], &front[i]].map(|film| Estimate::of(&channel(film, 1)).mean);
             (b / a - 1.0).abs()
         });
-        rows.push(Row::below(format!("index {ior}: relative difference of the image's mean"), 1e-4, off));
+        rows.push(Row::below(
+            format!("index {ior}: relative difference of the image's mean"),
+            1e-4,
+            off,
+        ));
     }
     rows
 }
@@ -163,7 +166,11 @@ instance ball {{ shape = sphere(radius: 1m), material = m }}\n{}",
         )
     };
     let mirrors = [
-        ("conductor", "metal { color = linear(1), fuzz = 0 }", "conductor { color = linear(1), roughness = "),
+        (
+            "conductor",
+            "metal { color = linear(1), fuzz = 0 }",
+            "conductor { color = linear(1), roughness = ",
+        ),
         ("dielectric", "dielectric { ior = 1.5 }", "dielectric { ior = 1.5, roughness = "),
     ];
     let mut rows = Vec::new();
@@ -176,7 +183,11 @@ instance ball {{ shape = sphere(radius: 1m), material = m }}\n{}",
                 bad[i] += other[i].counters.bad;
             }
             let z = blocks(&mirror, &other);
-            rows.push(Row::below(format!("{name} {roughness}: largest distance of 16 blocks in se"), 4.0, z));
+            rows.push(Row::below(
+                format!("{name} {roughness}: largest distance of 16 blocks in se"),
+                4.0,
+                z,
+            ));
         }
     }
     rows.push(Row::never("samples that are not finite", 6 * 65536, bad));
@@ -275,11 +286,19 @@ fn fuzz() -> Vec<Row> {
         rows.push(Row {
             double: b,
             expected: "p > 1e-3".into(),
-            ..Row::fact(format!("chi-square of fuzz {fuzz}"), "", &a, chance.iter().all(|p| *p > 1e-3))
+            ..Row::fact(
+                format!("chi-square of fuzz {fuzz}"),
+                "",
+                &a,
+                chance.iter().all(|p| *p > 1e-3),
+            )
         });
     }
     for fuzz in ["1.001", "3"] {
-        rows.push(refused(&format!("fuzz {fuzz}"), &format!("metal {{ color = linear(1), fuzz = {fuzz} }}")));
+        rows.push(refused(
+            &format!("fuzz {fuzz}"),
+            &format!("metal {{ color = linear(1), fuzz = {fuzz} }}"),
+        ));
     }
     rows
 }
@@ -305,7 +324,8 @@ instance ball {{ shape = sphere(radius: 1m), material = m }}\n{}",
     };
     let [black, white] = ["0", "1"].map(|rho| means(&text(rho), 16, 64));
     let clamped = |rho: &str| {
-        let row = refused(&format!("albedo {rho}"), &format!("diffuse {{ color = linear({rho}) }}"));
+        let row =
+            refused(&format!("albedo {rho}"), &format!("diffuse {{ color = linear({rho}) }}"));
         let holds = !row.holds && row.single.contains("warning[");
         Row { expected: "clamped to 1, with a warning".into(), holds, ..row }.known(
             "it is refused with an error at the value: no scene is rendered otherwise than it is written",

@@ -11,7 +11,12 @@ use crate::statistics::stream::Stream;
 
 /// The cases of this file.
 pub const CASES: &[Case] = &[
-    Case { id: "X33", input: "extinction 0", must: "a slab is the identity, exact", measure: nothing },
+    Case {
+        id: "X33",
+        input: "extinction 0",
+        must: "a slab is the identity, exact",
+        measure: nothing,
+    },
     Case { id: "X34", input: "extinction 1e-6, 1e-3", must: "exp(-tau) to 1e-6", measure: thin },
     Case {
         id: "X35",
@@ -99,7 +104,8 @@ fn dense() -> Vec<Row> {
     for (sigma, known) in [(1e3, None), (1e4, None), (1e6, Some(WHY_DENSE))] {
         let medium = format!("sigma_a = {:e}/m, sigma_s = {:e}/m", 0.1 * sigma, 0.9 * sigma);
         let films = films(&near(&medium, "0.5", 1024), 16, 512);
-        let row = Row::mean(format!("{sigma:e}/m, albedo 0.9"), HALF_SPACE, 1e-4, estimates(&films));
+        let row =
+            Row::mean(format!("{sigma:e}/m, albedo 0.9"), HALF_SPACE, 1e-4, estimates(&films));
         rows.push(known.map_or(row.clone(), |why| row.known(why)));
         let bad = [0, 1].map(|i| films[i].counters.bad);
         rows.push(Row::never(format!("{sigma:e}/m: samples that are not finite"), 131_072, bad));
@@ -188,7 +194,12 @@ instance ball {{ shape = sphere(radius: 0.5m), material = m }}\n{}",
         Row::near("depth 1e-8: the sky", 1.0, 1e-6, value(&fog("1e-10", "0.2"))),
         Row::near("depth 100: the fog", 0.2, 1e-6, value(&fog("1", "0.2"))),
         Row::near("in its own light", 1.0, 1e-6, value(&fog("0.01", "1"))),
-        Row::mean("a white ball that scatters, 50 free paths wide", 1.0, 2e-5, estimates(&films_of(&endless(&milk), sized(8, 8)))),
+        Row::mean(
+            "a white ball that scatters, 50 free paths wide",
+            1.0,
+            2e-5,
+            estimates(&films_of(&endless(&milk), sized(8, 8))),
+        ),
     ]
 }
 

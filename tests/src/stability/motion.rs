@@ -53,7 +53,12 @@ render main: path {{ camera = eye, film = f, samples = 16, depth = 4, seed = 5 }
     vec![
         Row::fact("velocity 0 is the picture of a thing at rest", "bit for bit", yes(equal), equal),
         Row::mean("share of time of 1e4 times its size", truth, 0.0, found),
-        Row::mean("irradiance of a light that passes", passing(), 1e-4, means(&passing_light(), 16, 1024)),
+        Row::mean(
+            "irradiance of a light that passes",
+            passing(),
+            1e-4,
+            means(&passing_light(), 16, 1024),
+        ),
     ]
 }
 

@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
-
-use super::tools::{WHITE_SKY, count, diagnose, estimates, films, films_of, means, shot, sized, view};
+use super::tools::{
+    WHITE_SKY, count, diagnose, estimates, films, films_of, means, shot, sized, view,
+};
 use super::{Case, Row};
 use crate::kernel::{Bench, Lobe};
 use crate::picture::channel;
@@ -47,7 +48,8 @@ pub const CASES: &[Case] = &[
 
 fn steep() -> Vec<Row> {
     // A few noise cells of 1 m differ by up to 300 m.
-    let crags = "material m: stone { color = linear(1), color.vein = linear(1), bump.strength = 300m }\n";
+    let crags =
+        "material m: stone { color = linear(1), color.vein = linear(1), bump.strength = 300m }\n";
     let ball = format!(
         "{WHITE_SKY}{crags}instance ball {{ shape = sphere(radius: 1m), material = m }}\n{}",
         shot([0.0, 1.0, 6.0], [0.0; 3], 14.0, 64)
@@ -103,7 +105,12 @@ fn far_noise() -> Vec<Row> {
         Row {
             expected: "p > 1e-3".into(),
             double: b,
-            ..Row::fact("values at 1e6 are spread as at 0", "", &a, chance.iter().all(|p| *p > 1e-3))
+            ..Row::fact(
+                "values at 1e6 are spread as at 0",
+                "",
+                &a,
+                chance.iter().all(|p| *p > 1e-3),
+            )
         },
     ]
 }
@@ -159,7 +166,9 @@ twins! {
 fn texel(width: u32, height: u32, u: &str) -> [f64; 2] {
     let dir = tempfile::tempdir().expect("a temporary directory can be made");
     let at = |x: u32| u8::try_from(x).expect("small");
-    let image = image::RgbImage::from_fn(width, height, |x, y| image::Rgb([at(x * 50 + 20), at(y * 40 + 10), 99]));
+    let image = image::RgbImage::from_fn(width, height, |x, y| {
+        image::Rgb([at(x * 50 + 20), at(y * 40 + 10), 99])
+    });
     image.save(dir.path().join("t.png")).expect("writable");
     let mut obj = String::from("v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n");
     let _ = writeln!(obj, "vt {u} 0.5\nf 1/1 2/1 3/1\nf 1/1 3/1 4/1");
@@ -181,10 +190,16 @@ fn textures() -> Vec<Row> {
     let red = |x: f64| (50.0 * x + 20.0) / 255.0;
     let seam = f64::midpoint(red(0.0), red(2.0));
     let mut rows = vec![Row::near("1x1, u = 1e9", red(0.0), 1e-7, texel(1, 1, "1000000000"))];
-    for (u, expected) in [("-0.0", seam), ("1.0", seam), ("1000000000", seam), ("0.5", red(1.0)), ("-3.5", red(1.0))] {
+    for (u, expected) in
+        [("-0.0", seam), ("1.0", seam), ("1000000000", seam), ("0.5", red(1.0)), ("-3.5", red(1.0))]
+    {
         rows.push(Row::near(format!("3x5, u = {u}"), expected, 1e-7, texel(3, 5, u)));
     }
-    rows.push(Row::below("direction through a sky of 16384 columns, in columns, half a texel", 0.5, both!(lat_long_error(200_000))));
+    rows.push(Row::below(
+        "direction through a sky of 16384 columns, in columns, half a texel",
+        0.5,
+        both!(lat_long_error(200_000)),
+    ));
     rows
 }
 
@@ -197,9 +212,16 @@ instance card {{ shape = rectangle(size: (2, 2)m), material = black }}\n{}",
         )
     };
     let mut rows = Vec::new();
-    for (alpha, radiance, side) in [("0", 1.0, "invisible"), ("1", 0.0, "opaque"), ("0.5", 0.0, "there")] {
+    for (alpha, radiance, side) in
+        [("0", 1.0, "invisible"), ("1", 0.0, "opaque"), ("0.5", 0.0, "there")]
+    {
         let found = means(&scene(alpha), 8, 4).map(|e| e.mean);
-        rows.push(Row::near(format!("alpha {alpha} from the camera: {side}"), radiance, 0.0, found));
+        rows.push(Row::near(
+            format!("alpha {alpha} from the camera: {side}"),
+            radiance,
+            0.0,
+            found,
+        ));
     }
     for (value, truth) in [(0_u8, 0.25), (255, 0.0)] {
         rows.push(shadow(value, truth));

@@ -8,7 +8,8 @@ use compiler::lower::Lowered;
 use runtime::Film;
 
 use super::tools::{
-    WHITE_SKY, count, diagnose, distance, estimates, films, first_error, films_of, means, same, shot, sized, view,
+    WHITE_SKY, count, diagnose, distance, estimates, films, films_of, first_error, means, same,
+    shot, sized, view,
 };
 use super::{Case, Row};
 use crate::scene;
@@ -120,7 +121,12 @@ fn copies() -> Vec<Row> {
     let ((_, one), (compiled, many)) = (films(1), films(100_000));
     let equal = [0, 1].map(|i| same(&one[i], &many[i]));
     vec![
-        Row::fact("image of 1e5 is that of one", "bit for bit", &format!("{equal:?}"), equal == [true; 2]),
+        Row::fact(
+            "image of 1e5 is that of one",
+            "bit for bit",
+            &format!("{equal:?}"),
+            equal == [true; 2],
+        ),
         depth(&compiled.lowered),
     ]
 }
@@ -154,7 +160,11 @@ fn centroids() -> Vec<Row> {
         &wide.to_string(),
         wide <= room,
     );
-    vec![depth(&binary.lowered), fits, Row::fact("triangles", "≥ 100000", &n.to_string(), n >= 100_000)]
+    vec![
+        depth(&binary.lowered),
+        fits,
+        Row::fact("triangles", "≥ 100000", &n.to_string(), n >= 100_000),
+    ]
 }
 
 fn coplanar() -> Vec<Row> {
@@ -168,18 +178,19 @@ instance b {{ shape = rectangle(size: {second}), material = green }}
             shot([0.3, 5.0, 0.4], [0.0; 3], 40.0, 1)
         )
     };
-    let mixed = |films: &[Film; 2]| {
-        count(films, |rgb| rgb != [1.0, 0.0, 0.0] && rgb != [0.0, 1.0, 0.0])
-    };
+    let mixed =
+        |films: &[Film; 2]| count(films, |rgb| rgb != [1.0, 0.0, 0.0] && rgb != [0.0, 1.0, 0.0]);
     let mut rows = Vec::new();
     for (name, second) in [("the same corners", "(20, 20)m"), ("other corners", "(23.7, 21.3)m")] {
         let [few, many] = [4, 64].map(|samples| films(&text(second), 24, samples));
-        let mut row = Row::never(format!("{name}: pixels that mix the two, 64 samples"), 576, mixed(&many));
+        let mut row =
+            Row::never(format!("{name}: pixels that mix the two, 64 samples"), 576, mixed(&many));
         let changed = [0, 1].map(|i| {
             let pairs = few[i].means().into_iter().zip(many[i].means());
             pairs.filter(|(a, b)| a != b).count() as u64
         });
-        let mut stable = Row::never(format!("{name}: pixels that 4 samples show otherwise"), 576, changed);
+        let mut stable =
+            Row::never(format!("{name}: pixels that 4 samples show otherwise"), 576, changed);
         if second != "(20, 20)m" {
             row = row.known(WHY_MIXED);
             stable = stable.known(WHY_MIXED);
@@ -227,7 +238,8 @@ fn moved() -> Vec<Row> {
 }
 
 fn differing(a: &Film, b: &Film) -> u64 {
-    a.sums.iter().zip(&b.sums).filter(|(a, b)| a.map(f64::to_bits) != b.map(f64::to_bits)).count() as u64
+    a.sums.iter().zip(&b.sums).filter(|(a, b)| a.map(f64::to_bits) != b.map(f64::to_bits)).count()
+        as u64
 }
 
 fn scaled() -> Vec<Row> {
@@ -241,7 +253,11 @@ fn scaled() -> Vec<Row> {
     for by in [1e-6, 1e6] {
         let other = films(&things(0.0, by), 24, 64);
         let (a, b) = (estimates(&base), estimates(&other));
-        rows.push(Row::below(format!("{by:e}: distance in se"), 4.0, [0, 1].map(|i| distance(a[i], b[i]))));
+        rows.push(Row::below(
+            format!("{by:e}: distance in se"),
+            4.0,
+            [0, 1].map(|i| distance(a[i], b[i])),
+        ));
     }
     rows
 }
@@ -274,7 +290,11 @@ instance hull { shape = box(size: (0.02, 0.02, 0.02)mm), material = black }\n",
     vec![
         Row::mean("coverage by a sphere", disc, 1e-4, share(&ball, disc)),
         Row::mean("coverage by a box", square, 1e-4, share(&cube, square)),
-        Row::never("pixels that see a light in a closed box", 4096, count(&films(&shut, 64, 64), |c| c != [0.0; 3])),
+        Row::never(
+            "pixels that see a light in a closed box",
+            4096,
+            count(&films(&shut, 64, 64), |c| c != [0.0; 3]),
+        ),
     ]
 }
 
@@ -287,7 +307,8 @@ fn contact() -> Vec<Row> {
 instance floor {{ shape = rectangle(size: (2, 2)m), material = grey }}
 instance lid {{ shape = rectangle(size: (2, 2)m), material = grey, at = (0, {gap_m:e}, 0)m }}
 {}",
-            view([0.0, 0.5 * gap_m, 0.0], [0.0; 3], 8).replace("fov.vertical = 0.001deg", "fov.vertical = 60deg")
+            view([0.0, 0.5 * gap_m, 0.0], [0.0; 3], 8)
+                .replace("fov.vertical = 0.001deg", "fov.vertical = 60deg")
         );
         let lit = count(&films(&text, 32, 64), |c| c != [0.0; 3]);
         rows.push(Row::never(format!("gap {gap:e}: pixels with light"), 1024, lit));
@@ -335,7 +356,12 @@ instance floor {{ shape = rectangle(size: (4, 4)m), material = m }}
         ),
         Row::mean("in water, looking up", pool, 3e-6, means(&water, 16, 1024)),
         Row::mean("on a surface, looking up", 1.0, 0.0, means(&on([0.1, 5.0, 0.0]), 16, 16)),
-        Row::mean("on a surface, looking down through it", 1.0, 0.0, means(&on([0.1, -5.0, 0.0]), 16, 16)),
+        Row::mean(
+            "on a surface, looking down through it",
+            1.0,
+            0.0,
+            means(&on([0.1, -5.0, 0.0]), 16, 16),
+        ),
     ]
 }
 
@@ -369,7 +395,12 @@ instance ball {{ shape = sphere(radius: 1.2m), material = n }}\n{}",
     let leaks = [0, 1].map(|i| films[i].counters.leaks);
     let bad = [0, 1].map(|i| films[i].counters.bad);
     let counted = leaks.iter().all(|n| *n > 0);
-    rows.push(Row::fact("leaks counted", "> 0", &format!("{} and {}", leaks[0], leaks[1]), counted));
+    rows.push(Row::fact(
+        "leaks counted",
+        "> 0",
+        &format!("{} and {}", leaks[0], leaks[1]),
+        counted,
+    ));
     rows.push(Row::never("samples that are not finite", 9216, bad));
     rows
 }
@@ -396,13 +427,22 @@ fn shells() -> Vec<Row> {
     let over = [0, 1].map(|i| films[i].counters.overflows);
     let lossless = estimates(&films);
     vec![
-        Row::fact("overflows counted", "> 0", &format!("{} and {}", over[0], over[1]), over[0] > 0 && over[1] > 0),
+        Row::fact(
+            "overflows counted",
+            "> 0",
+            &format!("{} and {}", over[0], over[1]),
+            over[0] > 0 && over[1] > 0,
+        ),
         Row::mean("radiance under a white sky all the same", 1.0, 1e-5, lossless),
     ]
 }
 
 fn small_trees() -> Vec<Row> {
-    let one = mesh("v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n", CLAY, &view([0.0, 0.0, 5.0], [0.0, 0.0, 0.0], 2));
+    let one = mesh(
+        "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n",
+        CLAY,
+        &view([0.0, 0.0, 5.0], [0.0, 0.0, 0.0], 2),
+    );
     let one = estimates(&films_of(&scene::bytes(&one), sized(8, 256)));
     let sky = format!("{WHITE_SKY}{}", view([0.0, 0.0, 5.0], [0.0; 3], 2));
     vec![

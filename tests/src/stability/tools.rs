@@ -45,7 +45,7 @@ macro_rules! twins {
             fn open(bench: &crate::kernel::Bench) -> k::Kernel<'_> { bench.$module() }
             fn scatter(lobe: &crate::kernel::Lobe) -> k::Scatter { lobe.$module() }
             fn ray(origin: V3, dir: V3) -> k::Ray { crate::kernel::$ray(origin, dir) }
-            pub fn run($($arg: $ty),*) -> $out $body
+            pub(crate) fn run($($arg: $ty),*) -> $out $body
         }
     };
 }
@@ -168,12 +168,8 @@ impl Loader for NoImports {
 #[must_use]
 pub fn diagnose(root: &Path, text: &str) -> (Option<Compiled>, String) {
     let name = root.join("test.rts").display().to_string();
-    let analysis = lang::analyze(
-        &name,
-        &format!("rts 1\n{text}"),
-        &mut NoImports,
-        &lang::Options::default(),
-    );
+    let analysis =
+        lang::analyze(&name, &format!("rts 1\n{text}"), &mut NoImports, &lang::Options::default());
     let mut diagnostics = analysis.diagnostics;
     let cache = Cache::disabled();
     let options =

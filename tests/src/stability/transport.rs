@@ -72,7 +72,8 @@ material lamp: emissive {{ color = linear(1) }}
 instance room {{ shape = sphere(radius: 1m), material = wall }}
 instance spark {{ shape = sphere(radius: 1mm), material = lamp, at = (0, 5, 0)m }}
 {}",
-        view([0.2, 0.1, 0.0], [0.0, -1.0, 0.1], 1024).replace("seed = 11", "seed = 11, sampler = pcg")
+        view([0.2, 0.1, 0.0], [0.0, -1.0, 0.1], 1024)
+            .replace("seed = 11", "seed = 11, sampler = pcg")
     );
     let mut compiled = scene::compile(&text);
     // The language keeps scattering and emission apart in simple materials; the record does not.
@@ -160,7 +161,12 @@ instance stone {{ shape = box(size: (1, 1, 1)m), material = white }}
 {}",
         view([0.3, 0.4, 3.0], [0.0; 3], 1024)
     );
-    vec![Row::mean("radiance of white stone in glass in light of 1", 1.0, 1e-5, estimates(&films_of(&endless(&text), sized(16, 256))))]
+    vec![Row::mean(
+        "radiance of white stone in glass in light of 1",
+        1.0,
+        1e-5,
+        estimates(&films_of(&endless(&text), sized(16, 256))),
+    )]
 }
 
 fn black() -> Vec<Row> {
@@ -174,7 +180,10 @@ light bulb: sphere {{ center = (0, 5, 0)m, radius = 50cm }}
         super::tools::shot([0.0, 1.0, 5.0], [0.0; 3], 40.0, 8)
     );
     // The language refuses a scene without light; one whose light is put out is black, too.
-    let (_, said) = diagnose(Path::new(""), &text.replace("light bulb: sphere { center = (0, 5, 0)m, radius = 50cm }", ""));
+    let (_, said) = diagnose(
+        Path::new(""),
+        &text.replace("light bulb: sphere { center = (0, 5, 0)m, radius = 50cm }", ""),
+    );
     let told = first_error(&said);
     let mut compiled = scene::compile(&format!("rts 1\n{text}"));
     for material in &mut compiled.lowered.materials {
@@ -188,7 +197,7 @@ light bulb: sphere {{ center = (0, 5, 0)m, radius = 50cm }}
         Row::never("pixels that are not 0", 1024, lit),
         Row::never("samples that are not finite", 16_384, bad),
         Row::fact("`--until-error` ends", "exit 0", "not measured", false)
-        .known("the option is not part of the renderer yet"),
+            .known("the option is not part of the renderer yet"),
     ]
 }
 
@@ -252,7 +261,13 @@ twins! {
 }
 
 fn cameras() -> Vec<Row> {
-    let bad = |fov: f64| Row::never(format!("bad rays at {fov} degrees, aperture 0, shutter 0"), 4225, both!(bad_rays(fov)));
+    let bad = |fov: f64| {
+        Row::never(
+            format!("bad rays at {fov} degrees, aperture 0, shutter 0"),
+            4225,
+            both!(bad_rays(fov)),
+        )
+    };
     let wide = view([0.0, 0.0, 5.0], [0.0; 3], 2).replace("0.001deg", "179.9deg");
     let (compiled, said) = diagnose(Path::new(""), &format!("{WHITE_SKY}{wide}"));
     let refused = compiled.is_none() && said.contains("error[");
@@ -287,7 +302,12 @@ fn late_samples() -> Vec<Row> {
             let p = counts.p_value();
             let fresh = seen.len() == n as usize;
             let found = format!("p {}, {} pairs", super::number(p), seen.len());
-            rows.push(Row::fact(format!("{kind:?} {name}"), "p > 1e-3, 65536 pairs", &found, p > 1e-3 && fresh));
+            rows.push(Row::fact(
+                format!("{kind:?} {name}"),
+                "p > 1e-3, 65536 pairs",
+                &found,
+                p > 1e-3 && fresh,
+            ));
         }
     }
     rows
@@ -301,9 +321,11 @@ instance ball {{ shape = sphere(radius: 1m), material = m }}\n{}",
     );
     let bytes = scene::bytes(&scene::compile(&text));
     let mut rows = Vec::new();
-    for (name, wanted) in
-        [("time limit", Stop::TimeLimit), ("interruption", Stop::Cancelled), ("failure", Stop::Failed)]
-    {
+    for (name, wanted) in [
+        ("time limit", Stop::TimeLimit),
+        ("interruption", Stop::Cancelled),
+        ("failure", Stop::Failed),
+    ] {
         let scene = Scene::new(open(&bytes));
         let mut job = Job::of_scene(&scene);
         job.resize([128, 128]);
@@ -325,7 +347,11 @@ instance ball {{ shape = sphere(radius: 1m), material = m }}\n{}",
                 let told = outcome.stop == wanted && film.samples().0 < job.samples.end;
                 let failed = wanted == Stop::Failed && outcome.failures.len() == 1;
                 let even = film.is_even() || failed;
-                let found = format!("{:?}, {}", outcome.stop, if even { "whole batches" } else { "uneven" });
+                let found = format!(
+                    "{:?}, {}",
+                    outcome.stop,
+                    if even { "whole batches" } else { "uneven" }
+                );
                 Row::fact(name, &format!("{wanted:?}, whole batches"), &found, told && even)
             }
         };
