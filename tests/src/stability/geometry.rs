@@ -235,7 +235,8 @@ twins! {
                 missed += 1;
                 continue;
             }
-            off += u64::from(!((hit.t as f64 / truth - 1.0).abs() < 1e-3));
+            let error = (hit.t as f64 / truth - 1.0).abs();
+            off += u64::from(error.is_nan() || error >= 1e-3);
             let s = kernel.dispatch_surface(hit, v3(from), v3(dir), 0.0);
             let up = v3(DVec3::new(dir.x, 1e-6, dir.z));
             let origin = kernel.state_origin(s.p, s.ng * s.gap, up);

@@ -240,7 +240,8 @@ twins! {
             worst = worst.max(if off.is_nan() { f64::INFINITY } else { off });
             // Always the reflection: u = 0.
             let out = kernel.water_sample(scatter(&lobe), wo, 0.0);
-            under += u64::from(out.weight.x > 0.0 && !(wide(out.wi).y > 0.0));
+            let up = wide(out.wi).y;
+            under += u64::from(out.weight.x > 0.0 && (up.is_nan() || up <= 0.0));
         }
         (worst, under)
     }

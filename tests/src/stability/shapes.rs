@@ -8,8 +8,8 @@ use compiler::lower::Lowered;
 use runtime::Film;
 
 use super::tools::{
-    WHITE_SKY, count, diagnose, distance, estimates, films, films_of, first_error, means, same,
-    shot, sized, view,
+    WHITE_SKY, count, diagnose, distance, equal, estimates, films, films_of, first_error, lit,
+    means, same, shot, sized, view,
 };
 use super::{Case, Row};
 use crate::scene;
@@ -178,8 +178,9 @@ instance b {{ shape = rectangle(size: {second}), material = green }}
             shot([0.3, 5.0, 0.4], [0.0; 3], 40.0, 1)
         )
     };
-    let mixed =
-        |films: &[Film; 2]| count(films, |rgb| rgb != [1.0, 0.0, 0.0] && rgb != [0.0, 1.0, 0.0]);
+    let mixed = |films: &[Film; 2]| {
+        count(films, |rgb| !equal(rgb, [1.0, 0.0, 0.0]) && !equal(rgb, [0.0, 1.0, 0.0]))
+    };
     let mut rows = Vec::new();
     for (name, second) in [("the same corners", "(20, 20)m"), ("other corners", "(23.7, 21.3)m")] {
         let [few, many] = [4, 64].map(|samples| films(&text(second), 24, samples));
@@ -187,7 +188,7 @@ instance b {{ shape = rectangle(size: {second}), material = green }}
             Row::never(format!("{name}: pixels that mix the two, 64 samples"), 576, mixed(&many));
         let changed = [0, 1].map(|i| {
             let pairs = few[i].means().into_iter().zip(many[i].means());
-            pairs.filter(|(a, b)| a != b).count() as u64
+            pairs.filter(|(a, b)| !equal(*a, *b)).count() as u64
         });
         let mut stable =
             Row::never(format!("{name}: pixels that 4 samples show otherwise"), 576, changed);
@@ -293,7 +294,7 @@ instance hull { shape = box(size: (0.02, 0.02, 0.02)mm), material = black }\n",
         Row::never(
             "pixels that see a light in a closed box",
             4096,
-            count(&films(&shut, 64, 64), |c| c != [0.0; 3]),
+            count(&films(&shut, 64, 64), lit),
         ),
     ]
 }
@@ -310,8 +311,8 @@ instance lid {{ shape = rectangle(size: (2, 2)m), material = grey, at = (0, {gap
             view([0.0, 0.5 * gap_m, 0.0], [0.0; 3], 8)
                 .replace("fov.vertical = 0.001deg", "fov.vertical = 60deg")
         );
-        let lit = count(&films(&text, 32, 64), |c| c != [0.0; 3]);
-        rows.push(Row::never(format!("gap {gap:e}: pixels with light"), 1024, lit));
+        let shining = count(&films(&text, 32, 64), lit);
+        rows.push(Row::never(format!("gap {gap:e}: pixels with light"), 1024, shining));
     }
     rows
 }
@@ -474,10 +475,10 @@ instance dark {{ shape = rectangle(size: (1, 1)m), material = white, at = (0, -1
 instance floor {{ shape = rectangle(size: (2, 2)m), material = white }}\n{}",
         view([0.0, 2.0, 0.5], [0.0; 3], 2)
     );
-    let lit = count(&films(&coplanar, 16, 64), |c| c != [0.0; 3]);
+    let shining = count(&films(&coplanar, 16, 64), lit);
     vec![
         Row::fact("rectangle of width 0", "error", &line, refused),
         Row::never("pixels that see the lamp edge-on", 1024, bright),
-        Row::never("lit pixels of a floor in the plane of the lamp", 256, lit),
+        Row::never("lit pixels of a floor in the plane of the lamp", 256, shining),
     ]
 }

@@ -122,6 +122,18 @@ pub fn means(text: &str, side: u32, samples: u32) -> [Estimate; 2] {
     estimates(&films(text, side, samples))
 }
 
+/// Whether a pixel is this one, bit for bit.
+#[must_use]
+pub fn equal(rgb: [f64; 3], other: [f64; 3]) -> bool {
+    rgb.map(f64::to_bits) == other.map(f64::to_bits)
+}
+
+/// Whether a pixel is anything but 0.
+#[must_use]
+pub fn lit(rgb: [f64; 3]) -> bool {
+    !equal(rgb, [0.0; 3])
+}
+
 /// How many pixels of the films `test` is true of.
 #[must_use]
 pub fn count(films: &[Film; 2], test: impl Fn([f64; 3]) -> bool) -> [u64; 2] {

@@ -97,7 +97,9 @@ fn room() -> Vec<Row> {
     let truth = 1.0 / (1.0 - f64::from(0.999_f32));
     let spread = |film: &runtime::Film| {
         let mut mean = Mean::default();
-        channel(film, 1).into_iter().for_each(|x| mean.add(x));
+        for x in channel(film, 1) {
+            mean.add(x);
+        }
         mean.deviation()
     };
     let ratio = [0, 1].map(|i| spread(&few[i]) / spread(&many[i]));
