@@ -1,5 +1,6 @@
 //! `cargo run --release -p tests --bin stability`: measures and rewrites `docs/stability.md`.
-//! `--heavy [CASE]` first measures what takes minutes and gigabytes.
+//! `--heavy [WORDS]` first measures what takes minutes and gigabytes, or those of them that have the words in
+//! their case or name.
 
 use std::path::Path;
 
