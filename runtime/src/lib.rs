@@ -17,6 +17,7 @@
 //! # }
 //! ```
 
+pub mod check;
 mod checkpoint;
 pub mod cli;
 mod control;

@@ -12,4 +12,5 @@ pub mod kernel;
 pub mod layers;
 pub mod picture;
 pub mod scene;
+pub mod stability;
 pub mod statistics;

@@ -20,6 +20,7 @@ Examples:
   rtr scene.pack --report error.csv --reference ref.exr   measured against a converged picture
   rtr bench old.pack new.pack --time 30s  which has less error in equal time
   rtr scene.pack --watch --time 10s       render again whenever the pack changes
+  rtr check scene.pack                    is single precision enough for it?
   rtr --list-devices                      what --device can choose from
 
 Exit codes: 0 done; 1 too many samples were not finite; 2 usage; 3 input, output or device;
@@ -27,6 +28,16 @@ Exit codes: 0 done; 1 too many samples were not finite; 2 usage; 3 input, output
 
 /// What renders replicates: no part of another picture, and nothing that can be resumed.
 const MEASURING: [&str; 4] = ["report", "plot", "until_error", "reference"];
+const CHECK_EXAMPLES: &str = "\
+Examples:
+  rtr check scene.pack                      is single precision enough for this scene?
+  rtr check scene.pack --size 160x90 --spp 4   a quick look
+  rtr check scene.pack --heat parts.png     a picture of where it is not
+  rtr check scene.pack --strict             fail at a single pixel, a leak or an overflow
+  rtr check scene.pack --pixel 31,7 --sample 5 --trace
+                                            the path of one sample, ray by ray, in both
+
+Exit codes: 0 stable, or replayed; 1 not stable; 2 usage; 3 input or output.";
 
 /// Renders a pack that `rtc` made, on the GPU or on the CPU.
 #[derive(Debug, Parser)]
@@ -45,6 +56,9 @@ pub(super) enum Command {
     Merge(MergeArgs),
     /// Compares the errors that two packs have after equal time.
     Bench(BenchArgs),
+    /// Traces the same samples in single and in double precision and says where they part.
+    #[command(after_help = CHECK_EXAMPLES)]
+    Check(CheckArgs),
 }
 
 #[derive(Debug, clap::Args)]
@@ -140,6 +154,47 @@ impl ErrorArgs {
 
 #[derive(Debug, clap::Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch on the command line")]
+pub(super) struct CheckArgs {
+    /// The pack to check.
+    #[arg(value_name = "SCENE.pack")]
+    pub(super) pack: PathBuf,
+    /// Samples per pixel.
+    #[arg(long, default_value = "16", value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) spp: u32,
+    /// Image size in pixels, instead of the scene's.
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub(super) size: Option<[u32; 2]>,
+    /// Seed of the image, instead of the scene's.
+    #[arg(long, value_name = "N")]
+    pub(super) seed: Option<u32>,
+    /// Write a picture of the differences: black none, blue 1e-6, orange 1e-3, white all.
+    #[arg(long, value_name = "FILE.png")]
+    pub(super) heat: Option<PathBuf>,
+    /// Fail also at a single pixel that differs by 1e-3, at leaks and at overflows of media.
+    #[arg(long)]
+    pub(super) strict: bool,
+    /// Replay one sample of this pixel instead.
+    #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
+    pub(super) pixel: Option<[u32; 2]>,
+    /// Which sample of the pixel.
+    #[arg(long, default_value = "0", value_name = "N", requires = "pixel")]
+    pub(super) sample: u32,
+    /// Print every ray of the replayed path.
+    #[arg(long, requires = "pixel")]
+    pub(super) trace: bool,
+    /// Threads [default: one for each logical CPU].
+    #[arg(long, value_name = "N", value_parser = parse_threads)]
+    pub(super) threads: Option<usize>,
+    /// Read the pack instead of mapping it: for network file systems.
+    #[arg(long)]
+    pub(super) no_mmap: bool,
+    /// Print errors only.
+    #[arg(long)]
+    pub(super) quiet: bool,
+}
+
+#[derive(Debug, clap::Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch on the command line")]
 pub(super) struct RenderArgs {
     /// The pack to render.
     #[arg(value_name = "SCENE.pack", required_unless_present = "list_devices")]
@@ -227,6 +282,11 @@ pub(super) enum PrecisionArg {
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let size = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
     size.filter(|size: &[u32; 2]| !size.contains(&0)).ok_or("write it as 640x360".to_owned())
+}
+
+fn parse_pixel(text: &str) -> Result<[u32; 2], String> {
+    let pixel = text.split_once(',').and_then(|(x, y)| Some([x.parse().ok()?, y.parse().ok()?]));
+    pixel.ok_or("write it as x,y in pixels".to_owned())
 }
 
 fn parse_rect(text: &str) -> Result<Rect, String> {

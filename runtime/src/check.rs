@@ -1,0 +1,269 @@
+//! A scene → where single and double precision part, and which samples do.
+//!
+//! The same samples are traced by the kernel in `f32` and by its twin in `f64`, path by path: random numbers
+//! are the same, so whatever differs is rounding. It drives the kernel's own functions in the order of its
+//! main loop and knows no materials or lights. It does not print.
+
+mod heat;
+mod path;
+mod verdict;
+
+pub use self::heat::write_heat;
+pub use self::path::{Sample, Step};
+pub use self::verdict::Verdict;
+
+use crate::film::{BadSample, Counters};
+use crate::job::Job;
+use crate::kernel;
+use crate::scene::{Scene, Setup};
+use crate::schedule::WorkItem;
+use pack::abi::Frame;
+use rayon::prelude::*;
+use thiserror::Error;
+
+/// Relative difference of a pixel from which it counts as parted.
+pub const PARTED: f64 = 1e-3;
+
+/// Pixels that are named.
+const WORST: usize = 8;
+
+/// What cannot be checked.
+#[derive(Debug, Error)]
+pub enum CheckError {
+    /// No threads.
+    #[error("cannot start the threads of the CPU kernel: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+    /// The tree of the scene is too deep.
+    #[error("the scene needs a traversal stack of {0} entries, the CPU kernel has {1}")]
+    Stack(u32, u32),
+}
+
+/// A pixel in both precisions.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pixel {
+    /// Mean radiance in `f32` and in `f64`.
+    pub means: [[f64; 3]; 2],
+    /// Largest difference of a channel over the larger of the two pixels, or over a thousandth of the
+    /// image's mean where both are darker.
+    pub off: f64,
+    /// Samples whose paths went other ways.
+    pub parted: u32,
+    /// The sample that differs most, and by how much.
+    pub worst: (u32, f64),
+}
+
+/// What was found.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// Image in pixels.
+    pub size: [u32; 2],
+    /// Samples of every pixel.
+    pub samples: u32,
+    /// Row by row.
+    pub pixels: Vec<Pixel>,
+    /// Mean radiance of the image in `f32` and in `f64`, all channels.
+    pub means: [f64; 2],
+    /// What the two counted.
+    pub counters: [Counters; 2],
+    /// Paths that went other ways.
+    pub parted: u64,
+    /// Samples of radiance NaN, and of infinite radiance, in `f32` and in `f64`.
+    pub bad: [[u64; 2]; 2],
+}
+
+impl Report {
+    /// Largest relative difference of a pixel.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        self.pixels.iter().map(|pixel| pixel.off).fold(0.0, f64::max)
+    }
+
+    /// Mean relative difference of the pixels.
+    #[must_use]
+    pub fn mean(&self) -> f64 {
+        self.pixels.iter().map(|pixel| pixel.off).sum::<f64>() / self.pixels.len().max(1) as f64
+    }
+
+    /// Share of the pixels that differ by more than [`PARTED`].
+    #[must_use]
+    pub fn share_of_pixels(&self) -> f64 {
+        let parted = self.pixels.iter().filter(|pixel| pixel.off > PARTED).count();
+        parted as f64 / self.pixels.len().max(1) as f64
+    }
+
+    /// Share of the paths that went other ways.
+    #[must_use]
+    pub fn share_of_paths(&self) -> f64 {
+        let paths = self.pixels.len() as f64 * f64::from(self.samples);
+        self.parted as f64 / paths.max(1.0)
+    }
+
+    /// Relative difference of the image's mean.
+    #[must_use]
+    pub fn brightness(&self) -> f64 {
+        let [single, double] = self.means;
+        if single.to_bits() == double.to_bits() { 0.0 } else { (single / double - 1.0).abs() }
+    }
+
+    /// The pixels that differ most, the worst first, each with the sample to replay.
+    #[must_use]
+    pub fn worst(&self) -> Vec<(BadSample, Pixel)> {
+        let mut order: Vec<usize> = (0..self.pixels.len()).collect();
+        order.retain(|i| self.pixels[*i].off > 0.0);
+        // Equal ones in the order of the image: the sort is stable.
+        order.sort_by(|a, b| self.pixels[*b].off.total_cmp(&self.pixels[*a].off));
+        let width = self.size[0] as usize;
+        let place = |i: usize| {
+            let side = |x: usize| u32::try_from(x).expect("a pixel of the image");
+            let sample = self.pixels[i].worst.0;
+            (BadSample { x: side(i % width), y: side(i / width), sample }, self.pixels[i])
+        };
+        order.into_iter().take(WORST).map(place).collect()
+    }
+}
+
+/// Traces the samples of the job's whole image in both precisions.
+///
+/// # Errors
+/// When the CPU kernel cannot run the scene.
+pub fn compare(scene: &Scene, job: &Job) -> Result<Report, CheckError> {
+    let setup = scene.setup(job);
+    room(&setup)?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(job.threads.unwrap_or(0)).build()?;
+    let frame = frame(&setup, job);
+    let [width, height] = job.image_size;
+    let rows: Vec<Row> = pool.install(|| {
+        (0..height).into_par_iter().map(|y| row(&setup, &frame, width, y, job)).collect()
+    });
+    let mut report = Report {
+        size: job.image_size,
+        samples: job.samples.count(),
+        pixels: Vec::new(),
+        means: [0.0; 2],
+        counters: [Counters::default(); 2],
+        parted: 0,
+        bad: [[0; 2]; 2],
+    };
+    for row in rows {
+        report.pixels.extend(row.pixels);
+        report.parted += row.parted;
+        for i in [0, 1] {
+            report.counters[i].add(&row.counters[i]);
+            for (sum, n) in report.bad[i].iter_mut().zip(row.bad[i]) {
+                *sum += n;
+            }
+        }
+    }
+    relate(&mut report);
+    Ok(report)
+}
+
+/// One sample in both precisions, with every ray; `f32` first.
+///
+/// # Errors
+/// As [`compare`].
+pub fn replay(scene: &Scene, job: &Job, at: BadSample) -> Result<[Sample; 2], CheckError> {
+    let setup = scene.setup(job);
+    room(&setup)?;
+    let frame = frame(&setup, job);
+    let pixel = [at.x, at.y];
+    Ok([
+        path::single::sample(
+            &mut path::single::open(&setup, &frame),
+            pixel,
+            at.sample,
+            job.seed,
+            true,
+        ),
+        path::double::sample(
+            &mut path::double::open(&setup, &frame),
+            pixel,
+            at.sample,
+            job.seed,
+            true,
+        ),
+    ])
+}
+
+fn room(setup: &Setup<'_>) -> Result<(), CheckError> {
+    let (need, available) = (setup.stack_need(), kernel::f32::STACK_SIZE);
+    if need > available { Err(CheckError::Stack(need, available)) } else { Ok(()) }
+}
+
+fn frame(setup: &Setup<'_>, job: &Job) -> Frame {
+    setup.frame(&WorkItem { tile: job.crop, samples: job.samples, probe: false })
+}
+
+/// A row of the image.
+struct Row {
+    pixels: Vec<Pixel>,
+    counters: [Counters; 2],
+    parted: u64,
+    bad: [[u64; 2]; 2],
+}
+
+fn row(setup: &Setup<'_>, frame: &Frame, width: u32, y: u32, job: &Job) -> Row {
+    let (mut single, mut double) =
+        (path::single::open(setup, frame), path::double::open(setup, frame));
+    let mut row =
+        Row { pixels: Vec::new(), counters: [Counters::default(); 2], parted: 0, bad: [[0; 2]; 2] };
+    for x in 0..width {
+        let mut pixel = Pixel::default();
+        for n in job.samples.start..job.samples.end {
+            let pair = [
+                path::single::sample(&mut single, [x, y], n, job.seed, false),
+                path::double::sample(&mut double, [x, y], n, job.seed, false),
+            ];
+            row.count(&pair, BadSample { x, y, sample: n });
+            let off = difference(pair[0].finite(), pair[1].finite());
+            if off > pixel.worst.1 || n == job.samples.start {
+                pixel.worst = (n, off);
+            }
+            pixel.parted += u32::from(pair[0].way != pair[1].way);
+            for (mean, sample) in pixel.means.iter_mut().zip(&pair) {
+                for (sum, value) in mean.iter_mut().zip(sample.finite()) {
+                    *sum += value / f64::from(job.samples.count());
+                }
+            }
+        }
+        row.parted += u64::from(pixel.parted);
+        row.pixels.push(pixel);
+    }
+    row
+}
+
+impl Row {
+    fn count(&mut self, pair: &[Sample; 2], at: BadSample) {
+        for (i, sample) in pair.iter().enumerate() {
+            let bad = sample.radiance.iter().any(|x| !x.is_finite());
+            let nan = sample.radiance.iter().any(|x| x.is_nan());
+            self.bad[i][usize::from(!nan)] += u64::from(bad);
+            self.counters[i].add(&Counters {
+                rays: u64::from(sample.rays),
+                bad: u64::from(bad),
+                first_bad: bad.then_some(at),
+                depth: sample.segments,
+                overflows: u64::from(sample.strays & 0xffff),
+                leaks: u64::from(sample.strays >> 16),
+            });
+        }
+    }
+}
+
+fn difference(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| (a[k] - b[k]).abs()).fold(0.0, f64::max)
+}
+
+/// Means of the image, and differences relative to them.
+fn relate(report: &mut Report) {
+    let n = 3.0 * report.pixels.len().max(1) as f64;
+    let mean = |i: usize| report.pixels.iter().flat_map(|p| p.means[i]).sum::<f64>() / n;
+    report.means = [mean(0), mean(1)];
+    let floor = 1e-3 * report.means[1];
+    for pixel in &mut report.pixels {
+        let [a, b] = pixel.means;
+        let off = difference(a, b);
+        let scale = a.into_iter().chain(b).fold(floor, f64::max);
+        pixel.off = if off > 0.0 { off / scale } else { 0.0 };
+    }
+}

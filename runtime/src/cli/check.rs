@@ -1,0 +1,172 @@
+//! `rtr check scene.pack`: where single precision is not enough, and the path of one sample.
+
+use super::Exit;
+use super::args::CheckArgs;
+use super::console::Console;
+use crate::check::{self, Report, Sample, Step, Verdict};
+use crate::film::BadSample;
+use crate::job::Job;
+use crate::region::SampleRange;
+use crate::scene::Scene;
+use pack::{MapMode, Pack};
+
+pub(super) fn command(args: &CheckArgs) -> Exit {
+    let console = Console::new(args.quiet);
+    let mode = if args.no_mmap { MapMode::Read } else { MapMode::Map };
+    let scene = match Pack::open(&args.pack, mode) {
+        Ok(pack) => Scene::new(pack),
+        Err(error) => return console.fail_about(&args.pack, &error, Exit::World),
+    };
+    let mut job = Job::of_scene(&scene);
+    if let Some(size) = args.size {
+        job.resize(size);
+    }
+    job.seed = args.seed.unwrap_or(job.seed);
+    job.threads = args.threads;
+    job.samples = SampleRange { start: 0, end: args.spp };
+    if let Err(error) = job.check() {
+        return console.fail(&error, Exit::Usage);
+    }
+    if let Some([x, y]) = args.pixel {
+        if x >= job.image_size[0] || y >= job.image_size[1] {
+            console.warn(&format!("error: pixel {x},{y} is not in the image"));
+            return Exit::Usage;
+        }
+        return replay(args, &console, &scene, &job, BadSample { x, y, sample: args.sample });
+    }
+    let report = match check::compare(&scene, &job) {
+        Ok(report) => report,
+        Err(error) => return console.fail(&error, Exit::World),
+    };
+    tell(&console, &report);
+    if let Some(path) = &args.heat {
+        if let Err(error) = check::write_heat(path, &report) {
+            return console.fail(&error, Exit::World);
+        }
+        console.result(&format!("wrote {}", path.display()));
+    }
+    let verdict = Verdict::of(&report, args.strict);
+    if verdict.is_stable() {
+        console.result("verdict: stable, single precision is enough");
+        return Exit::Done;
+    }
+    for reason in &verdict.reasons {
+        console.result(&format!("  {reason}"));
+    }
+    console.result("verdict: not stable, single precision shows");
+    Exit::NotFinite
+}
+
+fn tell(console: &Console, report: &Report) {
+    let [width, height] = report.size;
+    console.result(&format!("{width}x{height}, {} spp, in f32 and in f64", report.samples));
+    console.result(&format!(
+        "pixels: relative difference {:.1e} in the mean, {:.1e} at most; {:.3} % above {:.0e}",
+        report.mean(),
+        report.largest(),
+        100.0 * report.share_of_pixels(),
+        check::PARTED,
+    ));
+    console.result(&format!("image: the mean differs by {:.1e}", report.brightness()));
+    let paths = 100.0 * report.share_of_paths();
+    console.result(&format!("paths: {paths:.3} % part: other rays, or other hits"));
+    for (name, (counters, bad)) in
+        ["f32", "f64"].into_iter().zip(report.counters.iter().zip(report.bad))
+    {
+        console.result(&format!(
+            "{name}: {} rays, longest path {}, not finite {} (NaN {}, infinite {}), medium overflows {}, leaks {}",
+            counters.rays,
+            counters.depth,
+            counters.bad,
+            bad[0],
+            bad[1],
+            counters.overflows,
+            counters.leaks,
+        ));
+        if let Some(first) = counters.first_bad {
+            console.result(&format!("{name}: first sample that is not finite: {first}"));
+        }
+    }
+    let worst = report.worst();
+    if !worst.is_empty() {
+        console.result("worst pixels; replay with --pixel X,Y --sample N --trace:");
+    }
+    for (at, pixel) in worst {
+        let BadSample { x, y, sample } = at;
+        console.result(&format!(
+            "  --pixel {x},{y} --sample {sample}  off by {:.1e}, {} of {} paths part",
+            pixel.off, pixel.parted, report.samples
+        ));
+    }
+}
+
+fn replay(args: &CheckArgs, console: &Console, scene: &Scene, job: &Job, at: BadSample) -> Exit {
+    let [single, double] = match check::replay(scene, job, at) {
+        Ok(pair) => pair,
+        Err(error) => return console.fail(&error, Exit::World),
+    };
+    console.result(&format!("pixel {},{}, sample {}, seed {}", at.x, at.y, at.sample, job.seed));
+    if args.trace {
+        let names = Names::new(scene);
+        let n = single.steps.len().max(double.steps.len());
+        for i in 0..n {
+            let pair = [&single, &double].map(|sample| sample.steps.get(i));
+            let parts = pair[0].map(|step| step.hit) != pair[1].map(|step| step.hit);
+            console.result(&format!("ray {i}{}", if parts { ": here they part" } else { "" }));
+            for (name, step) in ["f32", "f64"].into_iter().zip(pair) {
+                let text = step.map_or("has ended".to_owned(), |step| names.step(step));
+                console.result(&format!("  {name} {text}"));
+            }
+        }
+    }
+    for (name, sample) in [("f32", &single), ("f64", &double)] {
+        let Sample { radiance: [r, g, b], segments, rays, .. } = sample;
+        console.result(&format!(
+            "{name}: radiance {r:?} {g:?} {b:?}, {segments} segments, {rays} rays"
+        ));
+    }
+    console.result(if single.way == double.way { "the same way" } else { "another way" });
+    Exit::Done
+}
+
+/// Names of materials, as the pack's manifest knows them.
+struct Names {
+    manifest: Option<pack::Manifest>,
+}
+
+impl Names {
+    fn new(scene: &Scene) -> Self {
+        Self { manifest: scene.pack().manifest().ok() }
+    }
+
+    /// `clay (scene.rts:12)`, or the number where there is no name.
+    fn material(&self, index: u32) -> String {
+        let named = self
+            .manifest
+            .as_ref()
+            .and_then(|manifest| Some((manifest, manifest.materials.get(index as usize)?)));
+        let Some((manifest, named)) = named else { return format!("material {index}") };
+        match manifest.file(named.file) {
+            Some(file) if named.line > 0 => format!("{} ({file}:{})", named.name, named.line),
+            _ => named.name.clone(),
+        }
+    }
+
+    fn step(&self, step: &Step) -> String {
+        let kind = if step.shadow { "to a light" } else { "path" };
+        let met = step.material.map_or("nothing".to_owned(), |index| self.material(index));
+        let part = step.hit.map_or(String::new(), |[prim, _]| match prim >> 31 {
+            0 => format!(", triangle {prim}"),
+            _ => format!(", sphere {}", prim & 0x7fff_ffff),
+        });
+        let vector = |[x, y, z]: [f64; 3]| format!("({x:.7} {y:.7} {z:.7})");
+        let far = if step.t < 1e29 { format!(" at {:.7}", step.t) } else { String::new() };
+        format!(
+            "{kind} from {} along {} meets {met}{part}{far}; throughput {}, radiance {}",
+            vector(step.origin),
+            vector(step.dir),
+            vector(step.throughput),
+            vector(step.radiance),
+        )
+    }
+}
