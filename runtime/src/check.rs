@@ -191,7 +191,7 @@ fn room(setup: &Setup<'_>) -> Result<(), CheckError> {
 }
 
 fn frame(setup: &Setup<'_>, job: &Job) -> Frame {
-    setup.frame(&WorkItem { tile: job.crop, samples: job.samples, probe: false })
+    setup.frame(&WorkItem { replicate: 0, tile: job.crop, samples: job.samples, probe: false })
 }
 
 /// A row of the image.

@@ -172,7 +172,8 @@ fn build_meshes(
         report.add(cached.source, cached.warning);
         let start = end;
         end += u32::try_from(corners.len()).expect("counts were checked");
-        Group { kind: GroupKind::Triangles, tree: cached.tree, members: vec![start..end] }
+        let members = std::iter::once(start..end).collect();
+        Group { kind: GroupKind::Triangles, tree: cached.tree, members }
     };
     Ok(meshes.iter().zip(results).map(finish).collect())
 }

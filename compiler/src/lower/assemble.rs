@@ -162,11 +162,7 @@ pub fn lower(
     let mut materials = MaterialTable::new(scene, loaded);
     let mut placement =
         geometry::place(scene, loaded, trees.instancing, &mut materials, diagnostics);
-    let stored = placement.meshes.iter().map(|mesh| mesh.corners.len()).sum::<usize>();
-    let count = placement.corners.len() + stored;
-    if count > bvh::MAX_PRIMITIVES {
-        return Err(LowerError::TooManyTriangles { count });
-    }
+    check_count(&placement)?;
     let (inside, around) = media(scene, loaded, &materials, &placement, diagnostics);
     let environment = loaded.environment.as_ref();
     let sky = scene.sky.as_ref().and_then(|s| sky::sky(s, environment, &mut materials.textures));
@@ -177,8 +173,7 @@ pub fn lower(
     let corners = normalised(&mut placement, &frame, &mut counters);
     count_triangles(&placement, &mut counters);
     let shared = add_meshes(&mut placement, corners);
-    let corners = &shared.corners;
-    let welded = weld(corners);
+    let welded = weld(&shared.all);
     counters.vertices = u64::from(welded.n_ids);
     let mut times = Times { geometry: start.elapsed(), ..Times::default() };
 
@@ -192,7 +187,7 @@ pub fn lower(
 
     let start = Instant::now();
     let instances = instances(&placement, &joined, &motions, &frame);
-    let declared = Declared { corners: shared.corners, welded, balls };
+    let declared = Declared { corners: shared.all, welded, balls };
     let mut ordered = order(&placement, &declared, &joined);
     drop(declared);
     counters.references = ordered.triangles.len() as u64;
@@ -208,7 +203,6 @@ pub fn lower(
     let material_names = names(scene, loaded, materials.refs());
     let [air, fog] = around;
     let settings = settings(scene, &frame, &joined, ordered.lights.len());
-    let render = abi::RenderSettings { air, fog, inside, ..settings };
     let media = medium::records(scene, materials.waters(), &frame);
     let (mut materials, textures) = materials.into_records();
     medium::mark(scene, &mut materials);
@@ -217,7 +211,7 @@ pub fn lower(
     motion::mark(&objects, &mut ordered);
     let (textures, texels) = textures.into_records();
     Ok(Lowered {
-        render,
+        render: abi::RenderSettings { air, fog, inside, ..settings },
         camera: camera::camera(&scene.camera, &frame),
         sky,
         sky_table,
@@ -296,10 +290,20 @@ fn normalised_spheres(placement: &Placement, frame: &Normalization) -> Vec<([f32
     placement.spheres.iter().map(sphere).collect()
 }
 
+/// Refuses more triangles than the pack can number.
+fn check_count(placement: &Placement) -> Result<(), LowerError> {
+    let stored = placement.meshes.iter().map(|mesh| mesh.corners.len()).sum::<usize>();
+    let count = placement.corners.len() + stored;
+    if count > bvh::MAX_PRIMITIVES {
+        return Err(LowerError::TooManyTriangles { count });
+    }
+    Ok(())
+}
+
 /// Triangles of the world and of meshes that are stored once, one list.
 struct Corners {
     /// Those of the world first, then mesh after mesh.
-    corners: Vec<[[f32; 3]; 3]>,
+    all: Vec<[[f32; 3]; 3]>,
     n_world: usize,
     meshes: Vec<Vec<[[f32; 3]; 3]>>,
 }
@@ -313,7 +317,7 @@ fn add_meshes(placement: &mut Placement, mut corners: Vec<[[f32; 3]; 3]>) -> Cor
         corners.extend_from_slice(&mesh.corners);
         meshes.push(std::mem::take(&mut mesh.corners));
     }
-    Corners { corners, n_world, meshes }
+    Corners { all: corners, n_world, meshes }
 }
 
 fn count_triangles(placement: &Placement, counters: &mut Counters) {
@@ -353,7 +357,7 @@ fn build_tree(
     let sizes = placement.mesh_sizes();
     let (mesh_motions, sphere_motions) = motions_of(placement, motions);
     let primitives = Primitives {
-        triangles: &corners.corners[..corners.n_world],
+        triangles: &corners.all[..corners.n_world],
         mesh_sizes: &sizes,
         mesh_motions: &mesh_motions,
         spheres: balls,
@@ -405,7 +409,9 @@ fn forget_objects(
             }
         }
         ordered.spheres.iter_mut().for_each(|sphere| sphere.object = 0);
-        instances.iter_mut().for_each(|instance| instance.object = 0);
+        for instance in &mut instances {
+            instance.object = 0;
+        }
     }
     instances
 }

@@ -150,7 +150,8 @@ pub(super) fn chosen<'a>(file: &'a MeshFile, part: Option<&str>) -> Vec<&'a Part
 
 /// Whether any of the parts may give light at this place.
 fn glows(scene: &Scene, file: &MeshFile, instance: &Instance, parts: &[&Part]) -> bool {
-    let dark = |color: &Color| matches!(color, Color::Constant(rgb) if *rgb == [0.0; 3]);
+    let dark =
+        |color: &Color| matches!(color, Color::Constant(rgb) if rgb.iter().all(|c| *c == 0.0));
     if let Some(material) = instance.material {
         return match &scene.materials[material].model {
             MaterialModel::Emissive { .. } => true,
@@ -161,7 +162,7 @@ fn glows(scene: &Scene, file: &MeshFile, instance: &Instance, parts: &[&Part]) -
         };
     }
     let of_part = |part: &&Part| part.material.map(|material| &file.materials[material as usize]);
-    parts.iter().filter_map(of_part).any(|material| material.emission != [0.0; 3])
+    parts.iter().filter_map(of_part).any(|material| material.emission.iter().any(|c| *c != 0.0))
 }
 
 /// How much a map shrinks lengths at most.

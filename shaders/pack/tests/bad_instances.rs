@@ -33,6 +33,7 @@ const COL_Y: usize = 80;
 type Change = (Kind, usize, u32, &'static str);
 
 /// The word at this byte of the section, and what is said of it.
+#[expect(clippy::too_many_lines, reason = "a table")]
 fn cases() -> Vec<Change> {
     let instances = Kind::INSTANCE;
     let side = |i: usize, side: usize| 64 * i + side;
