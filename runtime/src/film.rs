@@ -449,7 +449,7 @@ mod tests {
         assert_eq!((film.samples(), film.replicates()), ((4, 4), 4));
         assert_eq!(film.ranges, [range(0, 1)]);
         // 0, 1, 2, 3: mean 1.5, squares of the deviations 5, over 4 times 3.
-        assert_eq!(film.mean(0), [1.5; 3]);
+        assert_eq!(film.mean(0).map(f64::to_bits), [1.5_f64.to_bits(); 3]);
         assert!((film.variance[5] - 5.0 / 12.0).abs() < 1e-12);
     }
 }

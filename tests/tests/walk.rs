@@ -17,7 +17,7 @@ fn difference(name: &str, bytes: &[u8]) -> Option<String> {
         outcome.film().means().iter().map(|rgb| rgb.map(f64::to_bits)).collect()
     };
     let differ = bits(&hand).iter().zip(&bits(&generated)).filter(|(a, b)| a != b).count();
-    let counters = [&hand, &generated].map(|outcome| outcome.film().counters.clone());
+    let counters = [&hand, &generated].map(|outcome| outcome.film().counters);
     let same = differ == 0 && counters[0] == counters[1];
     (!same).then(|| format!("{name}: {differ} pixels differ, {counters:?}"))
 }

@@ -171,8 +171,7 @@ pub fn lower(
     let frame = normalization(&placement);
     let mut counters = Counters::default();
     let corners = normalised(&mut placement, &frame, &mut counters);
-    count_triangles(&placement, &mut counters);
-    let shared = add_meshes(&mut placement, corners);
+    let shared = add_meshes(&mut placement, corners, &mut counters);
     let welded = weld(&shared.all);
     counters.vertices = u64::from(welded.n_ids);
     let mut times = Times { geometry: start.elapsed(), ..Times::default() };
@@ -201,7 +200,6 @@ pub fn lower(
         diagnostics.push(darkness(scene));
     }
     let material_names = names(scene, loaded, materials.refs());
-    let [air, fog] = around;
     let settings = settings(scene, &frame, &joined, ordered.lights.len());
     let media = medium::records(scene, materials.waters(), &frame);
     let (mut materials, textures) = materials.into_records();
@@ -211,7 +209,7 @@ pub fn lower(
     motion::mark(&objects, &mut ordered);
     let (textures, texels) = textures.into_records();
     Ok(Lowered {
-        render: abi::RenderSettings { air, fog, inside, ..settings },
+        render: abi::RenderSettings { air: around[0], fog: around[1], inside, ..settings },
         camera: camera::camera(&scene.camera, &frame),
         sky,
         sky_table,
@@ -308,8 +306,13 @@ struct Corners {
     meshes: Vec<Vec<[[f32; 3]; 3]>>,
 }
 
-/// Adds what is stored once to the triangles of the world, which have these `corners`.
-fn add_meshes(placement: &mut Placement, mut corners: Vec<[[f32; 3]; 3]>) -> Corners {
+/// Adds what is stored once to the triangles of the world, which have these `corners`, and counts both.
+fn add_meshes(
+    placement: &mut Placement,
+    mut corners: Vec<[[f32; 3]; 3]>,
+    counters: &mut Counters,
+) -> Corners {
+    count_triangles(placement, counters);
     let n_world = corners.len();
     let mut meshes = Vec::with_capacity(placement.meshes.len());
     for mesh in &mut placement.meshes {

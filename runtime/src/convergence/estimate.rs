@@ -220,7 +220,7 @@ mod tests {
 
     #[test]
     fn black_has_no_error_and_no_nan() {
-        let black = noise(&[[0.0; REPLICATES]; 1024], 32, 1.0);
+        let black = noise(&vec![[0.0; REPLICATES]; 1024], 32, 1.0);
         assert_eq!(black, Noise::default());
         assert!(!black.is_heavy_tailed());
     }

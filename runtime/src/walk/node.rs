@@ -9,9 +9,9 @@ use glam::{UVec4, Vec3};
 use wide::{f32x4, i32x4};
 
 /// By how much the far end of a box grows; see `box_enter`.
-pub(super) const FAR_END: f32 = 1.000_000_95;
+pub(super) const FAR_END: f32 = 1.000_001;
 /// 2^-21, eight roundings.
-const SLACK: f32 = 4.768_371_582_031_25e-7;
+const SLACK: f32 = 4.768_371_6e-7;
 
 /// What is worked out once a ray.
 pub(super) struct Walker<'a> {

@@ -1,7 +1,5 @@
 //! Rays against triangles and spheres that hardly are any.
 
-#![expect(clippy::cast_precision_loss, reason = "counts are small")]
-
 use std::f64::consts::TAU;
 
 use glam::DVec3;

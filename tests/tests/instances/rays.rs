@@ -1,6 +1,8 @@
 //! Rays in scenes with instances, against every triangle of every instance, in double precision, and against the
 //! offset with which rays leave surfaces.
 
+#![expect(clippy::cast_possible_truncation, reason = "times of rays are rounded once")]
+
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
