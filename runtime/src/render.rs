@@ -131,7 +131,7 @@ pub fn render_session(
         if let Some(saver) = &saver {
             scope.spawn(|| saver.work(&note));
         }
-        let error = backends.render(device, &run, &mut names);
+        let error = backends.render(&device, &run, &mut names);
         if let Some(saver) = &saver {
             saver.close();
         }
@@ -177,14 +177,14 @@ struct Backends<'a> {
 impl Backends<'_> {
     /// Renders on the device; with `auto`, the CPU finishes what a GPU could not. Gives what became
     /// of the device when nothing went on.
-    fn render(&self, device: Selected, run: &Run<'_>, names: &mut Vec<String>) -> Option<String> {
+    fn render(&self, device: &Selected, run: &Run<'_>, names: &mut Vec<String>) -> Option<String> {
         let setup = self.scene.setup(self.job);
         match device {
             Selected::Cpu => {}
             #[cfg(feature = "gpu")]
             Selected::Gpu(adapter) => {
                 self.begin(adapter.describe(), run, names);
-                let error = gpu::render(&adapter, &setup, self.job, run).err()?;
+                let error = gpu::render(adapter, &setup, self.job, run).err()?;
                 if *self.choice != DeviceChoice::Auto {
                     run.abort();
                     return Some(error.to_string());
