@@ -27,8 +27,8 @@ pub use entry::EntryFault;
 pub const MIN_PRIMITIVES: usize = 20_000;
 /// Default limit of all files together, bytes.
 const CAP: u64 = 4 << 30;
-/// Bytes of a record: thousands of file names.
-const MAX_RECORD: u64 = 16 << 20;
+/// Bytes of a record: thousands of file names, or a hundred thousand emitters and triangles of filled things.
+const MAX_RECORD: u64 = 64 << 20;
 
 /// Where trees are kept, if anywhere.
 #[derive(Clone, Debug)]
@@ -206,11 +206,11 @@ impl Cache {
         (bytes.len() as u64 <= MAX_RECORD).then_some(bytes)
     }
 
-    /// Keeps a few bytes under a key. A cache that cannot be written harms nobody.
-    pub(crate) fn store_record(&self, key: &blake3::Hash, bytes: &[u8]) {
-        if let Some(root) = &self.root {
-            let _ = dir::store(&root.join(dir::record_path(key)), bytes);
-        }
+    /// Keeps some bytes under a key; says whether it did. A cache that cannot be written harms nobody.
+    pub(crate) fn store_record(&self, key: &blake3::Hash, bytes: &[u8]) -> bool {
+        let Some(root) = &self.root else { return false };
+        let fits = bytes.len() as u64 <= MAX_RECORD;
+        fits && dir::store(&root.join(dir::record_path(key)), bytes).is_ok()
     }
 
     /// How much there is.

@@ -9,15 +9,19 @@
     reason = "records hold f32 and u32; indices are bounded by the format's limits before"
 )]
 
+mod again;
 mod assemble;
 mod camera;
 mod closed;
+mod finish;
 mod fresnel;
 mod geometry;
 mod grain;
 mod inside;
+mod known;
 mod light;
 mod light_tree;
+mod lowered;
 mod material;
 mod medium;
 mod motion;
@@ -26,19 +30,27 @@ mod order;
 mod pieces;
 mod power;
 mod principled;
+mod rows;
 mod share;
 mod sheet;
+mod sketch;
 mod sky;
 mod sky_table;
 mod stored;
 mod texture;
 mod thick;
+mod trees;
 
-pub use assemble::{Counters, LowerError, Lowered, Times, Trees, lower};
+pub use again::lower_again;
+pub use assemble::lower;
 pub use geometry::Placement;
+pub use lowered::{Counters, LowerError, Lowered, Times};
+pub use rows::{Kept, Rows};
 pub use share::{Instancing, MIN_SAVED, MIN_TRIANGLES, UnknownInstancing};
+pub use sketch::Sketch;
 pub use stored::{Placed, Stored};
 pub use texture::{TextureTable, srgb_table};
+pub use trees::Trees;
 
 use std::sync::Arc;
 

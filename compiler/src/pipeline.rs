@@ -2,6 +2,8 @@
 //!
 //! It does not parse, print, or decide where the pack goes.
 
+mod again;
+mod essence;
 mod features;
 mod load;
 mod manifest;
@@ -16,9 +18,11 @@ use pack::{PackError, PackWriter};
 use shaders::{FeatureSet, LayoutError, Linked, ShaderError};
 
 use crate::import::Limits;
-use crate::lower::{self, LowerError, Lowered, Trees};
+use crate::lower::{self, LowerError, Lowered, Rows, Trees};
 use crate::reuse::{Reuse, Reused, Share};
+use essence::Essence;
 
+pub use again::{Memory, compile_again};
 pub use load::FileRead;
 
 /// What a compilation is given besides the scene.
@@ -58,6 +62,8 @@ pub struct Compiled {
     pub recipe_id: [u8; 32],
     /// Files that were read besides the scene texts.
     pub files: Vec<FileRead>,
+    /// What is left for the next compilation; `None` where it could not use it.
+    pub memory: Option<Memory>,
     /// What was taken over from earlier compilations.
     pub reused: Reused,
     /// What took how long.
@@ -120,20 +126,35 @@ pub fn compile_reusing(
         return Err(CompileError::Scene);
     }
     clock.times(&lowered.times);
-    let features = features::of(&lowered);
-    let kernel = shaders::link(&features)?;
-    reuse.kernel(&kernel.text, || {
-        let (module, _) = shaders::validate(&kernel)?;
-        shaders::check_layouts(&module).map_err(CompileError::from)
-    })?;
+    let (features, kernel) = link(&lowered, reuse, None)?;
     clock.phase("link and prove the kernel");
     let context = manifest::Context { scene, sources, options, files: &files };
     let manifest = context.manifest(&lowered, &features);
     let recipe_id = context.recipe_id();
     let trees = Share { reused: lowered.trees.loaded, all: lowered.trees.groups };
     let reused = Reused { texts: sources.ids().count(), trees, ..reuse.counts() };
+    let essence = Essence::new(scene, sources);
+    let memory = lowered.sketch.clone().map(|sketch| Memory::new(&essence, &files, sketch));
     let phases = clock.phases;
-    Ok(Compiled { lowered, features, kernel, manifest, recipe_id, files, reused, phases })
+    Ok(Compiled { lowered, features, kernel, manifest, recipe_id, files, memory, reused, phases })
+}
+
+/// The kernel of a scene, proven to read the bytes that the pack has; a kernel with the text `proven` was.
+fn link(
+    lowered: &Lowered,
+    reuse: &Reuse,
+    proven: Option<&str>,
+) -> Result<(FeatureSet, Linked), CompileError> {
+    let features = features::of(lowered);
+    let kernel = shaders::link(&features)?;
+    if proven == Some(kernel.text.as_str()) {
+        reuse.know_kernel(&kernel.text);
+    }
+    reuse.kernel(&kernel.text, || {
+        let (module, _) = shaders::validate(&kernel)?;
+        shaders::check_layouts(&module).map_err(CompileError::from)
+    })?;
+    Ok((features, kernel))
 }
 
 impl Compiled {
@@ -148,11 +169,18 @@ impl Compiled {
         if let Some(sky) = &lowered.sky {
             writer.record(sky);
         }
+        let rows = [lowered.nodes.section(), lowered.wide_nodes.section()];
+        let more =
+            [lowered.triangles.section(), lowered.shades.section(), lowered.texels.section()];
+        for section in rows.into_iter().chain(more).flatten() {
+            writer.section(section);
+        }
         writer
-            .records(&lowered.nodes)
-            .records(&lowered.wide_nodes)
-            .records(&lowered.triangles)
-            .records(&lowered.shades)
+            .records(made(&lowered.nodes))
+            .records(made(&lowered.wide_nodes))
+            .records(made(&lowered.triangles))
+            .records(made(&lowered.shades))
+            .texels(made(&lowered.texels))
             .records(&lowered.spheres)
             .records(&lowered.materials)
             .records(&lowered.objects)
@@ -161,7 +189,6 @@ impl Compiled {
             .records(&lowered.lights)
             .records(&lowered.light_nodes)
             .records(&lowered.textures)
-            .texels(&lowered.texels)
             .sky_table(&lowered.sky_table)
             .kernel(&self.kernel.text)
             .recipe_id(self.recipe_id);
@@ -171,6 +198,14 @@ impl Compiled {
         }
         writer.manifest(&self.manifest)?;
         Ok(writer)
+    }
+}
+
+/// The records that are not those of an earlier pack.
+fn made<T>(rows: &Rows<T>) -> &[T] {
+    match rows {
+        Rows::Made(rows) => rows,
+        Rows::Kept(_) => &[],
     }
 }
 

@@ -43,6 +43,8 @@ pub struct Reused {
     pub meshes: Share,
     /// Image files that textures name; those of mesh files belong to these.
     pub images: Share,
+    /// Everything that is made of files is that of an earlier pack: none was read.
+    pub geometry: bool,
     /// Trees.
     pub trees: Share,
     /// The proof of the kernel.
@@ -190,6 +192,11 @@ impl Reuse {
             state.kernels.insert(text.to_owned());
         }
         Ok(())
+    }
+
+    /// This kernel was proven by the same program.
+    pub(crate) fn know_kernel(&self, text: &str) {
+        self.lock().kernels.insert(text.to_owned());
     }
 
     /// Stamps of files, those taken before they were read where there are any.

@@ -2,13 +2,14 @@
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
 
 use clap::Args;
 use lang::Analysis;
 
 use super::files::{DiskLoader, TextError, read_text};
-use super::record::{Job, Record};
+use super::record::{Before, Done, Edited, Job, Record};
 use super::watch::watch;
 use super::{BUG, IO, OK, ReportArgs, SCENE, SceneArgs};
 use crate::bvh::{Layout, Preset};
@@ -16,7 +17,7 @@ use crate::cache::Cache;
 use crate::depfile::depfile;
 use crate::import::Limits;
 use crate::lower::{Counters, Instancing, Trees, srgb_table};
-use crate::pipeline::{self, CompileError, Compiled, Options, Phase};
+use crate::pipeline::{self, CompileError, Compiled, Memory, Options, Phase};
 use crate::report::Reporter;
 use crate::reuse::{Reuse, Reused, Share};
 use shaders::ShaderError;
@@ -100,17 +101,20 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
     let trees =
         Trees { preset: args.bvh, layout: args.nodes, instancing: args.instances, cache: &cache };
     let job = Job { scene: &args.scene.scene, output: &output, defines: &args.scene.define, trees };
-    // Who asks for the kernel or the times wants to see a compilation.
-    if args.emit_wgsl.is_none()
-        && !args.timings
-        && let Some(record) = job.up_to_date(&cache)
-    {
-        return up_to_date(args, &record, &output, reuse, reporter);
-    }
-    let (compiled, mut phases, silent) = match compile(&args.scene, trees, reuse, reporter) {
-        Ok(done) => done,
-        Err(code) => return code,
+    let before = job.before(&cache);
+    let edited = match before {
+        // Who asks for the kernel or the times wants to see a compilation.
+        Before::UpToDate(record) if args.emit_wgsl.is_none() && !args.timings => {
+            return up_to_date(args, &record, &output, reuse, reporter);
+        }
+        Before::Edited(edited) => Some(edited),
+        Before::UpToDate(_) | Before::Nothing => None,
     };
+    let Compilation { compiled, mut phases, texts, silent, whole } =
+        match compile(&args.scene, &job, edited.as_ref(), reuse, reporter) {
+            Ok(done) => done,
+            Err(code) => return code,
+        };
     if let Some(path) = &args.emit_wgsl
         && let Err(code) = write_text(path, &compiled.kernel.text, reporter)
     {
@@ -118,10 +122,14 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
     }
     let writing = Instant::now();
     let srgb = srgb_table();
-    if let Err(error) = compiled.writer(&srgb).and_then(|writer| writer.write(&output)) {
-        reporter.failure(&error.to_string());
-        return IO;
-    }
+    let written = compiled.writer(&srgb).and_then(|writer| writer.write(&output));
+    let render_id = match written {
+        Ok(render_id) => render_id,
+        Err(error) => {
+            reporter.failure(&error.to_string());
+            return IO;
+        }
+    };
     if let Some(path) = &args.depfile
         && let Err(code) = write_depfile(path, &output, reuse, reporter)
     {
@@ -139,9 +147,11 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
         reporter.status(&line);
     }
     let silent = silent && compiled.lowered.trees.warnings.is_empty();
-    drop(compiled);
-    if silent {
-        job.keep(&cache, reuse);
+    let pack = [render_id, compiled.recipe_id];
+    let memory = compiled.memory.as_ref().filter(|_| whole);
+    if silent || memory.is_some() {
+        let now = edited.map(Edited::now).unwrap_or_default();
+        job.keep(&cache, reuse, Done { texts, pack, silent, memory, now });
     }
     OK
 }
@@ -190,7 +200,13 @@ fn write_depfile(path: &Path, output: &Path, reuse: &Reuse, reporter: &Reporter)
 pub(super) fn check(args: &CheckArgs) -> u8 {
     let reporter = args.report.reporter();
     let cache = Cache::from_env();
-    match compile(&args.scene, Trees::usual(&cache), &Reuse::once(), &reporter) {
+    let job = Job {
+        scene: &args.scene.scene,
+        output: Path::new(""),
+        defines: &args.scene.define,
+        trees: Trees::usual(&cache),
+    };
+    match compile(&args.scene, &job, None, &Reuse::once(), &reporter) {
         Ok(_) => OK,
         Err(code) => code,
     }
@@ -219,35 +235,65 @@ fn analyze_reading(scene: &SceneArgs, reuse: &Reuse, reporter: &Reporter) -> Res
     Ok(lang::analyze(&shown, &text, &mut DiskLoader { reuse: Some(reuse) }, &options))
 }
 
-/// Also gives the phases, and whether there was nothing to say.
+/// A scene that became everything that its pack holds.
+struct Compilation {
+    compiled: Compiled,
+    phases: Vec<Phase>,
+    /// Texts of the scene.
+    texts: Vec<PathBuf>,
+    /// There was nothing to say of it.
+    silent: bool,
+    /// What there was to say will be said again when only texts have changed.
+    whole: bool,
+}
+
+/// Compiles the scene of a job; `edited`: what is there of the last time.
 fn compile(
     args: &SceneArgs,
-    trees: Trees<'_>,
+    job: &Job<'_>,
+    edited: Option<&Edited>,
     reuse: &Reuse,
     reporter: &Reporter,
-) -> Result<(Compiled, Vec<Phase>, bool), u8> {
+) -> Result<Compilation, u8> {
     let start = Instant::now();
     let Analysis { sources, scene, mut diagnostics, .. } = analyze_reading(args, reuse, reporter)?;
     let Some(scene) = scene else {
         reporter.diagnostics(&sources, &diagnostics);
         return Err(SCENE);
     };
+    let n_of_text = diagnostics.len();
     let mut phases = vec![Phase { name: "read and check the text", time: start.elapsed() }];
     let options = Options {
         root: args.scene.parent().unwrap_or(Path::new("")),
-        trees,
+        trees: job.trees,
         limits: Limits::default(),
         defines: &args.define,
     };
-    let result = pipeline::compile_reusing(&scene, &sources, &options, reuse, &mut diagnostics);
-    reporter.diagnostics(&sources, &diagnostics);
-    match result {
-        Ok(mut compiled) => {
-            phases.append(&mut compiled.phases);
-            Ok((compiled, phases, diagnostics.is_empty()))
+    let mut again = || -> Result<Option<Compiled>, CompileError> {
+        let Some(edited) = edited else { return Ok(None) };
+        let fits = |memory: &Memory| memory.fits(&scene, &sources);
+        let Some((pack, memory)) = job.earlier(job.trees.cache, edited, fits) else {
+            return Ok(None);
+        };
+        let known = (&Arc::new(pack), memory);
+        pipeline::compile_again(&scene, &sources, &options, known, reuse, &mut diagnostics)
+    };
+    let taken_over = again();
+    let result = match taken_over {
+        Ok(Some(compiled)) => {
+            edited.iter().flat_map(|edited| edited.data()).for_each(|path| reuse.read(path));
+            Ok(compiled)
         }
-        Err(error) => Err(failed(&error, reporter)),
-    }
+        Ok(None) => pipeline::compile_reusing(&scene, &sources, &options, reuse, &mut diagnostics),
+        Err(error) => Err(error),
+    };
+    reporter.diagnostics(&sources, &diagnostics);
+    let mut compiled = result.map_err(|error| failed(&error, reporter))?;
+    phases.append(&mut compiled.phases);
+    let silent = diagnostics.is_empty();
+    let whole = diagnostics.len() == n_of_text;
+    let texts = sources.ids().map(|id| PathBuf::from(sources.name(id))).collect();
+    Ok(Compilation { compiled, phases, texts, silent, whole })
 }
 
 fn failed(error: &CompileError, reporter: &Reporter) -> u8 {
@@ -356,7 +402,7 @@ fn timings(phases: &[Phase], compiled: &Compiled) -> String {
 
 /// What a phase took over, for the table.
 fn phase_reuse(name: &str, reused: &Reused) -> String {
-    let Reused { texts, meshes, images, trees, kernel } = reused;
+    let Reused { texts, meshes, images, geometry: _, trees, kernel } = reused;
     let share = |share: &Share, what: &str| format!("{} of {} {what}", share.reused, share.all);
     match name {
         "read and check the text" => format!("0 of {texts} texts"),
@@ -369,7 +415,11 @@ fn phase_reuse(name: &str, reused: &Reused) -> String {
 
 /// One line about everything that was taken over, if anything was.
 fn reused_text(reused: &Reused) -> Option<String> {
-    let Reused { texts: _, meshes, images, trees, kernel } = reused;
+    let Reused { texts: _, meshes, images, geometry, trees, kernel } = reused;
+    if *geometry {
+        let proof = if kernel.reused > 0 { ", the proof of the kernel" } else { "" };
+        return Some(format!("reused the geometry and the textures of the last pack{proof}"));
+    }
     let shares = [(meshes, "meshes"), (images, "images"), (trees, "trees")];
     let some = shares.into_iter().filter(|(share, _)| share.reused > 0);
     let mut parts: Vec<String> =

@@ -9,10 +9,10 @@ use std::borrow::Cow;
 use glam::{DMat3, DVec2, DVec3};
 use lang::diagnostic::{Code, Diagnostic};
 use lang::scene::{Instance, Scene, Shape};
-use pack::abi::{self, LightKind, NONE, TRI_SMOOTH, material_flag};
+use pack::abi::{self, LightKind, NONE, TRI_SMOOTH};
 
 use super::Loaded;
-use super::light::{Emitter, luminance};
+use super::light::Emitter;
 use super::material::{MaterialRef, MaterialTable};
 use super::motion::Shutter;
 use super::object::Thing;
@@ -218,7 +218,7 @@ impl Placer<'_, '_> {
 
     fn rectangles(&mut self, faces: &[Parallelogram]) {
         let material = self.material(MaterialRef::Default);
-        let emits = emits(material, self.materials);
+        let emits = self.materials.glow(material) > 0.0;
         for [corner, edge1, edge2] in faces {
             let origin = self.transform.point(*corner);
             let (mut edge1, mut edge2) =
@@ -244,13 +244,13 @@ impl Placer<'_, '_> {
                 self.placement.corners.push([corners[a], corners[b], corners[c]]);
                 self.placement.shades.push(shade);
             }
-            if let Some(radiance) = emits {
+            if emits {
                 self.placement.emitters.push(Emitter {
                     kind: LightKind::Rectangle,
                     primitive: first,
                     count: 2,
                     material,
-                    power: radiance * edge1.cross(edge2).length(),
+                    area: edge1.cross(edge2).length(),
                     tint: [0.0; 4],
                 });
             }
@@ -345,7 +345,7 @@ impl Placer<'_, '_> {
     }
 
     fn part(&mut self, part: &Part, material: u32) {
-        let emits = emits(material, self.materials);
+        let emits = self.materials.glow(material) > 0.0;
         let pieces = if self.sheets.is_some() { pieces_of(part) } else { Vec::new() };
         for tri_idx in 0..part.triangles.len() {
             let piece = pieces.get(tri_idx).copied().unwrap_or(0);
@@ -364,14 +364,14 @@ impl Placer<'_, '_> {
             let smooth = if normals.is_some() { TRI_SMOOTH } else { 0 };
             let object = self.object | smooth;
             let normals = normals.map_or([0; 3], |normals| order.map(|k| normals[k]));
-            if let Some(radiance) = emits {
+            if emits {
                 let [a, b, c] = corners;
                 self.placement.emitters.push(Emitter {
                     kind: LightKind::Triangle,
                     primitive: self.placement.corners.len() as u32,
                     count: 1,
                     material,
-                    power: radiance * 0.5 * (b - a).cross(c - a).length(),
+                    area: 0.5 * (b - a).cross(c - a).length(),
                     tint: [0.0; 4],
                 });
             }
@@ -391,13 +391,13 @@ impl Placement {
 
     fn add_sphere(&mut self, ball: &Ball, materials: &MaterialTable<'_>) {
         let Ball { center, radius, material, object } = *ball;
-        if let Some(radiance) = emits(material, materials) {
+        if materials.glow(material) > 0.0 {
             self.emitters.push(Emitter {
                 kind: LightKind::Sphere,
                 primitive: self.spheres.len() as u32,
                 count: 1,
                 material,
-                power: radiance * 4.0 * std::f64::consts::PI * radius * radius,
+                area: 4.0 * std::f64::consts::PI * radius * radius,
                 tint: [0.0; 4],
             });
         }
@@ -470,14 +470,6 @@ fn reads_textures(material: &abi::Material) -> bool {
         material.transmission_texture,
     ];
     textures.iter().any(|texture| *texture != NONE)
-}
-
-/// Luminance of a material's mean radiance, counted for each emitting side; `None` if dark.
-fn emits(material: u32, materials: &MaterialTable<'_>) -> Option<f64> {
-    let flags = materials.records()[material as usize].flags;
-    let sides = if flags & material_flag::EMIT_BOTH_SIDES != 0 { 2.0 } else { 1.0 };
-    let radiance = luminance(materials.mean_emission(material));
-    (radiance > 0.0).then_some(sides * radiance)
 }
 
 /// A direction as two 16-bit signed normalised integers, x in the low half (Cigolle et al. 2014,

@@ -8,6 +8,7 @@ use glam::DVec3;
 use lang::diagnostic::{Code, Diagnostic};
 use lang::scene::Scene;
 use pack::abi::{self, NONE};
+use serde::{Deserialize, Serialize};
 
 use super::geometry::Placement;
 use super::medium::has_inside;
@@ -44,45 +45,76 @@ impl Solid {
     }
 }
 
+/// A surface of a thing whose material has an inside, world frame, metres.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Boundary {
+    /// Index into `Placement::things`.
+    object: u32,
+    material: u32,
+    form: Form,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+enum Form {
+    Triangle([[f64; 3]; 3]),
+    Sphere { center: [f64; 3], radius: f64 },
+}
+
+/// All surfaces of things whose materials have an inside.
+pub(super) fn boundaries(placement: &Placement, materials: &[abi::Material]) -> Vec<Boundary> {
+    let mut found = Vec::new();
+    let counts = |material: u32| has_inside(&materials[material as usize]);
+    let mut add = |corners: &[DVec3; 3], material: u32, object: u32| {
+        let form = Form::Triangle(corners.map(|p| p.to_array()));
+        found.push(Boundary { object, material, form });
+    };
+    for (corners, shade) in placement.corners.iter().zip(&placement.shades) {
+        if counts(shade.material) {
+            add(corners, shade.material, shade.object & !abi::TRI_SMOOTH);
+        }
+    }
+    for placed in &placement.placed {
+        for (corners, own) in placement.meshes[placed.mesh].triangles() {
+            let material = placed.material_of(own);
+            if counts(material) {
+                add(&placed.triangle(corners), material, placed.object);
+            }
+        }
+    }
+    for (i, (center, radius)) in placement.spheres.iter().enumerate() {
+        let (material, object) = (placement.sphere_materials[i], placement.sphere_objects[i]);
+        if counts(material) {
+            let form = Form::Sphere { center: center.to_array(), radius: *radius };
+            found.push(Boundary { object, material, form });
+        }
+    }
+    found
+}
+
 /// Things of the scene whose materials have an inside, by their index in `Placement::things`.
 pub(super) struct Solids(BTreeMap<u32, Solid>);
 
 impl Solids {
-    /// Finds them, as seen from `eye`.
-    pub(super) fn find(placement: &Placement, materials: &[abi::Material], eye: DVec3) -> Self {
+    /// The things with these surfaces, as seen from `eye`.
+    pub(super) fn new(boundaries: &[Boundary], eye: DVec3) -> Self {
         let mut solids = BTreeMap::new();
-        let counts = |material: u32| has_inside(&materials[material as usize]);
-        let mut add = |corners: &[DVec3; 3], material: u32, object: u32| {
-            let solid = solids.entry(object).or_insert_with(|| Solid::new(material));
-            for p in corners {
-                solid.grow(*p);
-            }
-            if let Some(t) = hit_triangle(corners, eye) {
+        for Boundary { object, material, form } in boundaries {
+            let solid = solids.entry(*object).or_insert_with(|| Solid::new(*material));
+            let crossing = match form {
+                Form::Triangle(corners) => {
+                    let corners = corners.map(DVec3::from);
+                    corners.iter().for_each(|p| solid.grow(*p));
+                    hit_triangle(&corners, eye)
+                }
+                Form::Sphere { center, radius } => {
+                    let center = DVec3::from(*center);
+                    solid.grow(center - *radius);
+                    solid.grow(center + *radius);
+                    leave_sphere(center, *radius, eye)
+                }
+            };
+            if let Some(t) = crossing {
                 solid.cross(t);
-            }
-        };
-        for (corners, shade) in placement.corners.iter().zip(&placement.shades) {
-            if counts(shade.material) {
-                add(corners, shade.material, shade.object & !abi::TRI_SMOOTH);
-            }
-        }
-        for placed in &placement.placed {
-            for (corners, own) in placement.meshes[placed.mesh].triangles() {
-                let material = placed.material_of(own);
-                if counts(material) {
-                    add(&placed.triangle(corners), material, placed.object);
-                }
-            }
-        }
-        for (i, (center, radius)) in placement.spheres.iter().enumerate() {
-            let (material, object) = (placement.sphere_materials[i], placement.sphere_objects[i]);
-            if counts(material) {
-                let solid = solids.entry(object).or_insert_with(|| Solid::new(material));
-                solid.grow(*center - *radius);
-                solid.grow(*center + *radius);
-                if let Some(t) = leave_sphere(*center, *radius, eye) {
-                    solid.cross(t);
-                }
             }
         }
         Self(solids)

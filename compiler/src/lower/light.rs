@@ -7,7 +7,7 @@
 use pack::abi::{self, LightKind, NONE};
 
 /// An emitter before primitives are in leaf order.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Emitter {
     pub(super) kind: LightKind,
     /// Index of its first primitive among all triangles, or among all spheres.
@@ -15,8 +15,9 @@ pub(super) struct Emitter {
     /// Triangles it consists of; 1 for spheres, 0 for the sky.
     pub(super) count: u32,
     pub(super) material: u32,
-    /// Luminance of the mean radiance, times sides, times area: proportional to power. See `power::weigh`.
-    pub(super) power: f64,
+    /// Area, less the share that leaves the scene, see `power::weigh`: times `MaterialTable::glow` of the material,
+    /// or the flux of the sky, it is proportional to power.
+    pub(super) area: f64,
     /// Towards where it is tinted, unit, and the cosine of the angle; all 0 without a tint.
     pub(super) tint: [f32; 4],
 }
@@ -61,24 +62,61 @@ pub(super) fn shares(powers: &[f64]) -> Vec<Option<u64>> {
     shares
 }
 
+/// Probability of each emitter, and the sum up to it; `None` for emitters that are not selected.
+fn choices(powers: &[f64]) -> Vec<Option<[f32; 2]>> {
+    let mut sum = 0;
+    let choice = |share: Option<u64>| {
+        let share = share?;
+        sum += share;
+        Some([share, sum].map(|steps| (steps as f64 / STEPS as f64) as f32))
+    };
+    shares(powers).into_iter().map(choice).collect()
+}
+
 /// The records, and for each emitter the index of its light or `NONE`. `triangles` and `spheres`
 /// are in leaf order; `triangle_at` and `sphere_at` say where a primitive went.
-pub(super) fn table(emitters: &[Emitter], geometry: &Geometry<'_>) -> (Vec<abi::Light>, Vec<u32>) {
-    let powers: Vec<f64> = emitters.iter().map(|e| e.power).collect();
+pub(super) fn table(
+    emitters: &[Emitter],
+    powers: &[f64],
+    geometry: &Geometry<'_>,
+) -> (Vec<abi::Light>, Vec<u32>) {
     let mut lights = Vec::new();
     let mut ids = vec![NONE; emitters.len()];
-    let mut sum = 0;
-    for (i, share) in shares(&powers).into_iter().enumerate() {
-        let Some(share) = share else { continue };
-        sum += share;
+    for (i, choice) in choices(powers).into_iter().enumerate() {
+        let Some([pmf, cdf]) = choice else { continue };
         ids[i] = lights.len() as u32;
-        lights.push(abi::Light {
-            pmf: (share as f64 / STEPS as f64) as f32,
-            cdf: (sum as f64 / STEPS as f64) as f32,
-            ..geometry.light(&emitters[i])
-        });
+        lights.push(abi::Light { pmf, cdf, ..geometry.light(&emitters[i]) });
     }
     (lights, ids)
+}
+
+/// The records, where those of an earlier pack are known: `earlier`, of the emitters that were `selected` then,
+/// in the same order. `None` if it would be others now, so that primitives would have other lights.
+pub(super) fn table_again(
+    emitters: &[Emitter],
+    powers: &[f64],
+    earlier: &[abi::Light],
+    selected: &[bool],
+) -> Option<Vec<abi::Light>> {
+    let mut earlier = earlier.iter();
+    let mut selected = selected.iter();
+    let mut lights = Vec::new();
+    for (emitter, choice) in emitters.iter().zip(choices(powers)) {
+        let is_sky = emitter.kind == LightKind::Sky;
+        if !is_sky && *selected.next()? != choice.is_some() {
+            return None;
+        }
+        let Some([pmf, cdf]) = choice else { continue };
+        let light = if is_sky { without_primitive(emitter) } else { *earlier.next()? };
+        lights.push(abi::Light { pmf, cdf, trail: 0, ..light });
+    }
+    Some(lights)
+}
+
+/// The record of an emitter, without what a primitive says.
+fn without_primitive(emitter: &Emitter) -> abi::Light {
+    let (kind, material) = (emitter.kind as u32, emitter.material);
+    abi::Light { kind, material, ..Default::default() }
 }
 
 /// Primitives in leaf order and where each went.
@@ -91,11 +129,7 @@ pub(super) struct Geometry<'a> {
 
 impl Geometry<'_> {
     fn light(&self, emitter: &Emitter) -> abi::Light {
-        let base = abi::Light {
-            kind: emitter.kind as u32,
-            material: emitter.material,
-            ..Default::default()
-        };
+        let base = without_primitive(emitter);
         if emitter.kind == LightKind::Sky {
             return base;
         }

@@ -4,7 +4,9 @@ use lang::scene::{
     self, Color, ColorSpace, Inside, Leaf, MaterialModel, Pattern, Petal, Rgb, Scalar, Scene,
 };
 use pack::abi::{self, MaterialKind, NONE, material_flag};
+use serde::{Deserialize, Serialize};
 
+use super::light::luminance;
 use super::medium::Water;
 use super::principled::image_of;
 use super::texture::{ImageRef, TextureTable};
@@ -12,7 +14,7 @@ use super::{Loaded, fresnel};
 use crate::import::{ImportedMaterial, MapUse};
 
 /// Where a material is declared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(super) enum MaterialRef {
     /// Index into `Scene::materials`.
     Scene(usize),
@@ -47,17 +49,34 @@ fn late_wood([r, g, b]: [f64; 3]) -> [f64; 3] {
 /// Materials, and the textures they use.
 pub(super) struct MaterialTable<'a> {
     pub(super) scene: &'a Scene,
-    loaded: &'a Loaded,
+    /// `None` where mesh files are not looked at.
+    pub(super) loaded: Option<&'a Loaded>,
     pub(super) textures: TextureTable<'a>,
     refs: Vec<MaterialRef>,
     records: Vec<abi::Material>,
+    /// Of each material, how many textures there were with those of it.
+    pub(super) n_textures: Vec<usize>,
     waters: Vec<Water>,
 }
 
 impl<'a> MaterialTable<'a> {
     pub(super) fn new(scene: &'a Scene, loaded: &'a Loaded) -> Self {
-        let textures = TextureTable::new(loaded);
-        Self { scene, loaded, textures, refs: Vec::new(), records: Vec::new(), waters: Vec::new() }
+        Self::over(scene, Some(loaded), TextureTable::new(loaded))
+    }
+
+    pub(super) fn over(
+        scene: &'a Scene,
+        loaded: Option<&'a Loaded>,
+        textures: TextureTable<'a>,
+    ) -> Self {
+        let (refs, records, n_textures, waters) = Default::default();
+        Self { scene, loaded, textures, refs, records, n_textures, waters }
+    }
+
+    pub(super) fn push(&mut self, of: MaterialRef, record: abi::Material) {
+        self.refs.push(of);
+        self.records.push(record);
+        self.n_textures.push(self.textures.len());
     }
 
     /// The index of a material, which is lowered at its first use.
@@ -82,8 +101,7 @@ impl<'a> MaterialTable<'a> {
                 abi::Material { color: [DEFAULT_COLOR; 3], ..blank(MaterialKind::Diffuse) }
             }
         };
-        self.refs.push(of);
-        self.records.push(record);
+        self.push(of, record);
         (self.records.len() - 1) as u32
     }
 
@@ -100,8 +118,15 @@ impl<'a> MaterialTable<'a> {
         &self.refs
     }
 
+    /// Luminance of a material's mean radiance, counted for each side that emits.
+    pub(super) fn glow(&self, index: u32) -> f64 {
+        let flags = self.records[index as usize].flags;
+        let sides = if flags & material_flag::EMIT_BOTH_SIDES != 0 { 2.0 } else { 1.0 };
+        sides * luminance(self.mean_emission(index))
+    }
+
     /// Mean emitted radiance of a material, over its texture if it has one.
-    pub(super) fn mean_emission(&self, index: u32) -> [f64; 3] {
+    fn mean_emission(&self, index: u32) -> [f64; 3] {
         let record = &self.records[index as usize];
         let factor = record.emission.map(f64::from);
         if record.emission_texture == NONE {
@@ -296,7 +321,7 @@ impl<'a> MaterialTable<'a> {
     }
 
     fn imported(&mut self, asset: usize, material: usize) -> abi::Material {
-        let file = self.loaded.assets[asset].as_ref();
+        let file = self.loaded.and_then(|loaded| loaded.assets[asset].as_ref());
         let file = file.expect("an asset whose material is used has been loaded");
         let from: &ImportedMaterial = &file.materials[material];
         let mut record = if from.unlit {

@@ -6,6 +6,7 @@ use lang::scene::Camera;
 use pack::abi::{self, MOVES, OBJECT_OF_INSTANCE, TRI_SMOOTH};
 
 use super::geometry::Placement;
+use super::object::Thing;
 use super::order::Ordered;
 use crate::normalize::Normalization;
 
@@ -34,9 +35,8 @@ impl Shutter {
 }
 
 /// How far each thing comes, normalised frame; empty where nothing moves.
-pub(super) fn displacements(placement: &Placement, frame: &Normalization) -> Vec<[f32; 3]> {
-    let all: Vec<[f32; 3]> =
-        placement.things.iter().map(|thing| thing.displacement(frame)).collect();
+pub(super) fn displacements(things: &[Thing], frame: &Normalization) -> Vec<[f32; 3]> {
+    let all: Vec<[f32; 3]> = things.iter().map(|thing| thing.displacement(frame)).collect();
     if all.iter().flatten().all(|component| *component == 0.0) { Vec::new() } else { all }
 }
 

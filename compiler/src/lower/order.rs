@@ -23,10 +23,17 @@ pub(super) struct Ordered {
     pub(super) shades: Vec<abi::TriShade>,
     pub(super) spheres: Vec<abi::Sphere>,
     pub(super) lights: Vec<abi::Light>,
+    /// Of each emitter, whether it is a light.
+    pub(super) selected: Vec<bool>,
 }
 
-/// Renumbers everything to the leaf order of `joined`.
-pub(super) fn order(placement: &Placement, declared: &Declared, joined: &Joined) -> Ordered {
+/// Renumbers everything to the leaf order of `joined`; `powers`: those of the emitters.
+pub(super) fn order(
+    placement: &Placement,
+    powers: &[f64],
+    declared: &Declared,
+    joined: &Joined,
+) -> Ordered {
     let triangle = |&i: &u32| {
         let [v0, v1, v2] = declared.corners[i as usize];
         let [id0, id1, id2] = declared.welded.ids[i as usize];
@@ -44,13 +51,14 @@ pub(super) fn order(placement: &Placement, declared: &Declared, joined: &Joined)
         shades: joined.triangle_order.iter().map(shade).collect(),
         spheres: joined.sphere_order.iter().map(sphere).collect(),
         lights: Vec::new(),
+        selected: Vec::new(),
     };
-    ordered.connect_lights(placement, joined);
+    ordered.connect_lights(placement, powers, joined);
     ordered
 }
 
 impl Ordered {
-    fn connect_lights(&mut self, placement: &Placement, joined: &Joined) {
+    fn connect_lights(&mut self, placement: &Placement, powers: &[f64], joined: &Joined) {
         let triangle_at = first_places(&joined.triangle_order, placement.shades.len());
         let sphere_at = first_places(&joined.sphere_order, placement.spheres.len());
         let geometry = Geometry {
@@ -59,8 +67,9 @@ impl Ordered {
             spheres: &self.spheres,
             sphere_at: &sphere_at,
         };
-        let (lights, ids) = light::table(&placement.emitters, &geometry);
+        let (lights, ids) = light::table(&placement.emitters, powers, &geometry);
         self.lights = lights;
+        self.selected = ids.iter().map(|id| *id != NONE).collect();
         let mut light_of = vec![NONE; placement.shades.len()];
         for (emitter, id) in placement.emitters.iter().zip(ids) {
             for primitive in emitter.primitive..emitter.primitive + emitter.count {

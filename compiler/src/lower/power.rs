@@ -10,11 +10,12 @@ use pack::abi::LightKind;
 
 use super::geometry::Placement;
 use super::light::Emitter;
+use super::material::MaterialTable;
 
-/// Weighs the emitters of `placement`, and adds the sky with `sky_flux`, the integral of its luminance over
-/// all directions, where it is to be sampled.
-pub(super) fn weigh(placement: &mut Placement, sky_flux: Option<f64>) {
-    let Some((center, radius)) = receivers(placement) else { return };
+/// Weighs the areas of the emitters of `placement`. Returns what is the area of the sky in these units; `None` in
+/// a scene without size.
+pub(super) fn weigh(placement: &mut Placement) -> Option<f64> {
+    let (center, radius) = receivers(placement)?;
     let mut emitters = std::mem::take(&mut placement.emitters);
     for emitter in &mut emitters {
         let distance = (middle(placement, emitter) - center).length();
@@ -22,18 +23,30 @@ pub(super) fn weigh(placement: &mut Placement, sky_flux: Option<f64>) {
             let ratio = radius / distance;
             let square = ratio * ratio;
             // 1 - sqrt(1 - x), without the cancellation.
-            emitter.power *= square / (1.0 + (1.0 - square).sqrt());
+            emitter.area *= square / (1.0 + (1.0 - square).sqrt());
         }
     }
-    emitters.extend(sky_flux.map(|flux| Emitter {
-        kind: LightKind::Sky,
-        primitive: 0,
-        count: 0,
-        material: 0,
-        power: flux * radius * radius,
-        tint: [0.0; 4],
-    }));
     placement.emitters = emitters;
+    Some(radius * radius)
+}
+
+/// The sky as an emitter; `area`: see [`weigh`].
+pub(super) fn sky(area: f64) -> Emitter {
+    let (kind, tint) = (LightKind::Sky, [0.0; 4]);
+    Emitter { kind, primitive: 0, count: 0, material: 0, area, tint }
+}
+
+/// Power of each emitter, up to a factor. `flux`: the integral of the sky's luminance over all directions.
+pub(super) fn powers(
+    emitters: &[Emitter],
+    materials: &MaterialTable<'_>,
+    flux: Option<f64>,
+) -> Vec<f64> {
+    let power = |emitter: &Emitter| match emitter.kind {
+        LightKind::Sky => emitter.area * flux.unwrap_or(0.0),
+        _ => emitter.area * materials.glow(emitter.material),
+    };
+    emitters.iter().map(power).collect()
 }
 
 /// Centre and radius of the ball around what does not emit, or around everything if all does.

@@ -21,6 +21,13 @@ pub(super) struct LoweredSky {
     pub(super) table: Option<SkyTable>,
 }
 
+impl LoweredSky {
+    /// The integral of its luminance over all directions, if it is to be sampled.
+    pub(super) fn flux(&self) -> Option<f64> {
+        self.table.as_ref().map(|table| table.flux)
+    }
+}
+
 /// `None` for a sky that is black everywhere: it then leaves no section and no code.
 pub(super) fn sky(
     sky: &Sky,
@@ -52,7 +59,7 @@ pub(super) fn sky(
             let record = abi::Sky {
                 zenith: [(strength * environment.scale) as f32; 3],
                 kind: SkyKind::Image as u32,
-                texture: textures.environment(environment),
+                texture: textures.environment(Some(environment)),
                 rotation: turns(*rotate),
                 ..blank()
             };

@@ -4,8 +4,11 @@
 //! several images, they are gathered into one image, because the kernel reads roughness and
 //! metallic from green and blue of one texture, and coverage from a fourth channel.
 
+use std::sync::Arc;
+
 use lang::scene::{ColorSpace, Wrap};
 use pack::abi::{self, TextureFormat};
+use serde::{Deserialize, Serialize};
 
 use super::Loaded;
 use crate::import::{Environment, Image, Pixels};
@@ -35,10 +38,30 @@ enum Recipe {
     Gathered { channels: [Option<Channel>; 4], space: ColorSpace, wrap: [Wrap; 2] },
 }
 
+/// What is known of the textures of an earlier pack.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct KnownTextures {
+    /// How each was made.
+    recipes: Vec<String>,
+    /// Mean of each, linear.
+    means: Vec<[f64; 4]>,
+    /// Whether each of `Scene::textures` has an alpha channel of its own.
+    has_alpha: Vec<bool>,
+}
+
+/// Where images come from.
+#[derive(Clone, Copy)]
+enum Source<'a> {
+    Files(&'a Loaded),
+    /// No image is looked at: the texels are those of an earlier pack.
+    Earlier(&'a KnownTextures),
+}
+
 /// Textures in the order in which materials asked for them.
 pub struct TextureTable<'a> {
-    loaded: &'a Loaded,
-    recipes: Vec<Recipe>,
+    source: Source<'a>,
+    /// `None` for one that was taken over from an earlier pack.
+    recipes: Vec<Option<Recipe>>,
     records: Vec<abi::Texture>,
     texels: Vec<[u32; 4]>,
     means: Vec<[f64; 4]>,
@@ -48,8 +71,49 @@ impl<'a> TextureTable<'a> {
     /// An empty table over the images in `loaded`.
     #[must_use]
     pub fn new(loaded: &'a Loaded) -> Self {
+        Self::over(Source::Files(loaded))
+    }
+
+    /// A table of textures that an earlier pack has.
+    pub(super) fn again(known: &'a KnownTextures) -> Self {
+        Self::over(Source::Earlier(known))
+    }
+
+    fn over(source: Source<'a>) -> Self {
         let (recipes, records, texels, means) = Default::default();
-        Self { loaded, recipes, records, texels, means }
+        Self { source, recipes, records, texels, means }
+    }
+
+    /// How many there are.
+    pub(super) fn len(&self) -> usize {
+        self.recipes.len()
+    }
+
+    /// What a later compilation may know of these textures.
+    pub(super) fn known(&self) -> KnownTextures {
+        let loaded = match self.source {
+            Source::Files(loaded) => loaded,
+            Source::Earlier(known) => return known.clone(),
+        };
+        let has_alpha = |image: &Option<Arc<Image>>| image.as_ref().is_some_and(|i| i.has_alpha);
+        KnownTextures {
+            recipes: self.recipes.iter().flatten().map(|recipe| format!("{recipe:?}")).collect(),
+            means: self.means.clone(),
+            has_alpha: loaded.textures.iter().map(has_alpha).collect(),
+        }
+    }
+
+    /// Whether these are the textures of the earlier pack, in the same order.
+    pub(super) fn is_as_known(&self) -> bool {
+        let Source::Earlier(known) = self.source else { return false };
+        let own = self.recipes.iter().map(|recipe| recipe.as_ref().map(|r| format!("{r:?}")));
+        own.len() == known.recipes.len()
+            && own.zip(&known.recipes).all(|(own, known)| own.is_none_or(|own| own == *known))
+    }
+
+    /// Takes over textures of the earlier pack, until there are `n`.
+    pub(super) fn skip_to(&mut self, n: usize) {
+        self.recipes.resize(n.max(self.recipes.len()), None);
     }
 
     /// Records and texels, for the pack.
@@ -60,27 +124,29 @@ impl<'a> TextureTable<'a> {
 
     /// Mean of red, green, blue, alpha over the texels of texture `id`, linear.
     pub(super) fn mean(&self, id: u32) -> [f64; 4] {
-        self.means[id as usize]
+        match self.source {
+            Source::Files(_) => self.means[id as usize],
+            // Where it is missing, the textures are others, and nothing is taken over.
+            Source::Earlier(known) => known.means.get(id as usize).copied().unwrap_or_default(),
+        }
     }
 
     /// The id of a whole image.
     pub(super) fn whole(&mut self, image: ImageRef, space: ColorSpace, wrap: [Wrap; 2]) -> u32 {
-        let recipe = Recipe::Whole { image, space, wrap };
-        if let Some(id) = self.recipes.iter().position(|known| *known == recipe) {
-            return id as u32;
-        }
-        let source = self.image(image);
-        let size = [source.width, source.height];
-        let (format, words, mean) = stored(source, space);
-        self.push(recipe, size, format, &words, mean)
+        self.id(Recipe::Whole { image, space, wrap }, |loaded| {
+            let source = loaded.image(image);
+            let (format, words, mean) = stored(source, space);
+            Made { size: [source.width, source.height], format, words, mean }
+        })
     }
 
     /// The id of the image of the sky: it goes round along u, and ends at the poles along v.
-    pub(super) fn environment(&mut self, environment: &Environment) -> u32 {
-        let image = &environment.image;
-        let recipe = Recipe::Environment { wrap: [Wrap::Repeat, Wrap::Clamp] };
-        let (format, words, mean) = stored(image, space_of(image));
-        self.push(recipe, [image.width, image.height], format, &words, mean)
+    pub(super) fn environment(&mut self, environment: Option<&Environment>) -> u32 {
+        self.id(Recipe::Environment { wrap: [Wrap::Repeat, Wrap::Clamp] }, |_| {
+            let image = &environment.expect("the image of a sky has been loaded").image;
+            let (format, words, mean) = stored(image, space_of(image));
+            Made { size: [image.width, image.height], format, words, mean }
+        })
     }
 
     /// The id of an image whose channels come from single channels; absent ones are 1. `space` is that of red,
@@ -91,81 +157,112 @@ impl<'a> TextureTable<'a> {
         space: ColorSpace,
         wrap: [Wrap; 2],
     ) -> u32 {
-        let recipe = Recipe::Gathered { channels, space, wrap };
-        if let Some(id) = self.recipes.iter().position(|known| *known == recipe) {
-            return id as u32;
-        }
-        let sources = channels.map(|channel| channel.map(|(image, _)| self.image(image)));
-        let largest = |side: fn(&Image) -> u32| sources.iter().flatten().map(|i| side(i)).max();
-        let size = [largest(|i| i.width).unwrap_or(1), largest(|i| i.height).unwrap_or(1)];
-        let mut bytes = Vec::with_capacity(4 * size[0] as usize * size[1] as usize);
-        for y in 0..size[1] {
-            for x in 0..size[0] {
-                bytes.extend((0..4).map(|k| match (sources[k], channels[k]) {
-                    (Some(image), Some((_, channel))) => nearest(image, [x, y], size, channel),
-                    _ => u8::MAX,
-                }));
-            }
-        }
-        let (format, mean) = match space {
-            ColorSpace::Srgb => (TextureFormat::Rgba8Srgb, byte_mean(&bytes, srgb_to_linear)),
-            _ => (TextureFormat::Rgba8Linear, byte_mean(&bytes, |x| x)),
-        };
-        self.push(recipe, size, format, &byte_words(&bytes), mean)
+        self.id(Recipe::Gathered { channels, space, wrap }, |loaded| {
+            gather(loaded, channels, space)
+        })
     }
 
-    fn push(
-        &mut self,
-        recipe: Recipe,
-        size: [u32; 2],
-        format: TextureFormat,
-        words: &[u32],
-        mean: [f64; 4],
-    ) -> u32 {
-        let id = self.records.len() as u32;
-        let wrap = |w: Wrap| match w {
+    /// The id of the texture with this recipe, which is made at its first use.
+    fn id(&mut self, recipe: Recipe, make: impl FnOnce(&Loaded) -> Made) -> u32 {
+        if let Some(id) = self.recipes.iter().position(|known| known.as_ref() == Some(&recipe)) {
+            return id as u32;
+        }
+        if let Source::Files(loaded) = self.source {
+            let made = make(loaded);
+            self.push(recipe.wrap(), made);
+        }
+        self.recipes.push(Some(recipe));
+        self.recipes.len() as u32 - 1
+    }
+
+    fn push(&mut self, wrap: [Wrap; 2], made: Made) {
+        let [wrap_u, wrap_v] = wrap.map(|wrap| match wrap {
             Wrap::Repeat => abi::Wrap::Repeat as u32,
             Wrap::Clamp => abi::Wrap::Clamp as u32,
             Wrap::Mirror => abi::Wrap::Mirror as u32,
-        };
-        let (Recipe::Whole { wrap: wraps, .. }
-        | Recipe::Gathered { wrap: wraps, .. }
-        | Recipe::Environment { wrap: wraps }) = &recipe;
+        });
+        let [width, height] = made.size;
         self.records.push(abi::Texture {
-            width: size[0],
-            height: size[1],
-            format: format as u32,
+            width,
+            height,
+            format: made.format as u32,
             offset: self.texels.len() as u32,
-            wrap_u: wrap(wraps[0]),
-            wrap_v: wrap(wraps[1]),
+            wrap_u,
+            wrap_v,
             ..Default::default()
         });
-        let (whole, rest) = words.as_chunks::<4>();
+        let (whole, rest) = made.words.as_chunks::<4>();
         self.texels.extend(whole);
         if !rest.is_empty() {
             let mut last = [0; 4];
             last[..rest.len()].copy_from_slice(rest);
             self.texels.push(last);
         }
-        self.recipes.push(recipe);
-        self.means.push(mean);
-        id
+        self.means.push(made.mean);
     }
 
     /// Whether an image has an alpha channel of its own.
     pub(super) fn has_alpha(&self, image: ImageRef) -> bool {
-        self.image(image).has_alpha
+        match (self.source, image) {
+            (Source::Files(loaded), _) => loaded.image(image).has_alpha,
+            (Source::Earlier(known), ImageRef::Scene(texture)) => {
+                known.has_alpha.get(texture).copied().unwrap_or(false)
+            }
+            // Materials of mesh files are taken over as they are.
+            (Source::Earlier(_), ImageRef::Asset { .. }) => false,
+        }
     }
+}
 
-    fn image(&self, image: ImageRef) -> &'a Image {
+impl Recipe {
+    fn wrap(&self) -> [Wrap; 2] {
+        match self {
+            Self::Whole { wrap, .. } | Self::Gathered { wrap, .. } | Self::Environment { wrap } => {
+                *wrap
+            }
+        }
+    }
+}
+
+impl Loaded {
+    fn image(&self, image: ImageRef) -> &Image {
         let found = match image {
-            ImageRef::Scene(texture) => self.loaded.textures[texture].as_deref(),
+            ImageRef::Scene(texture) => self.textures[texture].as_deref(),
             ImageRef::Asset { asset, image } => {
-                self.loaded.assets[asset].as_ref().map(|file| &file.images[image].image)
+                self.assets[asset].as_ref().map(|file| &file.images[image].image)
             }
         };
         found.expect("every image that a used material names has been loaded")
     }
+}
+
+/// A texture on its way into the pack.
+struct Made {
+    size: [u32; 2],
+    format: TextureFormat,
+    words: Vec<u32>,
+    mean: [f64; 4],
+}
+
+/// An image as large as the largest of those that its channels come from.
+fn gather(loaded: &Loaded, channels: [Option<Channel>; 4], space: ColorSpace) -> Made {
+    let sources = channels.map(|channel| channel.map(|(image, _)| loaded.image(image)));
+    let largest = |side: fn(&Image) -> u32| sources.iter().flatten().map(|i| side(i)).max();
+    let size = [largest(|i| i.width).unwrap_or(1), largest(|i| i.height).unwrap_or(1)];
+    let mut bytes = Vec::with_capacity(4 * size[0] as usize * size[1] as usize);
+    for y in 0..size[1] {
+        for x in 0..size[0] {
+            bytes.extend((0..4).map(|k| match (sources[k], channels[k]) {
+                (Some(image), Some((_, channel))) => nearest(image, [x, y], size, channel),
+                _ => u8::MAX,
+            }));
+        }
+    }
+    let (format, mean) = match space {
+        ColorSpace::Srgb => (TextureFormat::Rgba8Srgb, byte_mean(&bytes, srgb_to_linear)),
+        _ => (TextureFormat::Rgba8Linear, byte_mean(&bytes, |x| x)),
+    };
+    Made { size, format, words: byte_words(&bytes), mean }
 }
 
 /// Format, words and mean of an image whose numbers are to be read as `space` says.

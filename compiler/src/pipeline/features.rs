@@ -60,13 +60,11 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
         layouts: [layout(lowered)].into(),
         stack_size: lowered.render.stack_need.max(1),
         windows: Windows {
-            node: words(
-                size_of_val(lowered.nodes.as_slice()) + size_of_val(lowered.wide_nodes.as_slice()),
-            ),
-            tri: words(size_of_val(lowered.triangles.as_slice())),
-            shade: words(size_of_val(lowered.shades.as_slice())),
-            sphere: words(size_of_val(lowered.spheres.as_slice())),
-            texel: words(size_of_val(lowered.texels.as_slice())),
+            node: words(size_of_val(&*lowered.nodes) + size_of_val(&*lowered.wide_nodes)),
+            tri: words(size_of_val(&*lowered.triangles)),
+            shade: words(size_of_val(&*lowered.shades)),
+            sphere: words(size_of_val(&*lowered.spheres)),
+            texel: words(size_of_val(&*lowered.texels)),
         },
     }
 }

@@ -144,7 +144,7 @@ fn content(image: &Image) -> [u8; 32] {
 }
 
 /// A path in the text is relative to the file in which it stands.
-fn beside(sources: &SourceSet, at: Span, path: &str) -> PathBuf {
+pub(super) fn beside(sources: &SourceSet, at: Span, path: &str) -> PathBuf {
     let dir = Path::new(sources.name(at.file)).parent().unwrap_or(Path::new(""));
     dir.join(path)
 }

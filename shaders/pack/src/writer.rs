@@ -21,12 +21,15 @@ use crate::header::{
 };
 use crate::kind::{Kind, PackRecord, SectionSpec};
 use crate::manifest::Manifest;
+use crate::reader::Section;
 use crate::{check, features};
 
 /// Collects sections by reference; nothing is copied before it goes to the file.
 #[derive(Debug, Default)]
 pub struct PackWriter<'a> {
     sections: Vec<(Kind, Payload<'a>)>,
+    /// Hashes of sections that are known.
+    hashes: Vec<(Kind, [u8; 16])>,
     recipe_id: [u8; 32],
 }
 
@@ -96,6 +99,15 @@ impl<'a> PackWriter<'a> {
         self.push(kind, payload)
     }
 
+    /// Adds a section of another pack as it is. Its hash is taken over: whoever calls this has verified it, or the
+    /// file that comes of it is as damaged as the other.
+    pub fn section(&mut self, section: Section<'a>) -> &mut Self {
+        if section.kind.spec().is_some_and(|spec| spec.version == section.version) {
+            self.hashes.push((section.kind, section.hash));
+        }
+        self.bytes(section.kind, section.bytes)
+    }
+
     /// Adds the manifest.
     pub fn manifest(&mut self, manifest: &Manifest) -> Result<&mut Self, PackError> {
         let bytes = manifest.encode()?;
@@ -118,10 +130,11 @@ impl<'a> PackWriter<'a> {
     }
 
     /// Writes the file under a temporary name beside `path`, then renames it: whoever has the old
-    /// file mapped keeps the old bytes, and nobody ever sees half a pack.
-    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), PackError> {
+    /// file mapped keeps the old bytes, and nobody ever sees half a pack. Returns the pack's `render_id`.
+    pub fn write(&self, path: impl AsRef<Path>) -> Result<[u8; 32], PackError> {
         let plan = self.plan()?;
-        write_atomic(path.as_ref(), |out| plan.stream(out))
+        write_atomic(path.as_ref(), |out| plan.stream(out))?;
+        Ok(plan.header.render_id)
     }
 
     /// The `render_id` that the pack will have.
@@ -160,7 +173,8 @@ impl<'a> PackWriter<'a> {
         let contents = Contents::new(find)?;
         let features = features::of(&contents);
         check::contents(&contents, features)?;
-        Ok(Plan::new(sections, features, self.recipe_id))
+        let known = |kind| self.hashes.iter().find(|known| known.0 == kind).map(|known| known.1);
+        Ok(Plan::new(sections, known, features, self.recipe_id))
     }
 }
 
@@ -196,11 +210,14 @@ struct Plan<'a> {
 impl<'a> Plan<'a> {
     fn new(
         sections: Vec<(&'static SectionSpec, &'a [u8])>,
+        known: impl Fn(Kind) -> Option<[u8; 16]> + Sync,
         features: u64,
         recipe_id: [u8; 32],
     ) -> Self {
-        let hashes: Vec<[u8; 16]> =
-            sections.par_iter().map(|(_, bytes)| section_hash(bytes)).collect();
+        let hash = |(spec, bytes): &(&SectionSpec, &[u8])| {
+            known(spec.kind).unwrap_or_else(|| section_hash(bytes))
+        };
+        let hashes: Vec<[u8; 16]> = sections.par_iter().map(hash).collect();
         let mut end = (HEADER_LEN + sections.len() * ENTRY_LEN) as u64;
         let mut entries = Vec::with_capacity(sections.len());
         for ((spec, bytes), hash) in sections.iter().zip(hashes) {

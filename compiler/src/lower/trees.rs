@@ -1,0 +1,136 @@
+//! Placed triangles and spheres get their tree, in the layout of the pack.
+
+use pack::abi;
+
+use super::Placed;
+use super::geometry::Placement;
+use super::lowered::Counters;
+use super::share::Instancing;
+use crate::bvh::{self, BuildReport, BvhError, Joined, Layout, Preset, Primitives, Shared};
+use crate::cache::Cache;
+use crate::normalize::Normalization;
+
+/// How trees over the geometry are made.
+#[derive(Clone, Copy, Debug)]
+pub struct Trees<'a> {
+    /// Which builder.
+    pub preset: Preset,
+    /// How their nodes are stored.
+    pub layout: Layout,
+    /// Which meshes are stored once.
+    pub instancing: Instancing,
+    /// Trees of earlier runs.
+    pub cache: &'a Cache,
+}
+
+impl<'a> Trees<'a> {
+    /// As everybody gets them.
+    #[must_use]
+    pub fn usual(cache: &'a Cache) -> Self {
+        let (preset, layout) = (Preset::default(), Layout::default());
+        Self { preset, layout, instancing: Instancing::default(), cache }
+    }
+
+    /// All that changes what is made, for keys.
+    #[must_use]
+    pub fn recipe(&self) -> String {
+        format!("{} {:?} {:?}", self.preset.recipe(), self.layout, self.instancing)
+    }
+}
+
+/// The nodes in the layout of the pack: wide ones are returned, and `joined` is left with their roots, the
+/// stack that they need, and no nodes. Instance `i` shows mesh `mesh_of[i]`.
+pub(super) fn widened(
+    joined: &mut Joined,
+    layout: Layout,
+    mesh_of: &[usize],
+) -> Result<Vec<abi::WideNode>, BvhError> {
+    if layout == Layout::Binary || joined.nodes.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut wide = Vec::new();
+    let roots: Vec<u32> =
+        std::iter::once(joined.root).chain(joined.mesh_roots.iter().copied()).collect();
+    let roots = bvh::widen_all(&joined.nodes, &roots, &mut wide)?;
+    let need = bvh::stack_need(&wide, &roots[1..], mesh_of, roots[0]);
+    // Four children may wait where two did not: trees that are as deep as binary ones may be stay binary.
+    if need > abi::MAX_STACK {
+        return Ok(Vec::new());
+    }
+    joined.root = roots[0];
+    joined.mesh_roots = roots[1..].to_vec();
+    joined.stack_need = need;
+    joined.nodes = Vec::new();
+    Ok(wide)
+}
+
+/// Triangles of the world and of meshes that are stored once, one list.
+pub(super) struct Corners {
+    /// Those of the world first, then mesh after mesh.
+    pub(super) all: Vec<[[f32; 3]; 3]>,
+    n_world: usize,
+    meshes: Vec<Vec<[[f32; 3]; 3]>>,
+}
+
+/// Adds what is stored once to the triangles of the world, which have these `corners`, and counts both.
+pub(super) fn add_meshes(
+    placement: &mut Placement,
+    mut corners: Vec<[[f32; 3]; 3]>,
+    counters: &mut Counters,
+) -> Corners {
+    count_triangles(placement, counters);
+    let n_world = corners.len();
+    let mut meshes = Vec::with_capacity(placement.meshes.len());
+    for mesh in &mut placement.meshes {
+        placement.shades.append(&mut mesh.shades);
+        corners.extend_from_slice(&mesh.corners);
+        meshes.push(std::mem::take(&mut mesh.corners));
+    }
+    Corners { all: corners, n_world, meshes }
+}
+
+fn count_triangles(placement: &Placement, counters: &mut Counters) {
+    let count = |mesh: usize| placement.meshes[mesh].corners.len() as u64;
+    let flat = placement.shades.len() as u64;
+    counters.meshes = placement.meshes.len() as u64;
+    counters.instances = placement.placed.len() as u64;
+    counters.triangles = flat + (0..placement.meshes.len()).map(count).sum::<u64>();
+    counters.shown = flat + placement.placed.iter().map(|placed| count(placed.mesh)).sum::<u64>();
+    counters.dropped_triangles += placement.meshes.iter().map(|mesh| mesh.dropped).sum::<u64>();
+}
+
+/// The trees over all triangles and over these spheres; `motions`: how far each thing comes.
+pub(super) fn build_tree(
+    placement: &Placement,
+    corners: &Corners,
+    balls: &[([f32; 3], f32)],
+    (motions, frame): (&[[f32; 3]], &Normalization),
+    trees: &Trees<'_>,
+) -> Result<(Joined, BuildReport), BvhError> {
+    let sizes = placement.mesh_sizes();
+    let (mesh_motions, sphere_motions) = motions_of(placement, motions);
+    let primitives = Primitives {
+        triangles: &corners.all[..corners.n_world],
+        mesh_sizes: &sizes,
+        mesh_motions: &mesh_motions,
+        spheres: balls,
+        sphere_motions: &sphere_motions,
+    };
+    let boxed = |placed: &Placed| {
+        let motion = motions.get(placed.object as usize).copied().unwrap_or_default();
+        (placed.mesh, placed.box_of(frame, motion))
+    };
+    let instances: Vec<_> = placement.placed.iter().map(boxed).collect();
+    let shared = Shared { meshes: &corners.meshes, instances: &instances };
+    bvh::build_instanced(&primitives, &shared, trees.preset, trees.cache)
+}
+
+/// How far each mesh and each sphere comes, from the displacements of things; empty where those are.
+fn motions_of(placement: &Placement, of_thing: &[[f32; 3]]) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
+    if of_thing.is_empty() {
+        return (Vec::new(), Vec::new());
+    }
+    let sphere = |object: &u32| of_thing[*object as usize];
+    let spheres = placement.sphere_objects.iter().map(sphere).collect();
+    (placement.mesh_motions(of_thing), spheres)
+}

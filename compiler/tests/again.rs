@@ -1,0 +1,203 @@
+//! After an edit that leaves geometry as it is, the pack is the one that compiling everything gives, byte for byte;
+//! and geometry is taken over where that is promised.
+
+use std::path::Path;
+use std::process::Command;
+
+const SCENE: &str = "rts 1
+param turn: number = 20
+texture tile = image(\"tile.png\", space: srgb)
+asset land = obj(\"hill.obj\", unit: m, up: +y)
+medium milk: homogeneous { sigma_a = (0.1, 0.2, 0.3)/m, sigma_s = (9, 9, 9)/m, g = 0.5 }
+medium haze: fog { visibility = 200m, color = linear(0.6, 0.7, 0.8) }
+material clay: diffuse { color = tile }
+material brass: metal { color = linear(0.9, 0.7, 0.3), fuzz = 0.2 }
+material oak: wood { color = srgb(#8a5a33), grain = x }
+material glow: emissive { color = linear(1, 0.5, 0.2), strength = 3 }
+material sea: water { ior = 1.33, waves.height = 1, waves.scale = 2 }
+material glass: dielectric { ior = 1.5, interior = milk }
+instance hill { shape = land, material = clay }
+instance near[i in 0..4] { shape = land, material = brass, at = (3 * i, 0.5, -4)m, rotate = (0, turn * i, 0)deg }
+instance beam { shape = box(size: (2, 0.2, 0.2)m), material = oak, at = (0, 2, 0)m }
+instance ball { shape = sphere(radius: 20cm), material = glass, at = (1, 1, 2)m }
+instance panel { shape = rectangle(size: (1, 1)m), material = glow, at = (0, 4, 0)m }
+instance pond { shape = box(size: (2, 1, 2)m), material = sea, at = (6, 0, 0)m }
+light lamp: sphere { center = (0, 3, 0)m, radius = 10cm, strength = 5 }
+sky dusk: gradient {
+  zenith = linear(0.2, 0.2, 0.4), middle = linear(0.3, 0.3, 0.4), horizon = linear(0.5, 0.4, 0.4)
+  ground = linear(0.1, 0.1, 0.1), sun.direction = (1, 1, 0), disc.color = linear(9, 9, 8), disc.power = 60
+}
+camera eye: perspective { from = (0, 1, 6)m, to = (0, 1, 0)m }
+film wide { size = (64, 36)px }
+render main: path { samples = 1, sky = dusk, atmosphere = haze, film = wide }
+";
+
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        let folder = Self(tempfile::tempdir().expect("a folder"));
+        folder.image([200, 90, 60]);
+        folder.hill(0.0);
+        folder.write("scene.rts", SCENE);
+        folder
+    }
+
+    fn path(&self) -> &Path {
+        self.0.path()
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        std::fs::write(self.path().join(name), text).expect("writable");
+    }
+
+    fn image(&self, color: [u8; 3]) {
+        let image = image::RgbImage::from_pixel(4, 4, image::Rgb(color));
+        image.save(self.path().join("tile.png")).expect("writable");
+    }
+
+    /// A hilly sheet of 800 triangles; one of its corners is higher by `bump`.
+    fn hill(&self, bump: f64) {
+        use std::fmt::Write as _;
+        let mut text = String::new();
+        let n = 20;
+        for i in 0..=n {
+            for j in 0..=n {
+                let (x, z) = (f64::from(i) * 0.1 - 1.0, f64::from(j) * 0.1 - 1.0);
+                let y =
+                    0.1 * (x * 3.0).sin() * (z * 2.0).cos() + if i + j == 0 { bump } else { 0.0 };
+                let _ = writeln!(text, "v {x} {y} {z}\nvt {} {}", x + 1.0, z + 1.0);
+            }
+        }
+        for i in 0..n {
+            for j in 0..n {
+                let at = |i: i32, j: i32| i * (n + 1) + j + 1;
+                let [a, b, c, d] = [at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)];
+                let _ = writeln!(text, "f {a}/{a} {b}/{b} {c}/{c}\nf {a}/{a} {c}/{c} {d}/{d}");
+            }
+        }
+        self.write("hill.obj", &text);
+    }
+
+    fn edit(&self, from: &str, to: &str) {
+        let text = std::fs::read_to_string(self.path().join("scene.rts")).expect("it is there");
+        assert!(text.contains(from), "{from}");
+        self.write("scene.rts", &text.replacen(from, to, 1));
+    }
+
+    fn rtc(&self, cache: &str, pack: &str, args: &[&str]) -> String {
+        let output = Command::new(env!("CARGO_BIN_EXE_rtc"))
+            .current_dir(self.path())
+            .env("RTC_CACHE_DIR", self.path().join(cache))
+            .args(["scene.rts", "-o", pack, "--color", "never"])
+            .args(args)
+            .output()
+            .expect("rtc starts");
+        let log = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{log}");
+        log
+    }
+
+    fn read(&self, name: &str) -> Vec<u8> {
+        std::fs::read(self.path().join(name)).expect("it is there")
+    }
+
+    /// Compiles; says whether geometry was taken over. The pack is that of compiling everything.
+    fn takes_over(&self, what: &str) -> bool {
+        let log = self.rtc("cache", "a.pack", &[]);
+        self.rtc("none", "b.pack", &["--no-cache"]);
+        assert!(self.read("a.pack") == self.read("b.pack"), "{what}: other bytes; {log}");
+        log.contains("reused the geometry and the textures of the last pack")
+    }
+}
+
+#[test]
+fn what_is_taken_over_is_what_would_be_made() {
+    let folder = Folder::new();
+    assert!(!folder.takes_over("at first"));
+    for (from, to) in [
+        ("from = (0, 1, 6)m", "from = (0, 2, 7)m"),
+        // Into the water, and out again.
+        ("from = (0, 2, 7)m", "from = (6, 0.1, 0)m"),
+        ("from = (6, 0.1, 0)m", "from = (0, 1, 6)m"),
+        ("fuzz = 0.2", "fuzz = 0.3"),
+        ("#8a5a33", "#70401f"),
+        ("ior = 1.33", "ior = 1.34"),
+        ("strength = 3", "strength = 4"),
+        ("strength = 5", "strength = 50"),
+        ("g = 0.5", "g = -0.2"),
+        ("sigma_a = (0.1, 0.2, 0.3)/m", "sigma_a = (0.3, 0.2, 0.1)/m"),
+        ("visibility = 200m", "visibility = 300m"),
+        // Another sky, and the first again.
+        ("disc.color = linear(9, 9, 8)", "disc.color = linear(9, 1, 1)"),
+        ("disc.color = linear(9, 1, 1)", "disc.color = linear(9, 9, 8)"),
+        ("disc.color = linear(9, 9, 8)", "disc.color = linear(0, 0, 0)"),
+        ("disc.color = linear(0, 0, 0)", "disc.color = linear(9, 9, 8)"),
+        ("size = (64, 36)px", "size = (80, 45)px, exposure = 1EV"),
+        ("samples = 1", "samples = 2, depth = 4, sampler = pcg"),
+        ("rts 1\n", "rts 1\n\n// A remark.\n"),
+        ("param turn", "let unused = 1\nparam turn"),
+        ("let unused = 1\n", ""),
+    ] {
+        folder.edit(from, to);
+        assert!(folder.takes_over(to), "{to}");
+    }
+}
+
+#[test]
+fn what_geometry_depends_on_is_made_anew() {
+    let folder = Folder::new();
+    assert!(!folder.takes_over("at first"));
+    for (from, to) in [
+        ("turn: number = 20", "turn: number = 21"),
+        ("radius: 20cm", "radius: 21cm"),
+        ("material = oak", "material = brass"),
+        ("material = brass, at = (0, 2, 0)m", "material = oak, at = (0, 2, 0)m"),
+        ("strength = 3", "strength = 0"),
+        ("waves.height = 1", "waves.height = 0"),
+        ("sigma_s = (9, 9, 9)/m", "sigma_s = (8, 9, 9)/m"),
+        ("color = tile", "color = linear(0.5, 0.5, 0.5)"),
+        ("atmosphere = haze", "atmosphere = milk"),
+    ] {
+        folder.edit(from, to);
+        assert!(!folder.takes_over(to), "{to}");
+    }
+    folder.hill(0.25);
+    assert!(!folder.takes_over("a vertex"));
+    folder.edit("color = linear(0.5, 0.5, 0.5)", "color = tile");
+    folder.takes_over("a texture");
+    folder.image([9, 90, 60]);
+    assert!(!folder.takes_over("an image"));
+    folder.edit("fuzz = 0.2", "fuzz = 0.1");
+    assert!(folder.takes_over("an edit after all of them"));
+}
+
+#[test]
+fn a_pack_or_a_memory_that_is_damaged_or_gone_is_made_anew() {
+    let folder = Folder::new();
+    assert!(!folder.takes_over("at first"));
+    let mut bytes = folder.read("a.pack");
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    std::fs::write(folder.path().join("a.pack"), bytes).expect("writable");
+    folder.edit("fuzz = 0.2", "fuzz = 0.1");
+    assert!(!folder.takes_over("a flipped bit"));
+    std::fs::remove_file(folder.path().join("a.pack")).expect("it is there");
+    folder.edit("fuzz = 0.1", "fuzz = 0.3");
+    assert!(!folder.takes_over("no pack"));
+    for folders in std::fs::read_dir(folder.path().join("cache/done")).expect("records") {
+        for record in std::fs::read_dir(folders.expect("a folder").path()).expect("a folder") {
+            let path = record.expect("a record").path();
+            let mut bytes = std::fs::read(&path).expect("it is there");
+            if bytes.first() != Some(&b'{') {
+                let middle = bytes.len() / 2;
+                bytes[middle] ^= 1;
+                std::fs::write(&path, bytes).expect("writable");
+            }
+        }
+    }
+    folder.edit("fuzz = 0.3", "fuzz = 0.2");
+    assert!(!folder.takes_over("a damaged memory"));
+    folder.edit("fuzz = 0.2", "fuzz = 0.4");
+    assert!(folder.takes_over("all is well again"));
+}
