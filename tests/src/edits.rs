@@ -20,14 +20,17 @@ type Outcome<T> = Result<T, Box<dyn Error>>;
 type Edit = fn(&Path) -> Outcome<()>;
 
 /// Name of each edit; the first makes everything anew.
-const EDITS: [(&str, Edit); 6] = [
+const EDITS: [(&str, Edit); 7] = [
     ("everything (cold)", |_| Ok(())),
     ("nothing", |_| Ok(())),
     ("the camera", |dir| {
         replace(&dir.join("shrine.rts"), "fov.vertical = 42deg", "fov.vertical = 43deg")
     }),
     ("a material", |dir| replace(&dir.join("parts/materials.rts"), "g = 0.7", "g = 0.6")),
-    ("the place of one thing", |dir| {
+    ("the place of an instance", |dir| {
+        replace(&dir.join("shrine.rts"), "(0, 15 + 37 * i, 0)deg", "(0, 16 + 37 * i, 0)deg")
+    }),
+    ("the place of a thing with triangles of its own", |dir| {
         replace(&dir.join("shrine.rts"), "at = (0, 0, 6.6)m", "at = (0, 0, 6.7)m")
     }),
     ("a vertex of one mesh", |dir| nudge(&dir.join("generated/gate.glb"))),

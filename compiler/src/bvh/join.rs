@@ -66,8 +66,11 @@ pub fn join(groups: &[Group]) -> Result<Joined, BvhError> {
     join_groups(groups, &[]).map(|(joined, _)| joined)
 }
 
-/// Joins groups and instances; also tells whether some groups overlap in more places than could be separated.
-pub(super) fn join_groups(groups: &[Group], doors: &[Door]) -> Result<(Joined, bool), BvhError> {
+/// The joined tree, and sets of groups that could not be separated.
+type Tangled = (Joined, Vec<Vec<usize>>);
+
+/// Joins groups and instances; also tells which groups of triangles overlap in more places than could be separated.
+pub(super) fn join_groups(groups: &[Group], doors: &[Door]) -> Result<Tangled, BvhError> {
     let count = |kind| {
         let of_kind = groups.iter().filter(|g| g.kind == kind);
         of_kind.map(|g| g.tree.order.len()).sum::<usize>()
@@ -77,7 +80,11 @@ pub(super) fn join_groups(groups: &[Group], doors: &[Door]) -> Result<(Joined, b
         return Err(BvhError::TooMany { count });
     }
     let trees: Vec<&Tree> = groups.iter().map(|g| &g.tree).collect();
-    let (mut pieces, tangled) = top::pieces(&trees, doors);
+    let (mut pieces, mut knots) = top::pieces(&trees, doors);
+    for knot in &mut knots {
+        knot.retain(|group| groups[*group].kind == GroupKind::Triangles);
+    }
+    knots.retain(|knot| knot.len() > 1);
     let n_nodes: usize = trees.iter().map(|t| t.nodes.len()).sum();
     let mut out = Joined {
         nodes: Vec::with_capacity(n_nodes + groups.len()),
@@ -91,13 +98,13 @@ pub(super) fn join_groups(groups: &[Group], doors: &[Door]) -> Result<(Joined, b
             .fold(Bounds::EMPTY, Bounds::union),
     };
     if pieces.is_empty() {
-        return Ok((out, tangled));
+        return Ok((out, knots));
     }
     let members: Vec<Vec<u32>> = groups.iter().map(scene_order).collect();
     out.root = write(&top::build(&mut pieces, MAX_TOP_LEVELS), groups, &members, &mut out);
     out.stack_need = pack::bvh::stack_need(&out.nodes, &[], out.root);
     debug_assert_eq!([out.triangle_order.len(), out.sphere_order.len()], counts);
-    Ok((out, tangled))
+    Ok((out, knots))
 }
 
 impl Joined {

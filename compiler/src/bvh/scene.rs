@@ -55,7 +55,7 @@ pub struct BuildReport {
     pub groups: usize,
     /// Triangles in leaves; those that were split count once for each piece.
     pub references: usize,
-    /// Whether the meshes were so tangled that one tree over all triangles was taken.
+    /// Whether some meshes were so tangled that one tree over all of their triangles was taken.
     pub merged: bool,
     /// Groups whose trees are large enough for the cache and were built and stored.
     pub stored: usize,
@@ -95,8 +95,9 @@ pub fn plan(mesh_sizes: &[usize]) -> Vec<Vec<Range<u32>>> {
 /// Builds the tree of a scene.
 ///
 /// Meshes that fill the same space all over (leaves and twigs, halves of one shell) remain tangled
-/// after joining: every ray visits both trees. Where joining could not separate the meshes, one tree
-/// over all triangles is made as well, and the one that takes fewer visits is used.
+/// after joining: every ray visits both trees. Where joining could not separate meshes, one tree
+/// over the triangles of these is made as well, and what takes fewer visits is used. Meshes elsewhere keep their
+/// trees: moving one of them builds no tree but its own.
 ///
 /// # Errors
 /// When there are too many primitives, the sizes of the meshes do not add up, or the builder is broken.
@@ -123,14 +124,10 @@ pub fn build_instanced(
     let doors: Vec<Door> = shared.instances.iter().map(|instance| door(shared, instance)).collect();
     let mut report = BuildReport { preset, ..BuildReport::default() };
     let by_mesh = plan(primitives.mesh_sizes);
-    let n_groups = by_mesh.len();
     let groups = build_groups(primitives, by_mesh, preset, cache, &mut report)?;
-    let (mut joined, tangled) = join_groups(&groups, &doors)?;
-    drop(groups);
-    if tangled && n_groups > 1 {
-        let end = u32::try_from(primitives.triangles.len()).expect("counts were checked");
-        let all = vec![std::iter::once(0..end).collect()];
-        let groups = build_groups(primitives, all, preset, cache, &mut report)?;
+    let (mut joined, knots) = join_groups(&groups, &doors)?;
+    if !knots.is_empty() {
+        let groups = untie(primitives, groups, &knots, preset, cache, &mut report)?;
         let (merged, _) = join_groups(&groups, &doors)?;
         let [one, many] = [&merged, &joined].map(|tree| visits(tree, primitives.triangles));
         if one < many {
@@ -148,6 +145,32 @@ pub fn build_instanced(
         let _ = cache.prune();
     }
     Ok((joined, report))
+}
+
+/// The same groups with one for each knot, which has a tree of its own.
+fn untie(
+    primitives: &Primitives,
+    mut groups: Vec<Group>,
+    knots: &[Vec<usize>],
+    preset: Preset,
+    cache: &Cache,
+    report: &mut BuildReport,
+) -> Result<Vec<Group>, BvhError> {
+    let members = |knot: &Vec<usize>| {
+        let mut ranges: Vec<Range<u32>> =
+            knot.iter().flat_map(|group| groups[*group].members.clone()).collect();
+        ranges.sort_by_key(|range| range.start);
+        (GroupKind::Triangles, ranges)
+    };
+    let merged = knots.iter().map(members).collect();
+    let mut merged = build_all(primitives, merged, preset, cache, report)?;
+    let mut index = 0;
+    groups.retain(|_| {
+        index += 1;
+        !knots.iter().flatten().any(|group| group + 1 == index)
+    });
+    groups.append(&mut merged);
+    Ok(groups)
 }
 
 fn door(shared: &Shared, (mesh, [lo, hi]): &(usize, [[f32; 3]; 2])) -> Door {
@@ -213,6 +236,17 @@ fn build_groups(
         let end = u32::try_from(primitives.spheres.len()).expect("counts were checked");
         todo.push((GroupKind::Spheres, std::iter::once(0..end).collect()));
     }
+    build_all(primitives, todo, preset, cache, report)
+}
+
+/// The trees of some groups, side by side.
+fn build_all(
+    primitives: &Primitives,
+    todo: Vec<(GroupKind, Vec<Range<u32>>)>,
+    preset: Preset,
+    cache: &Cache,
+    report: &mut BuildReport,
+) -> Result<Vec<Group>, BvhError> {
     let moves = Moves::new(primitives);
     let results: Vec<_> = todo
         .into_par_iter()

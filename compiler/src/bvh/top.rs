@@ -8,7 +8,7 @@
 //! costs nothing at traversal: the opened nodes are simply not written. Instances of meshes that are stored
 //! once are pieces, too, which cannot be opened.
 
-use std::collections::BinaryHeap;
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
 use glam::Vec4;
 use pack::abi::{ChildRef, NONE, Node};
@@ -102,7 +102,7 @@ fn budget(n_groups: usize, n_doors: usize) -> usize {
     match n_groups + n_doors {
         n @ (0 | 1) => n,
         n if n_doors > MANY_DOORS => n,
-        _ => n_groups.max(4096) + n_doors,
+        _ => n_groups.max(8192) + n_doors,
     }
 }
 
@@ -119,9 +119,9 @@ pub(super) fn children(node: &Node) -> [(Bounds, u32); 2] {
     ]
 }
 
-/// Whole groups and instances first, then opened while that separates them. Empty groups give no piece. Also
-/// tells whether the budget ended that, so that groups are still tangled.
-pub(super) fn pieces(trees: &[&Tree], doors: &[Door]) -> (Vec<Piece>, bool) {
+/// Whole groups and instances first, then opened while that separates them. Empty groups give no piece. Where the
+/// budget ended that, also tells which groups are still tangled, see [`knots`].
+pub(super) fn pieces(trees: &[&Tree], doors: &[Door]) -> (Vec<Piece>, Vec<Vec<usize>>) {
     let roots = (0..trees.len()).filter(|group| trees[*group].root != NONE);
     let mut pieces: Vec<Piece> = roots.map(|group| Piece::whole(trees, group)).collect();
     let n_groups = pieces.len();
@@ -151,8 +151,41 @@ pub(super) fn pieces(trees: &[&Tree], doors: &[Door]) -> (Vec<Piece>, bool) {
         pieces.push(right);
     }
     let tangled = n_groups > 1 && !queue.is_empty();
-    (pieces, tangled)
+    let knots = if tangled { knots(trees, &pieces) } else { Vec::new() };
+    (pieces, knots)
 }
+
+/// Sets of groups, each of two or more in ascending order, that fill the same space: of one of any two that hang
+/// together, a share of [`TANGLED`] or more of the primitives is in pieces that meet pieces of the other.
+fn knots(trees: &[&Tree], pieces: &[Piece]) -> Vec<Vec<usize>> {
+    let mut weights = vec![0.0_f32; trees.len()];
+    let mut shared = BTreeMap::<(usize, usize), f32>::new();
+    let of_groups = || pieces.iter().filter(|piece| piece.group < trees.len());
+    for a in of_groups() {
+        weights[a.group] += a.weight;
+        let mut met = BTreeSet::new();
+        met.extend(of_groups().filter(|b| overlap(&a.bounds, &b.bounds)).map(|b| b.group));
+        met.remove(&a.group);
+        for other in met {
+            *shared.entry((a.group, other)).or_default() += a.weight;
+        }
+    }
+    let mut knot_of: Vec<usize> = (0..trees.len()).collect();
+    let share = |a: usize, b: usize| shared.get(&(a, b)).map_or(0.0, |weight| weight / weights[a]);
+    for &(a, b) in shared.keys() {
+        if share(a, b).min(share(b, a)) >= TANGLED {
+            let (from, to) = (knot_of[a].max(knot_of[b]), knot_of[a].min(knot_of[b]));
+            knot_of.iter_mut().filter(|knot| **knot == from).for_each(|knot| *knot = to);
+        }
+    }
+    let members = |knot| (0..trees.len()).filter(|group| knot_of[*group] == knot).collect();
+    let all = (0..trees.len()).map(members);
+    all.filter(|members: &Vec<usize>| members.len() > 1).collect()
+}
+
+/// Share of a group's primitives in the space of another from which on both are one knot: leaves among twigs, not
+/// a bridge over a pond.
+const TANGLED: f32 = 0.25;
 
 /// Whether the boxes have a common inside or touch.
 fn overlap(a: &Bounds, b: &Bounds) -> bool {
