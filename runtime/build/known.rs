@@ -41,7 +41,7 @@ pub(crate) fn table() -> Result<String, Box<dyn Error>> {
         normals(),
         samplers(),
         tints(),
-        trees(),
+        choices(),
         layers(),
         motion(),
         instances(),
@@ -316,13 +316,15 @@ fn tints() -> Family {
     Family { mask: bit::TINT, members: [false, true].map(member).into() }
 }
 
-/// The tree of lights.
-fn trees() -> Family {
-    let member = |light_tree| {
-        let bits = if light_tree { bit::LIGHT_TREE } else { 0 };
-        (bits, FeatureSet { light_tree, ..FeatureSet::full() })
+/// Several lights, and the tree of lights.
+fn choices() -> Family {
+    let member = |(light_choice, light_tree)| {
+        let choice = if light_choice { bit::LIGHT_CHOICE } else { 0 };
+        let tree = if light_tree { bit::LIGHT_TREE } else { 0 };
+        (choice | tree, FeatureSet { light_choice, light_tree, ..FeatureSet::full() })
     };
-    Family { mask: bit::LIGHT_TREE, members: [false, true].map(member).into() }
+    let mask = bit::LIGHT_CHOICE | bit::LIGHT_TREE;
+    Family { mask, members: [(false, false), (true, false), (true, true)].map(member).into() }
 }
 
 fn views() -> Family {

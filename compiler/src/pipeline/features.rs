@@ -29,6 +29,7 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
             .into_iter()
             .filter(|kind| lowered.lights.iter().any(|light| light.kind == *kind as u32))
             .collect(),
+        light_choice: lowered.lights.len() > 1,
         light_tree: !lowered.light_nodes.is_empty(),
         tint: materials.iter().any(|m| m.flags & material_flag::EMIT_TINT != 0),
         skies: lowered
