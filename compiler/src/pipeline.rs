@@ -2,6 +2,7 @@
 //!
 //! It does not parse, print, or decide where the pack goes.
 
+mod explain;
 mod features;
 mod load;
 mod manifest;
@@ -12,6 +13,7 @@ use std::time::{Duration, Instant};
 use lang::diagnostic::Diagnostic;
 use lang::scene::Scene;
 use lang::source::SourceSet;
+use pack::manifest::KernelSize;
 use pack::{PackError, PackWriter};
 use shaders::{FeatureSet, LayoutError, Linked, ShaderError};
 
@@ -122,18 +124,31 @@ pub fn compile_reusing(
     clock.times(&lowered.times);
     let features = features::of(&lowered);
     let kernel = shaders::link(&features)?;
-    reuse.kernel(&kernel.text, || {
-        let (module, _) = shaders::validate(&kernel)?;
-        shaders::check_layouts(&module).map_err(CompileError::from)
-    })?;
+    let size = reuse.kernel(&kernel.text, || prove(&kernel))?;
     clock.phase("link and prove the kernel");
     let context = manifest::Context { scene, sources, options, files: &files };
-    let manifest = context.manifest(&lowered, &features);
+    let manifest = context.manifest(&lowered, &features, size);
     let recipe_id = context.recipe_id();
     let trees = Share { reused: lowered.trees.loaded, all: lowered.trees.groups };
     let reused = Reused { texts: sources.ids().count(), trees, ..reuse.counts() };
     let phases = clock.phases;
     Ok(Compiled { lowered, features, kernel, manifest, recipe_id, files, reused, phases })
+}
+
+/// Whether the kernel is valid and reads what the compiler writes; then its size.
+fn prove(kernel: &Linked) -> Result<KernelSize, CompileError> {
+    let (module, info) = shaders::validate(kernel)?;
+    shaders::check_layouts(&module)?;
+    let words = shaders::spirv_words(&module, &info)?;
+    Ok(KernelSize { lines: KernelSize::lines_of(&kernel.text), words })
+}
+
+/// The size of the kernel that renders any scene.
+///
+/// # Errors
+/// When it cannot be linked or is not valid: a bug of ours.
+pub fn full_kernel_size() -> Result<KernelSize, CompileError> {
+    prove(&shaders::link(&FeatureSet::full())?)
 }
 
 impl Compiled {

@@ -163,7 +163,7 @@ pub fn lower(
     let mut placement =
         geometry::place(scene, loaded, trees.instancing, &mut materials, diagnostics);
     check_count(&placement)?;
-    let (inside, around) = media(scene, loaded, &materials, &placement, diagnostics);
+    let inside = around_camera(scene, loaded, &materials, &placement, diagnostics);
     let environment = loaded.environment.as_ref();
     let sky = scene.sky.as_ref().and_then(|s| sky::sky(s, environment, &mut materials.textures));
     let table = sky.as_ref().and_then(|sky| sky.table.as_ref());
@@ -201,15 +201,16 @@ pub fn lower(
     }
     let material_names = names(scene, loaded, materials.refs());
     let settings = settings(scene, &frame, &joined, ordered.lights.len());
-    let media = medium::records(scene, materials.waters(), &frame);
+    let declared = medium::records(scene, materials.waters(), &frame);
     let (mut materials, textures) = materials.into_records();
     medium::mark(scene, &mut materials);
+    let medium::Used { media, around: [air, fog] } = medium::used(scene, &declared, &mut materials);
     let objects = objects(&placement, &materials, &frame, !motions.is_empty());
     let instances = forget_objects(&objects, &mut ordered, instances);
     motion::mark(&objects, &mut ordered);
     let (textures, texels) = textures.into_records();
     Ok(Lowered {
-        render: abi::RenderSettings { air: around[0], fog: around[1], inside, ..settings },
+        render: abi::RenderSettings { air, fog, inside, ..settings },
         camera: camera::camera(&scene.camera, &frame),
         sky,
         sky_table,
@@ -259,25 +260,24 @@ fn widened(
     Ok(wide)
 }
 
-/// What the camera is inside of, and what is around everything, as `RenderSettings` holds it.
-fn media(
+/// What the camera is inside of, as `RenderSettings` holds it. Reports what media cannot be in.
+fn around_camera(
     scene: &Scene,
     loaded: &Loaded,
     materials: &MaterialTable<'_>,
     placement: &Placement,
     diagnostics: &mut Vec<Diagnostic>,
-) -> ([u32; 4], [u32; 2]) {
-    let around = medium::around(scene);
+) -> [u32; 4] {
     let matters = medium::matters(scene, materials.records());
     closed::check(scene, loaded, matters, diagnostics);
     thick::check(scene, loaded, diagnostics);
     if !matters {
-        return ([NONE; 4], around);
+        return [NONE; 4];
     }
     let records = materials.records();
     let solids = Solids::find(placement, records, DVec3::from(scene.camera.from));
     solids.warn_of_overlaps(placement, records, scene, diagnostics);
-    (solids.around_camera(scene, records, diagnostics), around)
+    solids.around_camera(scene, records, diagnostics)
 }
 
 /// Centres and radii in the normalised frame; no radius is lost.

@@ -157,6 +157,25 @@ impl<'a> TextureTable<'a> {
         self.image(image).has_alpha
     }
 
+    /// The least number in a channel of an image, as a texture of it may hold it: bytes round down.
+    pub(super) fn least(&self, image: ImageRef, channel: u8) -> f32 {
+        let channel = usize::from(channel);
+        match &self.image(image).data {
+            Pixels::Rgba8(bytes) => {
+                let texels = bytes.as_chunks::<4>().0.iter();
+                let least = texels.map(|texel| texel[channel]).min().unwrap_or(u8::MAX);
+                f32::from(least) / 255.0
+            }
+            Pixels::Rgba16F(bits) => {
+                let texels = bits.as_chunks::<4>().0.iter();
+                let values = texels.map(|texel| half::f16::from_bits(texel[channel]).to_f32());
+                // `f32::min` would forget a NaN.
+                let least = |a: f32, b: f32| if b < a || b.is_nan() { b } else { a };
+                libm::floorf(values.fold(1.0, least) * 255.0) / 255.0
+            }
+        }
+    }
+
     fn image(&self, image: ImageRef) -> &'a Image {
         let found = match image {
             ImageRef::Scene(texture) => self.loaded.textures[texture].as_deref(),

@@ -7,7 +7,11 @@ use std::fmt::Write as _;
 /// The choice of a light: there is but one, or by the table, or by the tree.
 pub(crate) fn text(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: how a light of this scene is chosen.\n\n");
-    if features.light_choice { chosen(features, &mut text) } else { only(&mut text) }
+    if features.light_choice {
+        chosen(features, &mut text)
+    } else {
+        only(&mut text)
+    }
     text
 }
 
