@@ -4,7 +4,7 @@
 //! its values. A declaration that always reads the same is known for every scene; one that varies
 //! within a family is known only for scenes with the same features of that group.
 
-use crate::pieces::pieces;
+use crate::pieces::{name_of, pieces};
 use pack::abi::{LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat};
 use pack::features as bit;
 use shaders::{FeatureSet, NodeLayout, Windows};
@@ -130,21 +130,9 @@ fn declarations_of(features: &FeatureSet) -> Result<Vec<(String, String)>, Box<d
     pieces
         .into_iter()
         .map(|(_, text)| {
-            Ok((name_of(text).ok_or("a declaration without a name")?, text.to_owned()))
+            Ok((name_of(text).ok_or("a declaration without a name")?.to_owned(), text.to_owned()))
         })
         .collect()
-}
-
-/// The word after `fn`, `struct`, `const`, `alias` or `var<…>`.
-fn name_of(text: &str) -> Option<String> {
-    let code =
-        text.lines().find(|line| !line.starts_with("//") && !line.starts_with("@compute"))?;
-    let keyword = ["fn ", "struct ", "const ", "alias ", "var<"];
-    let start = keyword.iter().filter_map(|k| code.find(k).map(|i| i + k.len())).min()?;
-    let rest = &code[start..];
-    let rest = if code[..start].ends_with("var<") { rest.split_once("> ")?.1 } else { rest };
-    let end = rest.find(|c: char| c != '_' && !c.is_ascii_alphanumeric()).unwrap_or(rest.len());
-    (end > 0).then(|| rest[..end].to_owned())
 }
 
 /// Every subset of `all`.
@@ -230,7 +218,10 @@ fn switches(switching: &[String]) -> Result<String, Box<dyn Error>> {
             cases.push(format!("({}, {line:?})", literal(bit::material(kind))));
         }
         let cases = cases.join(", ");
-        writeln!(source, "    Switch {{ head: {head:?}, cases: &[{cases}], foot: {foot:?} }},")?;
+        writeln!(
+            source,
+            "    Switch {{ name: {name:?}, head: {head:?}, cases: &[{cases}], foot: {foot:?} }},"
+        )?;
     }
     source.push_str("];\n");
     Ok(source)

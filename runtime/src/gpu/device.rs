@@ -7,6 +7,7 @@ use super::{Adapter, GpuError};
 use crate::cpu::panic_text;
 use crate::scene::{Setup, WINDOW_BYTES};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 use wgpu::{
     BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry, BindingType, Buffer,
     BufferBindingType, ComputePipeline, ComputePipelineDescriptor, DeviceDescriptor, ErrorFilter,
@@ -57,6 +58,8 @@ pub(super) struct Device {
     pub(super) pipeline: ComputePipeline,
     pub(super) layout: BindGroupLayout,
     pub(super) windows: Vec<Window>,
+    /// What building the pipeline took, with the first workgroup: drivers compile at the first dispatch.
+    pub(super) built: Duration,
     /// Set when the device is lost.
     pub(super) lost: Fault,
     /// Set by an error that no scope caught.
@@ -94,10 +97,13 @@ impl Device {
             fault.set(error.to_string());
         }));
         let windows = upload_all(&device, &queue, &buffers)?;
+        let began = Instant::now();
         let checks = (module == Module::Trusted).then(ShaderRuntimeChecks::unchecked);
         let (layout, pipeline) = compile(&device, setup.kernel(), &windows, checks)?;
-        let mut ready = Self { gpu: device, queue, pipeline, layout, windows, lost, uncaptured };
+        let (gpu, built) = (device, Duration::ZERO);
+        let mut ready = Self { gpu, queue, pipeline, layout, windows, built, lost, uncaptured };
         ready.try_one_workgroup(setup)?;
+        ready.built = began.elapsed();
         Ok(ready)
     }
 
@@ -256,7 +262,9 @@ fn create_module(
         None => device.create_shader_module(descriptor),
         // SAFETY: without the checks a shader must not index outside of its buffers and arrays, loop
         // for ever or divide integers by zero. A module is trusted only when `trust::judge` found
-        // that every declaration in it is our own and the one made for the features of this pack, so
+        // that every declaration in it is our own and the one made for the features of this pack, or when
+        // `trust` itself put it together from those declarations for more features, code that no record
+        // of the pack asks for (as on the CPU, where that kernel renders every pack with checks); so
         // the code is what was reviewed and tested here; and only for a `Pack<Checked>`, whose rules
         // are what that code relies on: every index of every table lies inside the table it points
         // into, children come after their parents (traversal ends), leaf ranges lie inside, and the
