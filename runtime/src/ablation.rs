@@ -175,6 +175,9 @@ pub fn ablate(
             ablation.interrupted = true;
             break;
         }
+        if adapter.is_some() {
+            control.note(&format!("building and timing: {name}"));
+        }
         let measured = match &mut bench {
             None => None,
             Some(bench) => match bench.measure(&text, plan.rounds, cpu.film())? {

@@ -19,7 +19,7 @@ pub(super) use with_gpu::command;
 #[cfg(feature = "gpu")]
 mod with_gpu {
     use super::super::args::AblateArg;
-    use super::super::console::{Watched, reset_interrupts};
+    use super::super::console::reset_interrupts;
     use super::{Console, Exit, MapMode, Pack, RenderArgs};
     use crate::ablation::{Ablation, AblationError, Measured, Plan, Row, ablate};
     use crate::control::Control;
@@ -37,7 +37,7 @@ mod with_gpu {
     const ROUNDS: u32 = 3;
 
     pub(in super::super) fn command(args: &RenderArgs) -> Exit {
-        let console = Console::with_progress(args.quiet);
+        let console = Console::new(args.quiet);
         let Some(path) = &args.pack else {
             console.warn("error: no pack was named");
             return Exit::Usage;
@@ -86,8 +86,8 @@ mod with_gpu {
         job: &Job,
     ) -> Result<Ablation, AblationError> {
         reset_interrupts();
-        let (control, over) = (Control::default(), AtomicBool::new(false));
-        let watched = Watched { spp: job.spp(), limit: None, change: None };
+        let notes = console.clone();
+        let (control, over) = (Control::new(move |text| notes.note(text)), AtomicBool::new(false));
         let plan = Plan { rounds: ROUNDS, each: args.ablate == Some(AblateArg::Each) };
         let mut first: Option<Row> = None;
         let mut tell = |row: &Row| {
@@ -98,7 +98,7 @@ mod with_gpu {
             console.result(&line(row, base));
         };
         std::thread::scope(|scope| {
-            let watcher = scope.spawn(|| console.watch(&control, &watched, &over));
+            let watcher = scope.spawn(|| console.pass_interrupts(&control, &over));
             let choice = DeviceChoice::parse(&args.device);
             let ablation = ablate(scene, job, &choice, &plan, &control, &mut tell);
             over.store(true, Ordering::Relaxed);

@@ -2,7 +2,7 @@
 
 use super::queue::{Slot, Slots};
 use super::stopwatch;
-use super::upload::{Uploader, wait};
+use super::upload::{Uploader, wait_at_most};
 use super::{Adapter, GpuError};
 use crate::cpu::panic_text;
 use crate::scene::{Setup, WINDOW_BYTES};
@@ -17,6 +17,9 @@ use wgpu::{
 
 /// Window `w` of binding `b` is binding `b + 8 w`.
 const WINDOW_STRIDE: u32 = 8;
+/// How long the first workgroup may take. Drivers compile then, and a software driver, which has only the CPU
+/// to run on, optimises the kernel with all features for minutes.
+const PATIENCE: [Duration; 2] = [Duration::from_mins(1), Duration::from_mins(15)];
 /// The compiler of a large kernel recurses deeply.
 const COMPILER_STACK: usize = 32 << 20;
 
@@ -102,7 +105,7 @@ impl Device {
         let (layout, pipeline) = compile(&device, setup.kernel(), &windows, checks)?;
         let (gpu, built) = (device, Duration::ZERO);
         let mut ready = Self { gpu, queue, pipeline, layout, windows, built, lost, uncaptured };
-        ready.try_one_workgroup(setup)?;
+        ready.try_one_workgroup(setup, PATIENCE[usize::from(adapter.is_software())])?;
         ready.built = began.elapsed();
         Ok(ready)
     }
@@ -123,11 +126,11 @@ impl Device {
 
     /// Renders 8 × 8 pixels once: drivers compile at the first dispatch, and one that renders
     /// nothing at all is found before it is trusted with a picture.
-    fn try_one_workgroup(&mut self, setup: &Setup<'_>) -> Result<(), GpuError> {
+    fn try_one_workgroup(&mut self, setup: &Setup<'_>, patience: Duration) -> Result<(), GpuError> {
         let mut slots = Slots::default();
         let mut slot: Slot = slots.take(self, 64);
         let index = slot.submit_trial(self, setup);
-        wait(&self.gpu, index)?;
+        wait_at_most(&self.gpu, index, patience)?;
         self.fault()?;
         slot.read(self, |_| ())
     }

@@ -130,11 +130,11 @@ fn header_cases() -> Vec<Case> {
         (Raw(|b| b[entry(NODE) + 48] ^= 1), "header: render_id does not match the section table"),
         (
             Table(|b| b[48] ^= 1),
-            "header: features are 0x00003fe0ff2fffde, but the contents have 0x00003fe0ff2fffdf",
+            "header: features are 0x02003fe0ff2fffde, but the contents have 0x02003fe0ff2fffdf",
         ),
         (
             Parts(|d| put64(&mut d.header, 48, 0)),
-            "header: features are 0x0000000000000000, but the contents have 0x00003fe0ff2fffdf",
+            "header: features are 0x0000000000000000, but the contents have 0x02003fe0ff2fffdf",
         ),
     ]
 }
