@@ -18,6 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     write(&out, "kernel_f64.rs", &translate(&kernel, native::Precision::F64, &[])?)?;
     if env::var_os("CARGO_FEATURE_GPU").is_some() {
         write(&out, "known.rs", &known::table()?)?;
+        write(&out, "full.wgsl", &kernel.text)?;
     }
     // The modules themselves are compiled into `shaders`: cargo runs this again when they change.
     println!("cargo::rerun-if-changed=build.rs");

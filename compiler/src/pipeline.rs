@@ -4,6 +4,7 @@
 
 mod again;
 mod essence;
+mod explain;
 mod features;
 mod load;
 mod manifest;
@@ -14,7 +15,8 @@ use std::time::{Duration, Instant};
 use lang::diagnostic::Diagnostic;
 use lang::scene::Scene;
 use lang::source::SourceSet;
-use pack::{PackError, PackWriter};
+use pack::manifest::KernelSize;
+use pack::{Pack, PackError, PackWriter};
 use shaders::{FeatureSet, LayoutError, Linked, ShaderError};
 
 use crate::import::Limits;
@@ -126,10 +128,10 @@ pub fn compile_reusing(
         return Err(CompileError::Scene);
     }
     clock.times(&lowered.times);
-    let (features, kernel) = link(&lowered, reuse, None)?;
+    let (features, kernel, size) = link(&lowered, reuse, None)?;
     clock.phase("link and prove the kernel");
     let context = manifest::Context { scene, sources, options, files: &files };
-    let manifest = context.manifest(&lowered, &features);
+    let manifest = context.manifest(&lowered, &features, size);
     let recipe_id = context.recipe_id();
     let trees = Share { reused: lowered.trees.loaded, all: lowered.trees.groups };
     let reused = Reused { texts: sources.ids().count(), trees, ..reuse.counts() };
@@ -139,22 +141,36 @@ pub fn compile_reusing(
     Ok(Compiled { lowered, features, kernel, manifest, recipe_id, files, memory, reused, phases })
 }
 
-/// The kernel of a scene, proven to read the bytes that the pack has; a kernel with the text `proven` was.
+/// The kernel of a scene and its size. It is proven to read the bytes that the pack has; that of a pack which this
+/// program made, `earlier`, was.
 fn link(
     lowered: &Lowered,
     reuse: &Reuse,
-    proven: Option<&str>,
-) -> Result<(FeatureSet, Linked), CompileError> {
+    earlier: Option<&Pack>,
+) -> Result<(FeatureSet, Linked, KernelSize), CompileError> {
     let features = features::of(lowered);
     let kernel = shaders::link(&features)?;
-    if proven == Some(kernel.text.as_str()) {
-        reuse.know_kernel(&kernel.text);
+    if let Some(earlier) = earlier.filter(|pack| pack.kernel() == kernel.text) {
+        reuse.know_kernel(&kernel.text, earlier.manifest()?.kernel);
     }
-    reuse.kernel(&kernel.text, || {
-        let (module, _) = shaders::validate(&kernel)?;
-        shaders::check_layouts(&module).map_err(CompileError::from)
-    })?;
-    Ok((features, kernel))
+    let size = reuse.kernel(&kernel.text, || prove(&kernel))?;
+    Ok((features, kernel, size))
+}
+
+/// Whether the kernel is valid and reads what the compiler writes; then its size.
+fn prove(kernel: &Linked) -> Result<KernelSize, CompileError> {
+    let (module, info) = shaders::validate(kernel)?;
+    shaders::check_layouts(&module)?;
+    let words = shaders::spirv_words(&module, &info)?;
+    Ok(KernelSize { lines: KernelSize::lines_of(&kernel.text), words })
+}
+
+/// The size of the kernel that renders any scene.
+///
+/// # Errors
+/// When it cannot be linked or is not valid: a bug of ours.
+pub fn full_kernel_size() -> Result<KernelSize, CompileError> {
+    prove(&shaders::link(&FeatureSet::full())?)
 }
 
 impl Compiled {

@@ -5,10 +5,12 @@
 //! A single compilation keeps nothing: it uses this to count and to list the files it read. The
 //! result never depends on what is kept here. Trees have a cache of their own, on disk.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
+
+use pack::manifest::KernelSize;
 
 use crate::import::{Image, ImportError, MeshFile};
 
@@ -63,7 +65,7 @@ struct State {
     reads: BTreeMap<PathBuf, Stamp>,
     meshes: BTreeMap<String, Kept<MeshFile>>,
     images: BTreeMap<String, Kept<Image>>,
-    kernels: BTreeSet<String>,
+    kernels: BTreeMap<String, KernelSize>,
     counts: Reused,
 }
 
@@ -176,27 +178,25 @@ impl Reuse {
         Ok(kept.value)
     }
 
-    /// Whether this very kernel was proven before; `prove` does it otherwise.
+    /// How large this kernel is, if it was proven before; `prove` proves and measures it otherwise.
     pub(crate) fn kernel<E>(
         &self,
         text: &str,
-        prove: impl FnOnce() -> Result<(), E>,
-    ) -> Result<(), E> {
-        let reused = self.lock().kernels.contains(text);
-        if !reused {
-            prove()?;
-        }
+        prove: impl FnOnce() -> Result<KernelSize, E>,
+    ) -> Result<KernelSize, E> {
+        let known = self.lock().kernels.get(text).copied();
+        let size = known.map_or_else(prove, Ok)?;
         let mut state = self.lock();
-        state.counts.kernel.count(reused);
-        if self.keep && !reused {
-            state.kernels.insert(text.to_owned());
+        state.counts.kernel.count(known.is_some());
+        if self.keep && known.is_none() {
+            state.kernels.insert(text.to_owned(), size);
         }
-        Ok(())
+        Ok(size)
     }
 
-    /// This kernel was proven by the same program.
-    pub(crate) fn know_kernel(&self, text: &str) {
-        self.lock().kernels.insert(text.to_owned());
+    /// This kernel was proven by the same program, and is that large.
+    pub(crate) fn know_kernel(&self, text: &str, size: KernelSize) {
+        self.lock().kernels.insert(text.to_owned(), size);
     }
 
     /// Stamps of files, those taken before they were read where there are any.
@@ -263,7 +263,7 @@ mod tests {
         let reuse = Reuse::once();
         let path = Path::new("there is no such file");
         reuse.image(path, || Ok(image(1))).unwrap();
-        reuse.kernel("text", || Ok::<(), ()>(())).unwrap();
+        reuse.kernel("text", || Ok::<_, ()>(KernelSize::default())).unwrap();
         assert_eq!(reuse.image(path, || Ok(image(2))).unwrap().width, 2);
         assert_eq!(reuse.kernel("text", || Err("again")), Err("again"));
         assert_eq!(reuse.reads()[path], Stamp::of(path));
@@ -274,8 +274,9 @@ mod tests {
         let reuse = Reuse::keeping();
         assert_eq!(reuse.kernel("bad", || Err("no")), Err("no"));
         assert_eq!(reuse.kernel("bad", || Err("no")), Err("no"));
-        assert_eq!(reuse.kernel("good", || Ok::<(), &str>(())), Ok(()));
-        assert_eq!(reuse.kernel("good", || Err("asked again")), Ok(()));
+        let size = KernelSize { lines: 3, words: 70 };
+        assert_eq!(reuse.kernel("good", || Ok::<_, &str>(size)), Ok(size));
+        assert_eq!(reuse.kernel("good", || Err("asked again")), Ok(size));
         assert_eq!(reuse.counts().kernel, Share { reused: 1, all: 2 });
     }
 }

@@ -4,7 +4,7 @@
 //! its values. A declaration that always reads the same is known for every scene; one that varies
 //! within a family is known only for scenes with the same features of that group.
 
-use crate::pieces::pieces;
+use crate::pieces::{name_of, pieces};
 use pack::abi::{LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat};
 use pack::features as bit;
 use shaders::{FeatureSet, NodeLayout, Windows};
@@ -41,7 +41,7 @@ pub(crate) fn table() -> Result<String, Box<dyn Error>> {
         normals(),
         samplers(),
         tints(),
-        trees(),
+        choices(),
         layers(),
         motion(),
         instances(),
@@ -130,21 +130,9 @@ fn declarations_of(features: &FeatureSet) -> Result<Vec<(String, String)>, Box<d
     pieces
         .into_iter()
         .map(|(_, text)| {
-            Ok((name_of(text).ok_or("a declaration without a name")?, text.to_owned()))
+            Ok((name_of(text).ok_or("a declaration without a name")?.to_owned(), text.to_owned()))
         })
         .collect()
-}
-
-/// The word after `fn`, `struct`, `const`, `alias` or `var<…>`.
-fn name_of(text: &str) -> Option<String> {
-    let code =
-        text.lines().find(|line| !line.starts_with("//") && !line.starts_with("@compute"))?;
-    let keyword = ["fn ", "struct ", "const ", "alias ", "var<"];
-    let start = keyword.iter().filter_map(|k| code.find(k).map(|i| i + k.len())).min()?;
-    let rest = &code[start..];
-    let rest = if code[..start].ends_with("var<") { rest.split_once("> ")?.1 } else { rest };
-    let end = rest.find(|c: char| c != '_' && !c.is_ascii_alphanumeric()).unwrap_or(rest.len());
-    (end > 0).then(|| rest[..end].to_owned())
 }
 
 /// Every subset of `all`.
@@ -230,7 +218,10 @@ fn switches(switching: &[String]) -> Result<String, Box<dyn Error>> {
             cases.push(format!("({}, {line:?})", literal(bit::material(kind))));
         }
         let cases = cases.join(", ");
-        writeln!(source, "    Switch {{ head: {head:?}, cases: &[{cases}], foot: {foot:?} }},")?;
+        writeln!(
+            source,
+            "    Switch {{ name: {name:?}, head: {head:?}, cases: &[{cases}], foot: {foot:?} }},"
+        )?;
     }
     source.push_str("];\n");
     Ok(source)
@@ -316,13 +307,15 @@ fn tints() -> Family {
     Family { mask: bit::TINT, members: [false, true].map(member).into() }
 }
 
-/// The tree of lights.
-fn trees() -> Family {
-    let member = |light_tree| {
-        let bits = if light_tree { bit::LIGHT_TREE } else { 0 };
-        (bits, FeatureSet { light_tree, ..FeatureSet::full() })
+/// Several lights, and the tree of lights.
+fn choices() -> Family {
+    let member = |(light_choice, light_tree)| {
+        let choice = if light_choice { bit::LIGHT_CHOICE } else { 0 };
+        let tree = if light_tree { bit::LIGHT_TREE } else { 0 };
+        (choice | tree, FeatureSet { light_choice, light_tree, ..FeatureSet::full() })
     };
-    Family { mask: bit::LIGHT_TREE, members: [false, true].map(member).into() }
+    let mask = bit::LIGHT_CHOICE | bit::LIGHT_TREE;
+    Family { mask, members: [(false, false), (true, false), (true, true)].map(member).into() }
 }
 
 fn views() -> Family {

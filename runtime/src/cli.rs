@@ -1,9 +1,11 @@
 //! The command line of `rtr`: arguments → a run → files and an exit code.
 //!
 //! This module and its children are the only place of the crate that prints. Exit codes: 0 done;
-//! 1 too many samples were not finite, or `check` found the scene not stable; 2 usage; 3 input, output or device; 70 a bug of ours; 130
+//! 1 too many samples were not finite, or `check` found the scene not
+//! stable, or `--ablate` pictures that differ; 2 usage; 3 input, output or device; 70 a bug of ours; 130
 //! interrupted, after everything complete was written.
 
+mod ablate;
 mod args;
 mod bench;
 mod check;
@@ -47,6 +49,7 @@ pub fn run(args: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> ExitC
         Some(Command::Bench(bench)) => bench::command(bench),
         Some(Command::Check(args)) => check::command(args),
         None if args.render.list_devices => list_devices(),
+        None if args.render.ablate.is_some() => ablate::command(&args.render),
         None if args.render.watch => watch::command(&args.render),
         None => render::command(&args.render, None),
     })

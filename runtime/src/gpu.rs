@@ -57,6 +57,30 @@ pub enum GpuError {
 /// Losses after which the device is not tried again, unless it rendered something in between.
 const MAX_LOSSES: u32 = 3;
 
+/// A device with one kernel, to be used again and again.
+pub(crate) struct Ready {
+    device: Device,
+    pace: Pace,
+}
+
+impl Ready {
+    /// Without runtime checks: the kernel of `setup` must be known, or be ours.
+    pub(crate) fn open(adapter: &Adapter, setup: &Setup<'_>, job: &Job) -> Result<Self, GpuError> {
+        let device = Device::open(adapter, setup, Module::Trusted, true)?;
+        Ok(Self { device, pace: Pace::new(job.submission) })
+    }
+
+    /// What building the pipeline took.
+    pub(crate) fn built(&self) -> Duration {
+        self.device.built
+    }
+
+    /// Renders until the run has nothing left, or the device fails.
+    pub(crate) fn render(&mut self, setup: &Setup<'_>, run: &Run<'_>) -> Result<(), GpuError> {
+        self.device.render(setup, run, &mut self.pace)
+    }
+}
+
 /// Renders until the run has nothing left, rebuilding the device when it is lost: first as it was
 /// wanted, then with checked modules and ever smaller tiles.
 pub(crate) fn render(

@@ -17,6 +17,8 @@
 //! # }
 //! ```
 
+#[cfg(feature = "gpu")]
+pub mod ablation;
 pub mod check;
 mod checkpoint;
 pub mod cli;

@@ -52,6 +52,9 @@ pub(crate) struct Setup<'a> {
     heap: Vec<UVec4>,
     /// Everything of `Frame` that is the same for all tiles.
     frame: Frame,
+    /// Runs instead of the pack's.
+    #[cfg(feature = "gpu")]
+    kernel: Option<&'a str>,
 }
 
 impl Scene {
@@ -161,11 +164,17 @@ impl Scene {
             inside: settings.inside,
             ..Frame::default()
         };
-        Setup { scene: self, heap, frame }
+        Setup {
+            scene: self,
+            heap,
+            frame,
+            #[cfg(feature = "gpu")]
+            kernel: None,
+        }
     }
 }
 
-impl Setup<'_> {
+impl<'a> Setup<'a> {
     /// The uniform of one tile.
     pub(crate) fn frame(&self, item: &WorkItem) -> Frame {
         Frame {
@@ -200,6 +209,12 @@ impl Setup<'_> {
         if wide.is_empty() { self.section(Kind::NODE) } else { wide }
     }
 
+    /// The same scene for another kernel, which can do at least what the pack's can.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn with_kernel(self, kernel: &'a str) -> Self {
+        Self { kernel: Some(kernel), ..self }
+    }
+
     /// Every storage buffer that is only read: binding number and bytes, none empty.
     #[cfg(feature = "gpu")]
     pub(crate) fn buffers(&self) -> Vec<(u32, &[u8])> {
@@ -212,6 +227,14 @@ impl Setup<'_> {
         let has_nodes = buffers.iter().any(|(binding, _)| *binding == BOUND[0].0);
         if self.frame.root != NONE && !has_nodes {
             buffers.insert(1, (BOUND[0].0, &[0; 64]));
+        }
+        // A kernel that can do more names sections that this pack lacks, and never reads them.
+        for (binding, _) in BOUND {
+            let named = || self.kernel().contains(&format!("@group(0) @binding({binding}) "));
+            let bound = buffers.iter().any(|(number, _)| *number == binding);
+            if self.kernel.is_some() && !bound && named() {
+                buffers.push((binding, &[0; 64]));
+            }
         }
         buffers
     }
@@ -227,10 +250,10 @@ impl Setup<'_> {
         self.scene.settings().stack_need
     }
 
-    /// The WGSL text of the pack.
+    /// The WGSL text that renders it.
     #[cfg(feature = "gpu")]
     pub(crate) fn kernel(&self) -> &str {
-        self.scene.pack.kernel()
+        self.kernel.unwrap_or_else(|| self.scene.pack.kernel())
     }
 }
 

@@ -13,9 +13,12 @@
 //! no error: it runs with checks.
 
 mod pieces;
+mod relink;
 
 use crate::scene::{Setup, WINDOW_BYTES};
+
 use pieces::pieces;
+pub(crate) use relink::{FULL, Wanted, is_same, relink};
 
 /// When the linker emits a declaration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +50,7 @@ struct Known {
 /// A function that switches over the kinds of materials that a scene has, where there are several: its text
 /// is `head`, the lines of the kinds in order, `foot`.
 struct Switch {
+    name: &'static str,
     head: &'static str,
     /// Feature bit and line of each kind.
     cases: &'static [(u64, &'static str)],
@@ -54,6 +58,12 @@ struct Switch {
 }
 
 impl Switch {
+    /// The text of this function for a scene with `features`.
+    fn text(&self, features: u64) -> String {
+        let lines = self.cases.iter().filter(|(bit, _)| features & bit != 0).map(|(_, line)| *line);
+        std::iter::once(self.head).chain(lines).chain([self.foot]).collect()
+    }
+
     /// Whether `text` is this function for a scene with `features`.
     fn is(&self, text: &str, features: u64) -> bool {
         let mut rest = text.strip_prefix(self.head);
@@ -84,11 +94,7 @@ pub(crate) fn judge(setup: &Setup<'_>) -> Trust {
         Ok(pieces) => pieces,
         Err(line) => return Trust::Unknown { line },
     };
-    let sections: Vec<(u32, u64)> = setup
-        .buffers()
-        .iter()
-        .map(|(binding, bytes)| (*binding, (bytes.len() as u64).div_ceil(WINDOW_BYTES)))
-        .collect();
+    let sections = windows(setup);
     let stack_need = setup.stack_need();
     for (line, text) in pieces {
         let fits = stack_size(text).is_some_and(|size| size >= stack_need.max(1));
@@ -97,6 +103,24 @@ pub(crate) fn judge(setup: &Setup<'_>) -> Trust {
         }
     }
     Trust::Known
+}
+
+/// Binding of each section, and how many windows it has.
+fn windows(setup: &Setup<'_>) -> Vec<(u32, u64)> {
+    let buffers = setup.buffers();
+    let windows = |bytes: &[u8]| (bytes.len() as u64).div_ceil(WINDOW_BYTES);
+    buffers.iter().map(|(binding, bytes)| (*binding, windows(bytes))).collect()
+}
+
+impl Condition {
+    /// Whether it holds for a scene with `features`, whose sections have so many windows.
+    fn holds(self, features: u64, sections: &[(u32, u64)]) -> bool {
+        match self {
+            Self::Any => true,
+            Self::Features { mask, bits } => features & mask == bits,
+            Self::Windows { binding, n } => sections.contains(&(binding, n)),
+        }
+    }
 }
 
 fn is_known(text: &str, features: u64, sections: &[(u32, u64)]) -> bool {
@@ -108,13 +132,8 @@ fn is_known(text: &str, features: u64, sections: &[(u32, u64)]) -> bool {
         return true;
     }
     let first = KNOWN.partition_point(|known| known.text < text);
-    KNOWN[first..].iter().take_while(|known| known.text == text).any(|known| {
-        match known.condition {
-            Condition::Any => true,
-            Condition::Features { mask, bits } => features & mask == bits,
-            Condition::Windows { binding, n } => sections.contains(&(binding, n)),
-        }
-    })
+    let same = KNOWN[first..].iter().take_while(|known| known.text == text);
+    same.into_iter().any(|known| known.condition.holds(features, sections))
 }
 
 /// The number in `const STACK_SIZE: u32 = 0x12u;`, if that is the whole text.

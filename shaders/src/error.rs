@@ -87,6 +87,12 @@ pub enum ShaderError {
         /// naga's message.
         message: String,
     },
+    /// naga cannot write the module as SPIR-V.
+    #[error("the kernel has no SPIR-V: {message}")]
+    Translate {
+        /// naga's message.
+        message: String,
+    },
     /// naga's validator refuses the module.
     #[error("{at}: {message}")]
     Invalid {

@@ -25,7 +25,9 @@ pub struct FeatureSet {
     pub materials: BTreeSet<MaterialKind>,
     /// Kinds in the light selection table.
     pub lights: BTreeSet<LightKind>,
-    /// Lights are chosen by a tree.
+    /// There are several lights to choose from; one needs neither table nor tree.
+    pub light_choice: bool,
+    /// Lights are chosen by a tree; only with `light_choice`.
     pub light_tree: bool,
     /// Some light is tinted by direction.
     pub tint: bool,
@@ -125,6 +127,7 @@ impl FeatureSet {
             smooth_normals: false,
             materials: BTreeSet::new(),
             lights: BTreeSet::new(),
+            light_choice: false,
             light_tree: false,
             tint: false,
             skies: BTreeSet::new(),
@@ -160,6 +163,7 @@ impl FeatureSet {
             smooth_normals: true,
             materials: MaterialKind::ALL.into(),
             lights: LightKind::ALL.into(),
+            light_choice: true,
             light_tree: true,
             tint: true,
             skies: SkyKind::ALL.into(),

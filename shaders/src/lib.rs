@@ -29,4 +29,6 @@ pub use generate::{WINDOW_WORDS, generated_texts, root_module};
 pub use layout::{LayoutError, abi_module, check_layouts};
 pub use link::{Linked, link, link_modules};
 pub use modules::module_texts;
+#[cfg(feature = "spirv")]
+pub use validate::spirv_words;
 pub use validate::validate;

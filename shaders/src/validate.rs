@@ -18,6 +18,19 @@ pub fn validate(linked: &Linked) -> Result<(naga::Module, ModuleInfo), ShaderErr
     Ok((module, info))
 }
 
+/// Words of the module in SPIR-V: without names, runtime checks and debug information, so that the number is
+/// the same in every build.
+#[cfg(feature = "spirv")]
+pub fn spirv_words(module: &naga::Module, info: &ModuleInfo) -> Result<u32, ShaderError> {
+    let options = naga::back::spv::Options {
+        flags: naga::back::spv::WriterFlags::empty(),
+        ..naga::back::spv::Options::default()
+    };
+    let words = naga::back::spv::write_vec(module, info, &options, None)
+        .map_err(|error| ShaderError::Translate { message: error.to_string() })?;
+    Ok(u32::try_from(words.len()).unwrap_or(u32::MAX))
+}
+
 fn invalid(linked: &Linked, error: &naga::WithSpan<naga::valid::ValidationError>) -> ShaderError {
     // The innermost span is the last one: a function, then the expression in it.
     let byte = error.spans().last().and_then(|(span, _)| span.to_range()).map_or(0, |r| r.start);

@@ -11,7 +11,7 @@ use lang::Analysis;
 use super::files::{DiskLoader, TextError, read_text};
 use super::record::{Before, Done, Edited, Job, Record};
 use super::watch::watch;
-use super::{BUG, IO, OK, ReportArgs, SCENE, SceneArgs};
+use super::{BUG, IO, OK, ReportArgs, SCENE, SceneArgs, inspect};
 use crate::bvh::{Layout, Preset};
 use crate::cache::Cache;
 use crate::depfile::depfile;
@@ -20,6 +20,7 @@ use crate::lower::{Counters, Instancing, Trees, srgb_table};
 use crate::pipeline::{self, CompileError, Compiled, Memory, Options, Phase};
 use crate::report::Reporter;
 use crate::reuse::{Reuse, Reused, Share};
+use pack::{MapMode, Pack};
 use shaders::ShaderError;
 
 #[derive(Debug, Args)]
@@ -54,6 +55,10 @@ pub(super) struct BuildArgs {
     /// bits; `binary`, which is larger, for comparison. Both show the same picture.
     #[arg(long, default_value_t, value_name = "LAYOUT")]
     nodes: Layout,
+    /// Print the sections, and every feature of the kernel: which declaration needs it, or why it was left out;
+    /// and how large the kernel is against one with all features. `rtc inspect` prints the same of any pack.
+    #[arg(long)]
+    explain_features: bool,
     /// Build every tree anew and store none.
     #[arg(long)]
     no_cache: bool,
@@ -153,7 +158,21 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
         let now = edited.map(Edited::now).unwrap_or_default();
         job.keep(&cache, reuse, Done { texts, pack, silent, memory, now });
     }
-    OK
+    explained(args, &output, reporter)
+}
+
+/// Prints the features of the pack that was written, or that was there, if they are wanted.
+fn explained(args: &BuildArgs, output: &Path, reporter: &Reporter) -> u8 {
+    if !args.explain_features {
+        return OK;
+    }
+    match Pack::open(output, MapMode::Map) {
+        Ok(pack) => inspect::report(&pack, reporter),
+        Err(error) => {
+            reporter.failure(&format!("{}: {error}", output.display()));
+            IO
+        }
+    }
 }
 
 /// Nothing changed since the pack was made.
@@ -175,10 +194,11 @@ fn up_to_date(
         let file = std::fs::File::options().append(true).open(output);
         let _ = file.and_then(|file| file.set_modified(SystemTime::now()));
     }
-    let (n, output) = (record.files.len(), output.display());
+    let path = output;
+    let (n, output) = (record.files.len(), path.display());
     let plural = if n == 1 { "" } else { "s" };
     reporter.status(&format!("{output} is up to date: nothing changed in {n} file{plural}"));
-    OK
+    explained(args, path, reporter)
 }
 
 fn write_text(path: &Path, text: &str, reporter: &Reporter) -> Result<(), u8> {

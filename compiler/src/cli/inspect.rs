@@ -1,4 +1,5 @@
-//! `rtc inspect`: the sections of a pack as a table.
+//! `rtc inspect`: the sections of a pack as a table, and which features its kernel has; the latter is what
+//! `rtc build --explain-features` prints, too.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -7,10 +8,12 @@ use std::path::PathBuf;
 use clap::Args;
 use pack::abi::{Instance, Node, WideNode};
 use pack::bvh::InnerNode;
-use pack::{Checked, MapMode, Pack};
+use pack::manifest::{Feature, KernelSize};
+use pack::{Checked, Manifest, MapMode, Pack};
 
-use super::{IO, OK};
+use super::{BUG, IO, OK};
 use crate::bvh::Layout;
+use crate::pipeline::full_kernel_size;
 use crate::report::{Color, ErrorFormat, Reporter};
 
 #[derive(Debug, Args)]
@@ -31,15 +34,63 @@ pub(super) fn inspect(args: &InspectArgs) -> u8 {
         Ok(pack)
     });
     match opened {
-        Ok(pack) => {
-            reporter.output(&table(&pack));
-            OK
-        }
+        Ok(pack) => report(&pack, &reporter),
         Err(error) => {
             reporter.failure(&format!("{}: {error}", args.pack.display()));
             IO
         }
     }
+}
+
+/// Prints the sections, which features the kernel has, and how large it is.
+pub(super) fn report(pack: &Pack<Checked>, reporter: &Reporter) -> u8 {
+    reporter.output(&table(pack));
+    let manifest = match pack.manifest() {
+        Ok(manifest) => manifest,
+        Err(error) => {
+            reporter.failure(&error.to_string());
+            return IO;
+        }
+    };
+    match full_kernel_size() {
+        Ok(full) => {
+            reporter.output(&explanation(&manifest, full));
+            OK
+        }
+        Err(error) => {
+            reporter.failure(&format!("{error}\nThis is a bug of rtc, not of your scene."));
+            BUG
+        }
+    }
+}
+
+/// Every feature of the kernel; `full`: the size of the kernel that has all of them.
+fn explanation(manifest: &Manifest, full: KernelSize) -> String {
+    let (kept, left) = (&manifest.features_kept, &manifest.features_left_out);
+    let all = kept.len() + left.len();
+    let mut text = format!("features kept: {} of {all}\n", kept.len());
+    kept.iter().for_each(|feature| text += &line(manifest, feature));
+    let _ = writeln!(text, "features left out: {} of {all}", left.len());
+    left.iter().for_each(|feature| text += &line(manifest, feature));
+    let KernelSize { lines, words } = manifest.kernel;
+    let share = |part: u32, whole: u32| 100.0 * f64::from(part) / f64::from(whole.max(1));
+    let _ = writeln!(
+        text,
+        "kernel: {lines} lines of WGSL, {:.1} % of the {} with all features; {words} words of SPIR-V, {:.1} % of {}",
+        share(lines, full.lines),
+        full.lines,
+        share(words, full.words),
+        full.words,
+    );
+    text
+}
+
+/// `  fog                      scene.rts:12             it is the atmosphere: `mist``.
+fn line(manifest: &Manifest, feature: &Feature) -> String {
+    let Feature { name, reason, by } = feature;
+    let place = by.as_ref().and_then(|by| manifest.place(by)).unwrap_or_else(|| "-".to_owned());
+    let about = by.as_ref().map_or(String::new(), |by| format!(": `{}`", by.name));
+    format!("  {name:<24} {place:<24} {reason}{about}\n")
 }
 
 fn table(pack: &Pack<Checked>) -> String {
@@ -55,14 +106,21 @@ fn table(pack: &Pack<Checked>) -> String {
         render.stack_need,
         instances(pack),
     );
-    let _ =
-        writeln!(text, "{:<9} {:>12} {:>6} {:>15}  blake3", "section", "elements", "size", "bytes");
+    let _ = writeln!(
+        text,
+        "{:<9} {:>12} {:>6} {:>15} {:>7}  blake3",
+        "section", "elements", "size", "bytes", "binding"
+    );
     for row in pack::describe(pack) {
         let kind = row.kind;
         let _ = writeln!(
             text,
-            "{kind:<9} {:>12} {:>6} {:>15}  {}",
-            row.count, row.elem_size, row.bytes, row.hash
+            "{kind:<9} {:>12} {:>6} {:>15} {:>7}  {}",
+            row.count,
+            row.elem_size,
+            row.bytes,
+            row.binding.map_or("host".to_owned(), |binding| binding.to_string()),
+            row.hash
         );
     }
     text

@@ -52,12 +52,13 @@ pub fn lower_again(
     let inside = inside(scene, sketch, table.records(), diagnostics);
     let own_name = |index: usize| sketch.materials[index].own_name.as_deref().unwrap_or_default();
     let material_names = finish::names(scene, table.refs(), own_name);
-    let media = medium::records(scene, table.waters(), &frame);
+    let declared = medium::records(scene, table.waters(), &frame);
     let (mut materials, _) = table.into_records();
     medium::mark(scene, &mut materials);
+    let medium::Used { media, around } = medium::used(scene, &declared, &mut materials);
     let tree = (pack.render().root, pack.render().stack_need);
     Some(Lowered {
-        render: settings(scene, &frame, tree, inside, lights.len()),
+        render: settings(scene, &frame, tree, (inside, around), lights.len()),
         camera: camera::camera(&scene.camera, &frame),
         sky: sky_record,
         sky_table,

@@ -90,16 +90,17 @@ pub fn lower(
     diagnostics.extend(finish::darkness(scene, &ordered.lights, sky.as_ref()));
     let own_name = |index: usize| materials.own_name(materials.refs()[index]).unwrap_or_default();
     let material_names = finish::names(scene, materials.refs(), own_name);
-    let media = medium::records(scene, materials.waters(), &frame);
+    let declared = medium::records(scene, materials.waters(), &frame);
     let (mut materials, textures) = materials.into_records();
     medium::mark(scene, &mut materials);
+    let medium::Used { media, around } = medium::used(scene, &declared, &mut materials);
     let objects = finish::objects(&placement.things, &materials, &frame, !still);
     let instances = forget_objects(&objects, &mut ordered, instances);
     motion::mark(&objects, &mut ordered);
     let (textures, texels) = textures.into_records();
     let tree = (joined.root, joined.stack_need);
     Ok(Lowered {
-        render: settings(scene, &frame, tree, inside, ordered.lights.len()),
+        render: settings(scene, &frame, tree, (inside, around), ordered.lights.len()),
         camera: camera::camera(&scene.camera, &frame),
         sky,
         sky_table,

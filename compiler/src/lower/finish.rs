@@ -6,11 +6,11 @@ use lang::scene::{Name, Sampler, Scene, ToneMap};
 use lang::source::Span;
 use pack::abi::{self, material_flag};
 
+use super::light_tree;
 use super::material::MaterialRef;
 use super::object::Thing;
 use super::sky::LoweredSky;
 use super::sky_table::SkyTable;
-use super::{light_tree, medium};
 use crate::normalize::Normalization;
 
 /// The things of the scene, if one of them `moves` or any material asks about them.
@@ -75,13 +75,13 @@ pub(super) fn darkness(
     })
 }
 
-/// Everything that holds for the whole picture. `tree`: its root and the stack that it needs; `inside`: what the
-/// camera is inside of.
+/// Everything that holds for the whole picture. The tree: its root and the stack that it needs. Media: those that
+/// the camera is inside of, then the one around everything and the fog.
 pub(super) fn settings(
     scene: &Scene,
     frame: &Normalization,
     (root, stack_need): (u32, u32),
-    inside: [u32; 4],
+    (inside, [air, fog]): ([u32; 4], [u32; 2]),
     n_lights: usize,
 ) -> abi::RenderSettings {
     let tone_map = match scene.film.tone_map {
@@ -93,7 +93,6 @@ pub(super) fn settings(
         Sampler::Sobol => abi::SamplerKind::Sobol,
         Sampler::Pcg => abi::SamplerKind::Pcg,
     };
-    let [air, fog] = medium::around(scene);
     abi::RenderSettings {
         image_size: scene.film.size,
         samples: scene.render.samples,

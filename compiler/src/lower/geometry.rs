@@ -12,7 +12,7 @@ use lang::scene::{Instance, Scene, Shape};
 use pack::abi::{self, LightKind, NONE, TRI_SMOOTH};
 
 use super::Loaded;
-use super::light::Emitter;
+use super::light::{self, Emitter};
 use super::material::{MaterialRef, MaterialTable};
 use super::motion::Shutter;
 use super::object::Thing;
@@ -100,7 +100,9 @@ pub(super) fn place(
         let before = placement.emitters.len();
         placement.add_sphere(&ball, materials);
         // A black light is no emitter.
-        if let (Some(tint), Some(emitter)) = (&light.tint, placement.emitters.get_mut(before)) {
+        if let (Some(tint), Some(emitter)) =
+            (light::tint(light), placement.emitters.get_mut(before))
+        {
             let [x, y, z] = tint.direction.map(|c| c as f32);
             emitter.tint = [x, y, z, libm::cos(tint.angle) as f32];
         }

@@ -4,6 +4,7 @@
 //! probabilities are whole multiples of 2^-24: then the probability that the estimator divides by
 //! is exactly the frequency with which the kernel chooses.
 
+use lang::scene;
 use pack::abi::{self, LightKind, NONE};
 
 /// An emitter before primitives are in leaf order.
@@ -20,6 +21,13 @@ pub(super) struct Emitter {
     pub(super) area: f64,
     /// Towards where it is tinted, unit, and the cosine of the angle; all 0 without a tint.
     pub(super) tint: [f32; 4],
+}
+
+/// The tint of a light, unless it is neutral: a factor of 1 changes no bit.
+pub(super) fn tint(light: &scene::Light) -> Option<scene::Tint> {
+    let neutral =
+        |tint: &scene::Tint| tint.color.iter().all(|c| (*c as f32).to_bits() == 1.0_f32.to_bits());
+    light.tint.filter(|tint| !neutral(tint))
 }
 
 /// Steps of a 24-bit random number.

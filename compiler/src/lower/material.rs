@@ -10,7 +10,7 @@ use super::light::luminance;
 use super::medium::Water;
 use super::principled::image_of;
 use super::texture::{ImageRef, TextureTable};
-use super::{Loaded, fresnel};
+use super::{Loaded, fresnel, light};
 use crate::import::{ImportedMaterial, MapUse};
 
 /// Where a material is declared.
@@ -91,7 +91,7 @@ impl<'a> MaterialTable<'a> {
                 let light = &self.scene.lights[index];
                 let emission = light.radiance.map(|c| c as f32);
                 let plain = abi::Material { emission, ..blank(MaterialKind::Emissive) };
-                light.tint.map_or(plain, |tint| abi::Material {
+                light::tint(light).map_or(plain, |tint| abi::Material {
                     tint: tint.color.map(|c| c as f32),
                     flags: plain.flags | material_flag::EMIT_TINT,
                     ..plain
@@ -142,7 +142,8 @@ impl<'a> MaterialTable<'a> {
 
     fn declared(&mut self, material: &scene::Material) -> abi::Material {
         let mut record = self.model(&material.model);
-        if let Some(map) = &material.normal {
+        // A map of strength 0 does nothing, and its image is not needed.
+        if let Some(map) = material.normal.as_ref().filter(|map| map.strength.abs() > 0.0) {
             let (_, image) = self.color(Color::Texture(map.texture));
             set_normal_map(&mut record, image, map.strength);
         }
@@ -181,8 +182,7 @@ impl<'a> MaterialTable<'a> {
                 self.water(*ior, *inside, (*sigma_a, *depth_color), *waves)
             }
             MaterialModel::Emissive { color, strength, both_sides } => {
-                let (emission, emission_texture) = self.color(*color);
-                let emission = emission.map(|c| (f64::from(c) * strength) as f32);
+                let (emission, emission_texture) = self.emission(*color, *strength);
                 let flags = if *both_sides { material_flag::EMIT_BOTH_SIDES } else { 0 };
                 let base = blank(MaterialKind::Emissive);
                 abi::Material { emission, emission_texture, flags, ..base }
@@ -325,21 +325,24 @@ impl<'a> MaterialTable<'a> {
         let file = file.expect("an asset whose material is used has been loaded");
         let from: &ImportedMaterial = &file.materials[material];
         let mut record = if from.unlit {
-            let map = self.map(asset, from.color_map);
             let emission = from.color.map(|c| c as f32);
+            let map = self.factor_map(&emission, asset, from.color_map);
             abi::Material { emission, emission_texture: map, ..blank(MaterialKind::Emissive) }
         } else {
             self.imported_surface(asset, from)
         };
         record.flags |= material_flag::EMIT_BOTH_SIDES;
-        if !from.unlit {
+        if !from.unlit && from.normal_strength.abs() > 0.0 {
             let image = self.map(asset, from.normal_map);
             set_normal_map(&mut record, image, from.normal_strength);
         }
-        if let Some(cutoff) = from.alpha_clip {
+        let alpha = from.alpha as f32;
+        let least =
+            from.alpha_map.map_or(1.0, |map| self.textures.least((image_of(asset, map), 3)));
+        if let Some(cutoff) = cutting(from.alpha_clip, alpha, least) {
             record.flags |= material_flag::ALPHA_CLIP;
-            record.alpha_cutoff = cutoff as f32;
-            record.alpha = from.alpha as f32;
+            record.alpha_cutoff = cutoff;
+            record.alpha = alpha;
             record.alpha_texture = self.map(asset, from.alpha_map);
         }
         record
@@ -350,9 +353,10 @@ impl<'a> MaterialTable<'a> {
             return with_ior(blank(MaterialKind::Dielectric), from.ior);
         }
         if from.diffuse_only && from.emission.iter().all(|&c| c <= 0.0) {
+            let color = from.color.map(|c| c as f32);
             return abi::Material {
-                color: from.color.map(|c| c as f32),
-                color_texture: self.map(asset, from.color_map),
+                color,
+                color_texture: self.factor_map(&color, asset, from.color_map),
                 ..blank(MaterialKind::Diffuse)
             };
         }
@@ -369,6 +373,21 @@ impl<'a> MaterialTable<'a> {
                 ([1.0; 3], id)
             }
         }
+    }
+
+    /// Factor and texture of a declared emission; no texture where the factor is 0.
+    pub(super) fn emission(&mut self, color: Color, strength: f64) -> ([f32; 3], u32) {
+        if strength <= 0.0 {
+            return ([0.0; 3], NONE);
+        }
+        let (color, texture) = self.color(color);
+        (color.map(|c| (f64::from(c) * strength) as f32), texture)
+    }
+
+    /// A map whose numbers are multiplied by these factors; `NONE` where all of them are 0.
+    pub(super) fn factor_map(&mut self, factors: &[f32], asset: usize, map: Option<MapUse>) -> u32 {
+        let read = factors.iter().any(|factor| *factor > 0.0);
+        self.map(asset, map.filter(|_| read))
     }
 
     pub(super) fn map(&mut self, asset: usize, map: Option<MapUse>) -> u32 {
@@ -433,9 +452,16 @@ pub(super) fn blank(kind: MaterialKind) -> abi::Material {
     with_ior(base, 1.5)
 }
 
-/// Gives the material a normal map, unless it has no effect.
+/// The least coverage that exists, where some of the surface does not: `alpha` times an image that is
+/// `least` at least lies below. What lies nowhere below needs no test, for any ray.
+pub(super) fn cutting(cutoff: Option<f64>, alpha: f32, least: f32) -> Option<f32> {
+    // Written so that a NaN in an image keeps the test.
+    cutoff.map(|cutoff| cutoff as f32).filter(|cutoff| !(alpha * least >= *cutoff))
+}
+
+/// Gives the material a normal map, if there is one.
 fn set_normal_map(material: &mut abi::Material, image: u32, strength: f64) {
-    if image != NONE && strength.abs() > 0.0 {
+    if image != NONE {
         material.normal_texture = image;
         material.normal_strength = strength as f32;
         material.flags |= material_flag::TANGENT;

@@ -54,13 +54,48 @@ fn record(medium: &scene::Medium, frame: &Normalization, reach: f32) -> abi::Med
     }
 }
 
-/// Indices of the medium around everything and of the fog, each or `NONE`.
-pub(super) fn around(scene: &Scene) -> [u32; 2] {
+/// Indices of the medium around everything and of the fog, each or `NONE`; also where it does nothing.
+fn around(scene: &Scene) -> [u32; 2] {
     let Some(index) = scene.render.atmosphere else { return [NONE; 2] };
     match scene.media[index].model {
         MediumModel::Homogeneous { .. } => [index as u32, NONE],
         MediumModel::Fog { .. } => [NONE, index as u32],
     }
+}
+
+/// Media that something is filled with or surrounded by, and that do something to light.
+pub(super) struct Used {
+    pub(super) media: Vec<abi::Medium>,
+    /// What is around everything, and the fog, as `RenderSettings` holds them.
+    pub(super) around: [u32; 2],
+}
+
+/// Leaves out what nothing uses of `media`, one for each of the scene and then those of waters, and what is
+/// clear: along it a path keeps its light to the last bit. `materials` get the numbers of what is left.
+/// Surfaces keep their inside: clear things that overlap still ask which of them counts.
+pub(super) fn used(scene: &Scene, media: &[abi::Medium], materials: &mut [abi::Material]) -> Used {
+    let mut around = around(scene);
+    let mut names: Vec<&mut u32> = around.iter_mut().collect();
+    names.extend(materials.iter_mut().map(|material| &mut material.medium));
+    let mut kept: Vec<u32> = Vec::new();
+    for name in names.into_iter().filter(|name| **name != NONE) {
+        if is_clear(&media[*name as usize]) {
+            *name = NONE;
+            continue;
+        }
+        let known = kept.iter().position(|old| old == name);
+        let new = known.unwrap_or_else(|| {
+            kept.push(*name);
+            kept.len() - 1
+        });
+        *name = new as u32;
+    }
+    Used { media: kept.iter().map(|old| media[*old as usize]).collect(), around }
+}
+
+/// Neither takes light away nor scatters it.
+fn is_clear(medium: &abi::Medium) -> bool {
+    medium.sigma_a.iter().chain(&medium.sigma_s).all(|sigma| *sigma <= 0.0)
 }
 
 /// Whether light must know in this scene what it is inside of: there are media, or priorities.

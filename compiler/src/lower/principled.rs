@@ -3,7 +3,7 @@
 use lang::scene::{Color, ColorSpace, Principled, Scalar, Wrap};
 use pack::abi::{self, MaterialKind, NONE, material_flag};
 
-use super::material::{MaterialTable, blank, channel, factor, with_ior};
+use super::material::{MaterialTable, blank, channel, cutting, factor, with_ior};
 use super::texture::{Channel, ImageRef};
 use crate::import::{ImportedMaterial, MapUse};
 
@@ -17,14 +17,13 @@ fn textured(scalar: Scalar) -> Textured {
 impl MaterialTable<'_> {
     pub(super) fn principled(&mut self, from: &Principled) -> abi::Material {
         let (color, color_texture) = self.color(from.color);
-        let (emission, emission_texture) = self.color(from.emission);
-        let strength = from.emission_strength;
+        let (emission, emission_texture) = self.emission(from.emission, from.emission_strength);
         let metallic_roughness = [None, channel(from.roughness), channel(from.metallic), None];
         let wrap = self.wrap(&[from.roughness, from.metallic]);
         let mut record = abi::Material {
             color,
             color_texture,
-            emission: emission.map(|c| (f64::from(c) * strength) as f32),
+            emission,
             emission_texture,
             roughness: factor(from.roughness),
             metallic: factor(from.metallic),
@@ -47,9 +46,10 @@ impl MaterialTable<'_> {
 
     /// Cuts out where `alpha` is below `cutoff`, if there is one.
     pub(super) fn clip(&mut self, record: &mut abi::Material, alpha: Scalar, cutoff: Option<f64>) {
-        let Some(cutoff) = cutoff else { return };
+        let least = channel(alpha).map_or(1.0, |channel| self.textures.least(channel));
+        let Some(cutoff) = cutting(cutoff, factor(alpha), least) else { return };
         record.flags |= material_flag::ALPHA_CLIP;
-        record.alpha_cutoff = cutoff as f32;
+        record.alpha_cutoff = cutoff;
         record.alpha = factor(alpha);
         let wrap = self.wrap(&[alpha]);
         record.alpha_texture = self.channels([None, None, None, channel(alpha)], wrap);
@@ -127,14 +127,17 @@ impl MaterialTable<'_> {
         asset: usize,
         from: &ImportedMaterial,
     ) -> abi::Material {
+        let [color, emission] = [from.color, from.emission].map(|rgb| rgb.map(|c| c as f32));
+        let (metallic, roughness) = (from.metallic as f32, from.roughness as f32);
+        let both = from.metallic_roughness_map;
         let mut record = abi::Material {
-            color: from.color.map(|c| c as f32),
-            color_texture: self.map(asset, from.color_map),
-            emission: from.emission.map(|c| c as f32),
-            emission_texture: self.map(asset, from.emission_map),
-            metallic: from.metallic as f32,
-            roughness: from.roughness as f32,
-            metallic_roughness_texture: self.map(asset, from.metallic_roughness_map),
+            color,
+            color_texture: self.factor_map(&color, asset, from.color_map),
+            emission,
+            emission_texture: self.factor_map(&emission, asset, from.emission_map),
+            metallic,
+            roughness,
+            metallic_roughness_texture: self.factor_map(&[metallic, roughness], asset, both),
             specular: from.specular as f32,
             tint: from.specular_color.map(|c| c as f32),
             ..with_ior(blank(MaterialKind::Principled), from.ior)

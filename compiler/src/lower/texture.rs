@@ -47,6 +47,8 @@ pub(super) struct KnownTextures {
     means: Vec<[f64; 4]>,
     /// Whether each of `Scene::textures` has an alpha channel of its own.
     has_alpha: Vec<bool>,
+    /// Channels of which somebody asked for the least number, with it.
+    least: Vec<(String, f32)>,
 }
 
 /// Where images come from.
@@ -65,6 +67,7 @@ pub struct TextureTable<'a> {
     records: Vec<abi::Texture>,
     texels: Vec<[u32; 4]>,
     means: Vec<[f64; 4]>,
+    least: Vec<(Channel, f32)>,
 }
 
 impl<'a> TextureTable<'a> {
@@ -80,8 +83,8 @@ impl<'a> TextureTable<'a> {
     }
 
     fn over(source: Source<'a>) -> Self {
-        let (recipes, records, texels, means) = Default::default();
-        Self { source, recipes, records, texels, means }
+        let (recipes, records, texels, means, least) = Default::default();
+        Self { source, recipes, records, texels, means, least }
     }
 
     /// How many there are.
@@ -100,6 +103,7 @@ impl<'a> TextureTable<'a> {
             recipes: self.recipes.iter().flatten().map(|recipe| format!("{recipe:?}")).collect(),
             means: self.means.clone(),
             has_alpha: loaded.textures.iter().map(has_alpha).collect(),
+            least: self.least.iter().map(|(of, least)| (format!("{of:?}"), *least)).collect(),
         }
     }
 
@@ -210,6 +214,42 @@ impl<'a> TextureTable<'a> {
             }
             // Materials of mesh files are taken over as they are.
             (Source::Earlier(_), ImageRef::Asset { .. }) => false,
+        }
+    }
+
+    /// The least number in a channel of an image, see [`least`]. What nobody asked for when the earlier pack was
+    /// made is 0: the texture that is then asked for is none of that pack.
+    pub(super) fn least(&mut self, (image, channel): Channel) -> f32 {
+        match self.source {
+            Source::Files(loaded) => {
+                let found = least(loaded.image(image), channel);
+                self.least.push(((image, channel), found));
+                found
+            }
+            Source::Earlier(known) => {
+                let name = format!("{:?}", (image, channel));
+                let found = known.least.iter().find(|(of, _)| *of == name);
+                found.map_or(0.0, |(_, least)| *least)
+            }
+        }
+    }
+}
+
+/// The least number in a channel of an image, as a texture of it may hold it: bytes round down.
+fn least(image: &Image, channel: u8) -> f32 {
+    let channel = usize::from(channel);
+    match &image.data {
+        Pixels::Rgba8(bytes) => {
+            let texels = bytes.as_chunks::<4>().0.iter();
+            let least = texels.map(|texel| texel[channel]).min().unwrap_or(u8::MAX);
+            f32::from(least) / 255.0
+        }
+        Pixels::Rgba16F(bits) => {
+            let texels = bits.as_chunks::<4>().0.iter();
+            let values = texels.map(|texel| half::f16::from_bits(texel[channel]).to_f32());
+            // `f32::min` would forget a NaN.
+            let least = |a: f32, b: f32| if b < a || b.is_nan() { b } else { a };
+            libm::floorf(values.fold(1.0, least) * 255.0) / 255.0
         }
     }
 }

@@ -82,12 +82,12 @@ pub fn compile_again(
         return Err(CompileError::Scene);
     }
     clock.phase("take over the geometry");
-    let (features, kernel) = link(&lowered, reuse, Some(earlier.kernel()))?;
+    let (features, kernel, size) = link(&lowered, reuse, Some(earlier.as_ref()))?;
     clock.phase("link and prove the kernel");
     let named = |(name, hash): (String, [u8; 32])| FileRead { name, hash };
     let files: Vec<FileRead> = memory.files.into_iter().map(named).collect();
     let context = manifest::Context { scene, sources, options, files: &files };
-    let manifest = context.manifest(&lowered, &features);
+    let manifest = context.manifest(&lowered, &features, size);
     let recipe_id = context.recipe_id();
     let n_trees = lowered.trees.groups;
     let trees = Share { reused: n_trees, all: n_trees };

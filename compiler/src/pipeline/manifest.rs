@@ -3,10 +3,11 @@
 use lang::scene::{Name, Scene};
 use lang::source::{SourceSet, Span};
 use pack::Manifest;
-use pack::manifest::Named;
+use pack::manifest::{Feature, KernelSize, Named};
 use shaders::FeatureSet;
 
-use super::{FileRead, Options, features, load};
+use super::explain::{Explain, Row};
+use super::{FileRead, Options, load};
 use crate::bvh::{Layout, Preset};
 use crate::lower::{Instancing, Lowered, Trees};
 
@@ -19,12 +20,20 @@ pub(super) struct Context<'a> {
 }
 
 impl Context<'_> {
-    pub(super) fn manifest(&self, lowered: &Lowered, features: &FeatureSet) -> Manifest {
+    pub(super) fn manifest(
+        &self,
+        lowered: &Lowered,
+        features: &FeatureSet,
+        kernel: KernelSize,
+    ) -> Manifest {
         let scene = self.scene;
         let counters = &lowered.counters;
         let texts = self.sources.ids().map(|id| self.file_name(self.sources.name(id)));
         let assets = self.files.iter().map(|file| file.name.clone());
-        let (features_kept, features_left_out) = features::explain(features, lowered);
+        let rows = Explain { scene, features, lowered }.rows();
+        let (kept, left): (Vec<_>, Vec<_>) = rows.into_iter().partition(|row| row.kept);
+        let features_kept = kept.into_iter().map(|row| self.feature(row)).collect();
+        let features_left_out = left.into_iter().map(|row| self.feature(row)).collect();
         Manifest {
             scene: scene.render.name.text.clone(),
             rtc_version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -41,6 +50,7 @@ impl Context<'_> {
             cameras: vec![self.declared(&scene.camera.name)],
             features_kept,
             features_left_out,
+            kernel,
             options: self.named_options(),
             counters: vec![
                 ("triangles".to_owned(), counters.triangles),
@@ -91,6 +101,11 @@ impl Context<'_> {
             field(&file.hash);
         }
         *hasher.finalize().as_bytes()
+    }
+
+    fn feature(&self, Row { name, reason, by, .. }: Row) -> Feature {
+        let by = by.map(|(name, span)| self.named(&name, span));
+        Feature { name: name.to_owned(), reason, by }
     }
 
     fn declared(&self, name: &Name) -> Named {

@@ -75,6 +75,20 @@ impl Console {
         exit
     }
 
+    /// Passes an interrupt on, and shows nothing, until `over` is set.
+    #[cfg(feature = "gpu")]
+    pub(super) fn pass_interrupts(&self, control: &Control, over: &AtomicBool) {
+        let before = interrupts().load(Ordering::Relaxed);
+        while !over.load(Ordering::Relaxed) {
+            if interrupts().load(Ordering::Relaxed) != before && !control.is_cancelled() {
+                control.cancel();
+                self.note("interrupted: telling what is complete (again to quit at once)");
+            }
+            std::thread::park_timeout(TICK);
+        }
+        self.bar.finish_and_clear();
+    }
+
     /// Shows progress and passes interrupts on until `over` is set.
     pub(super) fn watch(&self, control: &Control, watched: &Watched<'_>, over: &AtomicBool) {
         let started = Instant::now();

@@ -2,11 +2,12 @@
 
 use super::queue::{Slot, Slots};
 use super::stopwatch;
-use super::upload::{Uploader, wait};
+use super::upload::{Uploader, wait_at_most};
 use super::{Adapter, GpuError};
 use crate::cpu::panic_text;
 use crate::scene::{Setup, WINDOW_BYTES};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 use wgpu::{
     BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry, BindingType, Buffer,
     BufferBindingType, ComputePipeline, ComputePipelineDescriptor, DeviceDescriptor, ErrorFilter,
@@ -16,6 +17,9 @@ use wgpu::{
 
 /// Window `w` of binding `b` is binding `b + 8 w`.
 const WINDOW_STRIDE: u32 = 8;
+/// How long the first workgroup may take. Drivers compile then, and a software driver, which has only the CPU
+/// to run on, optimises the kernel with all features for minutes.
+const PATIENCE: [Duration; 2] = [Duration::from_mins(1), Duration::from_mins(15)];
 /// The compiler of a large kernel recurses deeply.
 const COMPILER_STACK: usize = 32 << 20;
 
@@ -57,6 +61,8 @@ pub(super) struct Device {
     pub(super) pipeline: ComputePipeline,
     pub(super) layout: BindGroupLayout,
     pub(super) windows: Vec<Window>,
+    /// What building the pipeline took, with the first workgroup: drivers compile at the first dispatch.
+    pub(super) built: Duration,
     /// Set when the device is lost.
     pub(super) lost: Fault,
     /// Set by an error that no scope caught.
@@ -94,10 +100,13 @@ impl Device {
             fault.set(error.to_string());
         }));
         let windows = upload_all(&device, &queue, &buffers)?;
+        let began = Instant::now();
         let checks = (module == Module::Trusted).then(ShaderRuntimeChecks::unchecked);
         let (layout, pipeline) = compile(&device, setup.kernel(), &windows, checks)?;
-        let mut ready = Self { gpu: device, queue, pipeline, layout, windows, lost, uncaptured };
-        ready.try_one_workgroup(setup)?;
+        let (gpu, built) = (device, Duration::ZERO);
+        let mut ready = Self { gpu, queue, pipeline, layout, windows, built, lost, uncaptured };
+        ready.try_one_workgroup(setup, PATIENCE[usize::from(adapter.is_software())])?;
+        ready.built = began.elapsed();
         Ok(ready)
     }
 
@@ -117,11 +126,11 @@ impl Device {
 
     /// Renders 8 × 8 pixels once: drivers compile at the first dispatch, and one that renders
     /// nothing at all is found before it is trusted with a picture.
-    fn try_one_workgroup(&mut self, setup: &Setup<'_>) -> Result<(), GpuError> {
+    fn try_one_workgroup(&mut self, setup: &Setup<'_>, patience: Duration) -> Result<(), GpuError> {
         let mut slots = Slots::default();
         let mut slot: Slot = slots.take(self, 64);
         let index = slot.submit_trial(self, setup);
-        wait(&self.gpu, index)?;
+        wait_at_most(&self.gpu, index, patience)?;
         self.fault()?;
         slot.read(self, |_| ())
     }
@@ -256,7 +265,9 @@ fn create_module(
         None => device.create_shader_module(descriptor),
         // SAFETY: without the checks a shader must not index outside of its buffers and arrays, loop
         // for ever or divide integers by zero. A module is trusted only when `trust::judge` found
-        // that every declaration in it is our own and the one made for the features of this pack, so
+        // that every declaration in it is our own and the one made for the features of this pack, or when
+        // `trust` itself put it together from those declarations for more features, code that no record
+        // of the pack asks for (as on the CPU, where that kernel renders every pack with checks); so
         // the code is what was reviewed and tested here; and only for a `Pack<Checked>`, whose rules
         // are what that code relies on: every index of every table lies inside the table it points
         // into, children come after their parents (traversal ends), leaf ranges lie inside, and the

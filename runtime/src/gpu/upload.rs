@@ -119,8 +119,16 @@ impl Stage {
 
 /// Waits for a submission; a device that needs a minute is lost.
 pub(super) fn wait(device: &Device, index: SubmissionIndex) -> Result<(), GpuError> {
-    let timeout = Some(Duration::from_mins(1));
-    match device.poll(PollType::Wait { submission_index: Some(index), timeout }) {
+    wait_at_most(device, index, Duration::from_mins(1))
+}
+
+/// As `wait`, with another limit.
+pub(super) fn wait_at_most(
+    device: &Device,
+    index: SubmissionIndex,
+    limit: Duration,
+) -> Result<(), GpuError> {
+    match device.poll(PollType::Wait { submission_index: Some(index), timeout: Some(limit) }) {
         Ok(_) => Ok(()),
         Err(error) => Err(GpuError::Lost(error.to_string())),
     }

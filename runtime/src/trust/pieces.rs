@@ -38,3 +38,15 @@ pub(crate) fn pieces(text: &str) -> Result<Vec<(usize, &str)>, usize> {
 fn count(text: &str, wanted: char) -> i32 {
     text.chars().map(|c| i32::from(c == wanted)).sum()
 }
+
+/// The name of a declaration: the word after `fn`, `struct`, `const`, `alias` or `var<…>`.
+pub(crate) fn name_of(text: &str) -> Option<&str> {
+    let code =
+        text.lines().find(|line| !line.starts_with("//") && !line.starts_with("@compute"))?;
+    let keyword = ["fn ", "struct ", "const ", "alias ", "var<"];
+    let start = keyword.iter().filter_map(|k| code.find(k).map(|i| i + k.len())).min()?;
+    let rest = &code[start..];
+    let rest = if code[..start].ends_with("var<") { rest.split_once("> ")?.1 } else { rest };
+    let end = rest.find(|c: char| c != '_' && !c.is_ascii_alphanumeric()).unwrap_or(rest.len());
+    (end > 0).then(|| &rest[..end])
+}

@@ -17,6 +17,8 @@ pub struct SectionRow {
     pub elem_size: u32,
     /// Bytes of the section.
     pub bytes: u64,
+    /// [`crate::Kind::binding`].
+    pub binding: Option<u32>,
     /// First 128 bits of the BLAKE3 hash of the bytes, hexadecimal, as stored.
     pub hash: String,
 }
@@ -31,6 +33,7 @@ pub fn describe(pack: &Pack<Checked>) -> Vec<SectionRow> {
             count: section.count,
             elem_size: section.elem_size,
             bytes: section.bytes.len() as u64,
+            binding: section.kind.binding(),
             // Read as one big-endian number, the digits come in the order of the bytes.
             hash: format!("{:032x}", u128::from_be_bytes(section.hash)),
         })

@@ -72,6 +72,8 @@ pub const SKY_IMAGE: u64 = 1 << 52;
 pub const LIGHT_SKY: u64 = 1 << 53;
 /// Has a tree of lights.
 pub const LIGHT_TREE: u64 = 1 << 54;
+/// Has more than one light.
+pub const LIGHT_CHOICE: u64 = 1 << 57;
 /// Has instances of meshes.
 pub const INSTANCES: u64 = 1 << 56;
 /// Has a tinted light.
@@ -113,7 +115,7 @@ pub const SHEETS: u64 = 1 << 19;
 pub const MATERIAL_WATER: u64 = 1 << 45;
 
 /// Every bit with its name, in bit order.
-pub const NAMES: [(u64, &str); 45] = [
+pub const NAMES: [(u64, &str); 46] = [
     (TRIANGLES, "triangles"),
     (SPHERES, "spheres"),
     (LIGHT_SPHERE, "sphere lights"),
@@ -159,6 +161,7 @@ pub const NAMES: [(u64, &str); 45] = [
     (PRINCIPLED_COAT, "principled coat"),
     (PRINCIPLED_TRANSMISSION, "principled transmission"),
     (INSTANCES, "instances"),
+    (LIGHT_CHOICE, "several lights"),
 ];
 
 /// All bits that this reader knows.
@@ -185,6 +188,7 @@ pub(crate) fn of(contents: &Contents<'_>) -> u64 {
     set(SPHERES, !contents.spheres.is_empty());
     set(LENS, contents.camera.lens_radius > 0.0);
     set(SAMPLER_PCG, contents.render.sampler == SamplerKind::Pcg as u32);
+    set(LIGHT_CHOICE, contents.lights.len() > 1);
     set(LIGHT_TREE, !contents.light_nodes.is_empty());
     set(INSTANCES, !contents.instances.is_empty());
     set(WIDE_NODES, !contents.wide_nodes.is_empty());

@@ -60,6 +60,21 @@ impl Kind {
         std::str::from_utf8(&self.0).unwrap_or("?").trim_end()
     }
 
+    /// Number of the kernel's first binding that holds the section; small tables share binding 2. `None` for
+    /// what the host reads.
+    #[must_use]
+    pub fn binding(self) -> Option<u32> {
+        match self {
+            Self::RENDER | Self::KERNEL | Self::META => None,
+            Self::NODE | Self::WIDENODE => Some(3),
+            Self::TRIANGLE => Some(4),
+            Self::TRISHADE => Some(5),
+            Self::SPHERE => Some(6),
+            Self::TEXEL => Some(7),
+            _ => self.spec().map(|_| 2),
+        }
+    }
+
     /// The row of [`SECTIONS`], or `None` for a section of a later format.
     #[must_use]
     pub fn spec(self) -> Option<&'static SectionSpec> {
@@ -160,7 +175,8 @@ pub const SECTIONS: [SectionSpec; 20] = [
     SectionSpec { min_count: SRGB_WORDS, ..table(Kind::SRGBLUT, 16, SRGB_WORDS) },
     table(Kind::SKYTABLE, 16, MAX_SKY_WORDS),
     SectionSpec { required: true, ..table(Kind::KERNEL, 1, MAX_KERNEL) },
-    SectionSpec { must_understand: false, ..table(Kind::META, 1, MAX_META as u64) },
+    // 2: features with their declarations, and the size of the kernel.
+    SectionSpec { version: 2, must_understand: false, ..table(Kind::META, 1, MAX_META as u64) },
 ];
 
 /// A record that has a section of its own.

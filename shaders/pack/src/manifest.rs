@@ -41,10 +41,12 @@ pub struct Manifest {
     pub cameras: Vec<Named>,
     /// Kernel features that are in, each with its reason.
     #[serde(deserialize_with = "list")]
-    pub features_kept: Vec<(String, String)>,
+    pub features_kept: Vec<Feature>,
     /// Kernel features that were left out, each with its reason.
     #[serde(deserialize_with = "list")]
-    pub features_left_out: Vec<(String, String)>,
+    pub features_left_out: Vec<Feature>,
+    /// How large the kernel is.
+    pub kernel: KernelSize,
     /// Options of the compiler that can change the pack.
     #[serde(deserialize_with = "list")]
     pub options: Vec<String>,
@@ -64,7 +66,42 @@ pub struct Named {
     pub line: u32,
 }
 
+/// A feature of the kernel, in it or left out.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Feature {
+    /// As in [`crate::features::NAMES`], or a part of one of those.
+    pub name: String,
+    /// Why it is in, or why not.
+    pub reason: String,
+    /// The first declaration that needs it; of one that was left out, the declaration that might have.
+    pub by: Option<Named>,
+}
+
+/// How large a kernel is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct KernelSize {
+    /// Lines of its WGSL that are not empty.
+    pub lines: u32,
+    /// Words of four bytes of its SPIR-V, without names and without runtime checks.
+    pub words: u32,
+}
+
+impl KernelSize {
+    /// Lines of a text that are not empty.
+    #[must_use]
+    pub fn lines_of(wgsl: &str) -> u32 {
+        let lines = wgsl.lines().filter(|line| !line.trim().is_empty()).count();
+        u32::try_from(lines).unwrap_or(u32::MAX)
+    }
+}
+
 impl Manifest {
+    /// `file:line` of a declaration, if it has a place.
+    #[must_use]
+    pub fn place(&self, named: &Named) -> Option<String> {
+        self.file(named.file).map(|file| format!("{file}:{}", named.line))
+    }
+
     /// Display name of a file, if the index is one.
     #[must_use]
     pub fn file(&self, index: u32) -> Option<&str> {
@@ -165,7 +202,12 @@ mod tests {
             output: Some("bunny.exr".to_owned()),
             files: vec!["bunny.rts".to_owned()],
             materials: vec![Named { name: "clay".to_owned(), file: 0, line: 7 }],
-            features_kept: vec![("triangles".to_owned(), "mesh `bunny`".to_owned())],
+            features_kept: vec![Feature {
+                name: "triangles".to_owned(),
+                reason: "`bunny` is made of them".to_owned(),
+                by: Some(Named { name: "bunny".to_owned(), file: 0, line: 9 }),
+            }],
+            kernel: KernelSize { lines: 1200, words: 34_567 },
             counters: vec![("vertices".to_owned(), u64::MAX)],
             ..Manifest::default()
         }

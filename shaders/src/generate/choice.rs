@@ -4,13 +4,34 @@ use super::imports;
 use crate::FeatureSet;
 use std::fmt::Write as _;
 
-/// The choice of a light, by the table or by the tree.
+/// The choice of a light: there is but one, or by the table, or by the tree.
 pub(crate) fn text(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: how a light of this scene is chosen.\n\n");
+    if features.light_choice {
+        chosen(features, &mut text)
+    } else {
+        only(&mut text)
+    }
+    text
+}
+
+/// One light: its entry of the table says 1, and needs not be read.
+fn only(text: &mut String) {
+    *text += &imports(["light/light_choice.wgsl", "sampler/key.wgsl"]);
+    let number = "0.0";
+    let choose = "    return LightChoice(0u, 1.0);\n";
+    let pmf = "    return 1.0;\n";
+    functions(text, number, choose, [pmf, pmf]);
+}
+
+fn chosen(features: &FeatureSet, text: &mut String) {
     let mut modules = vec![
         "light/choose.wgsl",
         "light/light_choice.wgsl",
+        "sampler/key.wgsl",
         "scene/constants.wgsl",
         "scene/records.wgsl",
+        "scene/sampler.wgsl",
     ];
     let (mut choose, mut pmf) = (String::new(), String::new());
     if features.light_tree {
@@ -25,19 +46,27 @@ pub(crate) fn text(features: &FeatureSet) -> String {
                    return LightChoice(choice.index, choice.pmf * rest);\n    }\n";
         pmf += "(1.0 - tree_sky().pmf) * tree_pmf(index, p);\n    }\n";
     }
-    let mut text = String::from("// Generated: how a light of this scene is chosen.\n\n");
-    text += &imports(modules);
+    choose += "    let index = choose_light(n_lights, u);\n    \
+               return LightChoice(index, load_light_pmf(index));\n";
+    let table = "    return load_light_pmf(index);\n";
+    pmf += table;
+    *text += &imports(modules);
+    functions(text, "sample_1d(key, PURPOSE_LIGHT_CHOICE)", &choose, [&pmf, table]);
+}
+
+/// The functions with these bodies; `pmfs`: of a surface, and of the sky.
+fn functions(text: &mut String, number: &str, choose: &str, [surface, sky]: [&str; 2]) {
     let _ = write!(
         text,
-        "\n// One of `n_lights` lights for the point `p`; `u` in [0, 1 - 2^-24].\n\
-         fn dispatch_choose(n_lights: u32, p: vec3f, u: f32) -> LightChoice {{\n{choose}    \
-         let index = choose_light(n_lights, u);\n    \
-         return LightChoice(index, load_light_pmf(index));\n}}\n\
+        "\n// The number with which a light is chosen, in [0, 1 - 2^-24].\n\
+         fn dispatch_choice_number(key: SampleKey) -> f32 {{\n    return {number};\n}}\n\
+         \n// One of `n_lights` lights for the point `p`; `u` in [0, 1 - 2^-24].\n\
+         fn dispatch_choose(n_lights: u32, p: vec3f, u: f32) -> LightChoice {{\n{choose}}}\n\
          \n// Probability with which `dispatch_choose` finds light `index`, a surface, from `p`.\n\
-         fn dispatch_choose_pmf(index: u32, p: vec3f) -> f32 {{\n{pmf}    \
-         return load_light_pmf(index);\n}}\n"
+         fn dispatch_choose_pmf(index: u32, p: vec3f) -> f32 {{\n{surface}}}\n\
+         \n// Probability with which `dispatch_choose` finds the sky, light `index`.\n\
+         fn dispatch_sky_pmf(index: u32) -> f32 {{\n{sky}}}\n"
     );
-    text
 }
 
 /// The tint of lights.

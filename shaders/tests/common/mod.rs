@@ -31,7 +31,11 @@ const FEATURES: &[(&str, Switch)] = &[
     ("constant sky", |f| _ = f.skies.insert(SkyKind::Constant)),
     ("gradient sky", |f| _ = f.skies.insert(SkyKind::Gradient)),
     ("image sky", |f| _ = f.skies.insert(SkyKind::Image)),
-    ("light tree", |f| f.light_tree = true),
+    ("several lights", |f| f.light_choice = true),
+    ("light tree", |f| {
+        f.light_choice = true;
+        f.light_tree = true;
+    }),
     ("tint", |f| f.tint = true),
     // Only a sky can be a light of kind sky.
     ("sky light", |f| {

@@ -32,7 +32,7 @@ fn direct_sample(path: ptr<function, Path>, p: vec3f, gap: vec3f, scatter: Scatt
         return;
     }
     let key = (*path).key;
-    let choice = dispatch_choose(n_lights, p, sample_1d(key, PURPOSE_LIGHT_CHOICE));
+    let choice = dispatch_choose(n_lights, p, dispatch_choice_number(key));
     if (choice.pmf <= 0.0) {
         return;
     }
@@ -98,7 +98,7 @@ fn direct_sky_weight(dir: vec3f, pb: f32) -> f32 {
     if (pb <= 0.0 || index == NONE || load_frame_n_lights() == 0u || load_frame_estimator() == DIRECT_BSDF_ONLY) {
         return 1.0;
     }
-    let pl = load_light_pmf(index) * sky_light_pdf(dir);
+    let pl = dispatch_sky_pmf(index) * sky_light_pdf(dir);
     if (pl <= 0.0) {
         return 1.0;
     }

@@ -1,0 +1,152 @@
+//! Declarations of the table → a kernel with other features than the pack's, to find out what they cost.
+//!
+//! The table holds every declaration that the linker emits, with the features for which it does. Features
+//! select one text for each name; what the entry point reaches of them is the kernel, as the linker would
+//! write it, in another order. So this crate links kernels without knowing how they are generated.
+
+use super::pieces::{name_of, pieces};
+use super::{KNOWN, Known, SWITCHES, stack_size, windows};
+use crate::scene::Setup;
+use pack::features as bit;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::OnceLock;
+
+/// The kernel that renders every pack, and whose translation is the CPU kernel.
+pub(crate) static FULL: &str = include_str!(concat!(env!("OUT_DIR"), "/full.wgsl"));
+
+const ENTRY: &str = "render";
+
+/// What a kernel is wanted to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Wanted {
+    /// Bits of `pack::features`.
+    pub(crate) features: u64,
+    /// Whether triangles interpolate normals, which has no bit.
+    pub(crate) smooth: bool,
+}
+
+impl Wanted {
+    /// What the pack's own kernel does.
+    pub(crate) fn of(setup: &Setup<'_>) -> Self {
+        let smooth = setup.kernel().contains("fn triangle_surface(");
+        Self { features: setup.features(), smooth }
+    }
+
+    /// With one more feature, and what that one cannot be without.
+    pub(crate) fn with(self, more: u64) -> Self {
+        const FORMATS: u64 =
+            bit::TEXTURE_RGBA8_SRGB | bit::TEXTURE_RGBA8_LINEAR | bit::TEXTURE_RGBA16_FLOAT;
+        let texture = if self.features & FORMATS == 0 { bit::TEXTURE_RGBA8_SRGB } else { 0 };
+        let needs = match more {
+            bit::SCATTERING => bit::MEDIA,
+            bit::SHEETS => bit::THROUGH,
+            bit::LIGHT_TREE => bit::LIGHT_CHOICE,
+            bit::LIGHT_SPHERE => bit::SPHERES,
+            bit::LIGHT_RECTANGLE | bit::LIGHT_TRIANGLE | bit::INSTANCES => bit::TRIANGLES,
+            bit::ALPHA_CLIP => texture,
+            bit::NORMAL_MAPS => texture | bit::TANGENTS,
+            bit::PRINCIPLED_SPECULAR | bit::PRINCIPLED_COAT | bit::PRINCIPLED_TRANSMISSION => {
+                bit::MATERIAL_PRINCIPLED
+            }
+            _ => 0,
+        };
+        Self { features: self.features | more | needs, ..self }
+    }
+}
+
+/// The kernel for the scene of `setup` that can do what is wanted; `None` where there is no such kernel, or
+/// where the pack's own is not known.
+pub(crate) fn relink(setup: &Setup<'_>, wanted: Wanted) -> Option<String> {
+    let own: BTreeMap<&str, &str> = declarations(setup.kernel())?;
+    let mut sections = windows(setup);
+    // Sections that the pack lacks have one window.
+    for binding in 3..=7 {
+        if !sections.iter().any(|(number, _)| *number == binding) {
+            sections.push((binding, 1));
+        }
+    }
+    let choice = Choice { own: &own, sections: &sections, wanted };
+    let mut found: BTreeMap<&str, String> = BTreeMap::new();
+    let mut open = vec![ENTRY];
+    while let Some(name) = open.pop() {
+        if found.contains_key(name) {
+            continue;
+        }
+        let text = choice.text(name)?;
+        open.extend(names_in(&text));
+        found.insert(name, text);
+    }
+    Some(found.into_values().map(|text| text + "\n\n").collect())
+}
+
+/// Whether two kernels have the same declarations.
+pub(crate) fn is_same(a: &str, b: &str) -> bool {
+    let all = |text| pieces(text).map(|all| all.into_iter().map(|(_, text)| text.to_owned()));
+    let set = |text| all(text).map(Iterator::collect::<BTreeSet<String>>);
+    set(a).is_ok_and(|a| set(b).is_ok_and(|b| a == b))
+}
+
+/// Name and text of each declaration.
+fn declarations(kernel: &str) -> Option<BTreeMap<&str, &str>> {
+    let pieces = pieces(kernel).ok()?;
+    pieces.into_iter().map(|(_, text)| Some((name_of(text)?, text))).collect()
+}
+
+/// The rows of the table by name.
+fn table() -> &'static BTreeMap<&'static str, Vec<&'static Known>> {
+    static TABLE: OnceLock<BTreeMap<&str, Vec<&Known>>> = OnceLock::new();
+    TABLE.get_or_init(|| {
+        let mut table: BTreeMap<&str, Vec<&Known>> = BTreeMap::new();
+        for known in KNOWN {
+            table.entry(name_of(known.text).unwrap_or_default()).or_default().push(known);
+        }
+        table
+    })
+}
+
+/// Names of declarations that a text uses, its own included.
+fn names_in(text: &str) -> Vec<&'static str> {
+    let code = text.lines().map(|line| line.split("//").next().unwrap_or_default());
+    let words = code.flat_map(|line| line.split(|c: char| c != '_' && !c.is_ascii_alphanumeric()));
+    let switches = |word: &str| SWITCHES.iter().find(|s| s.name == word).map(|s| s.name);
+    let known = |word: &str| {
+        let row = table().get_key_value(word).map(|(name, _)| *name);
+        row.or_else(|| switches(word)).or((word == STACK).then_some(STACK))
+    };
+    words.filter_map(known).collect()
+}
+
+/// Its number is the pack's, so no table holds it.
+const STACK: &str = "STACK_SIZE";
+
+/// How one text is chosen for a name.
+struct Choice<'a> {
+    own: &'a BTreeMap<&'a str, &'a str>,
+    sections: &'a [(u32, u64)],
+    wanted: Wanted,
+}
+
+impl Choice<'_> {
+    fn text(&self, name: &str) -> Option<String> {
+        if name == STACK {
+            // A kernel without geometry has no stack; one entry is the least.
+            let own = self.own.get(STACK).filter(|text| stack_size(text).is_some());
+            return Some((*own.unwrap_or(&"const STACK_SIZE: u32 = 0x1u;")).to_owned());
+        }
+        let Wanted { features, smooth } = self.wanted;
+        let rows = table().get(name).into_iter().flatten();
+        let fitting: BTreeSet<&str> = rows
+            .filter(|known| known.condition.holds(features, self.sections))
+            .map(|known| known.text)
+            .collect();
+        let interpolates = |text: &&&str| text.contains("triangle_surface(") == smooth;
+        let chosen = match fitting.len() {
+            0 => None,
+            1 => fitting.first(),
+            // Smooth or flat triangles.
+            _ => fitting.iter().find(interpolates),
+        };
+        let switch = || SWITCHES.iter().find(|switch| switch.name == name);
+        chosen.map(|text| (*text).to_owned()).or_else(|| Some(switch()?.text(features)))
+    }
+}
