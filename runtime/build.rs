@@ -20,6 +20,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         write(&out, "known.rs", &known::table()?)?;
         write(&out, "full.wgsl", &kernel.text)?;
     }
+    let lines = pack::manifest::KernelSize::lines_of(&kernel.text);
+    println!("cargo::rustc-env=FULL_KERNEL_LINES={lines}");
     // The modules themselves are compiled into `shaders`: cargo runs this again when they change.
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=build");

@@ -108,6 +108,13 @@ impl Reuse {
         state.images.retain(|_, kept| std::mem::take(&mut kept.used));
     }
 
+    /// Nothing is forgotten after this compilation: it had no need to ask.
+    pub(crate) fn keep_all(&self) {
+        let mut state = self.lock();
+        state.meshes.values_mut().for_each(|kept| kept.used = true);
+        state.images.values_mut().for_each(|kept| kept.used = true);
+    }
+
     /// A file is about to be read, whether it is there or not.
     pub fn read(&self, path: &Path) {
         let stamp = Stamp::of(path);

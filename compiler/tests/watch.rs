@@ -99,9 +99,20 @@ fn every_dependency_is_watched_and_what_did_not_change_is_reused() {
         .expect("writable");
     let log = watching.round();
     assert!(log.contains("changed: light.rts"), "{log}");
-    assert!(log.contains("reused 1 of 1 images, the proof of the kernel"), "{log}");
+    let all = "reused the geometry and the textures of the last pack, the proof of the kernel";
+    assert!(log.contains(all), "{log}");
     let second = pack();
     assert_ne!(first, second);
+
+    std::fs::write(at("light.rts"), LIGHT.replace("strength = 5", "strength = 0"))
+        .expect("writable");
+    let log = watching.round();
+    assert!(log.contains("reused 1 of 1 images, the proof of the kernel"), "{log}");
+    let second = {
+        let larger = pack();
+        assert_ne!(second, larger);
+        larger
+    };
 
     image::RgbImage::new(3, 2).save(at("tile.png")).expect("writable");
     let log = watching.round();

@@ -136,7 +136,16 @@ impl Ablation {
     }
 }
 
-/// Compares the kernels; `tell` gets each row as it is there. Ends early when `control` is cancelled.
+/// What a comparison tells while it goes on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Event<'a> {
+    /// The kernel of this name is built and timed.
+    Begin(&'a str),
+    /// That is done.
+    End(&'a Row),
+}
+
+/// Compares the kernels. Ends early when `control` is cancelled.
 ///
 /// # Errors
 /// When there is nothing to compare with, or the device fails.
@@ -146,7 +155,7 @@ pub fn ablate(
     choice: &DeviceChoice,
     plan: &Plan,
     control: &Control,
-    tell: &mut dyn FnMut(&Row),
+    tell: &mut dyn FnMut(Event<'_>),
 ) -> Result<Ablation, AblationError> {
     let setup = scene.setup(job);
     if let Trust::Unknown { line } = judge(&setup) {
@@ -175,9 +184,7 @@ pub fn ablate(
             ablation.interrupted = true;
             break;
         }
-        if adapter.is_some() {
-            control.note(&format!("building and timing: {name}"));
-        }
+        tell(Event::Begin(&name));
         let measured = match &mut bench {
             None => None,
             Some(bench) => match bench.measure(&text, plan.rounds, cpu.film())? {
@@ -187,11 +194,26 @@ pub fn ablate(
         };
         let wgsl_lines = KernelSize::lines_of(&text);
         let row = Row { kernel: name, wgsl_lines, spirv_words: words(&text), measured };
-        tell(&row);
+        tell(Event::End(&row));
         ablation.rows.push(row);
     }
     ablation.interrupted |= control.is_cancelled();
     Ok(ablation)
+}
+
+/// Name and text of the kernels that `ablate` compares, the pack's own first.
+#[must_use]
+pub fn kernel_texts(scene: &Scene, each: bool) -> Vec<(String, String)> {
+    kernels(&scene.setup(&Job::of_scene(scene)), &Plan { rounds: 0, each })
+}
+
+/// For tests: the pack's own kernel, put together again as the others are.
+#[doc(hidden)]
+#[must_use]
+pub fn relinked(scene: &Scene) -> Option<String> {
+    let job = Job::of_scene(scene);
+    let setup = scene.setup(&job);
+    relink(&setup, Wanted::of(&setup))
 }
 
 /// Name and text of every kernel that can render the scene of `setup` and is another than those before it.
@@ -362,6 +384,11 @@ fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     let n = values.len();
     if n == 0 { f64::NAN } else { f64::midpoint(values[(n - 1) / 2], values[n / 2]) }
+}
+
+/// Words of the kernel with all features.
+pub(crate) fn full_words() -> Option<u32> {
+    words(FULL)
 }
 
 /// Words of a kernel in SPIR-V, as `rtc` counts them.

@@ -3,6 +3,7 @@
 //! This library is what those tests share: a scene text becomes a checked pack in memory, a pack
 //! becomes a film, a film becomes a mean with its standard error.
 
+pub mod ablation;
 pub mod ball;
 pub mod console;
 pub mod corrections;

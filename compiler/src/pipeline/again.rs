@@ -81,6 +81,7 @@ pub fn compile_again(
     if failed {
         return Err(CompileError::Scene);
     }
+    reuse.keep_all();
     clock.phase("take over the geometry");
     let (features, kernel, size) = link(&lowered, reuse, Some(earlier.as_ref()))?;
     clock.phase("link and prove the kernel");

@@ -21,7 +21,7 @@ mod with_gpu {
     use super::super::args::AblateArg;
     use super::super::console::reset_interrupts;
     use super::{Console, Exit, MapMode, Pack, RenderArgs};
-    use crate::ablation::{Ablation, AblationError, Measured, Plan, Row, ablate};
+    use crate::ablation::{Ablation, AblationError, Event, Measured, Plan, Row, ablate};
     use crate::control::Control;
     use crate::job::Job;
     use crate::output::write_atomic;
@@ -86,11 +86,14 @@ mod with_gpu {
         job: &Job,
     ) -> Result<Ablation, AblationError> {
         reset_interrupts();
-        let notes = console.clone();
-        let (control, over) = (Control::new(move |text| notes.note(text)), AtomicBool::new(false));
+        let (control, over) = (Control::default(), AtomicBool::new(false));
         let plan = Plan { rounds: ROUNDS, each: args.ablate == Some(AblateArg::Each) };
         let mut first: Option<Row> = None;
-        let mut tell = |row: &Row| {
+        let mut tell = |event: Event<'_>| {
+            let row = match event {
+                Event::Begin(name) => return console.note(&format!("building and timing: {name}")),
+                Event::End(row) => row,
+            };
             if first.is_none() {
                 console.result(HEAD);
             }

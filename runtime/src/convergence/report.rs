@@ -6,6 +6,7 @@
 use super::REPLICATES;
 use super::track::{Convergence, Point, Times};
 use crate::job::Job;
+use crate::left_out::LeftOut;
 use crate::render::Outcome;
 use crate::scene::Scene;
 use crate::schedule::Stop;
@@ -33,6 +34,10 @@ pub struct Report {
     pub scene: String,
     /// What the kernel of the pack was compiled with; all else was left out.
     pub features: Vec<&'static str>,
+    /// The commit that `rtr` was built from, where whoever built it said so with `RTR_COMMIT`.
+    pub commit: &'static str,
+    /// What is in the kernel, why, and what was left out of it.
+    pub kernel: LeftOut,
     /// Devices that rendered it.
     pub device: String,
     /// Seed of the first replicate.
@@ -184,6 +189,8 @@ impl Report {
             version: env!("CARGO_PKG_VERSION"),
             scene: scene.render_id(),
             features: pack::features::names(scene.pack().features()),
+            commit: option_env!("RTR_COMMIT").unwrap_or("unknown"),
+            kernel: LeftOut::of(scene),
             device: outcome.picture.meta.device.clone(),
             seed: job.seed,
             replicates: REPLICATES,

@@ -1,5 +1,6 @@
 //! `cargo run --release -p tests --bin benchmarks`: measures and rewrites `docs/benchmarks.md`.
-//! With the argument `edits` it only prints what compiling again costs after edits.
+//! With the argument `edits` it only prints what compiling again costs after edits, with `ablation [SCENE...]`
+//! only what leaving out features is worth.
 //!
 //! Everything is measured in this one process on this one machine: CPU seconds (user + system of
 //! the whole process, so that threads of a software adapter count), medians of interleaved rounds.
@@ -14,7 +15,7 @@ use cpu_time::ProcessTime;
 use pack::abi::Triangle;
 use pack::{MapMode, Pack};
 use runtime::{Control, DeviceChoice, Job, Outcome, SampleRange, Scene, render};
-use tests::{edits, scene};
+use tests::{ablation, edits, scene};
 
 /// Rounds of each measurement; odd, so that the median is a measured value.
 const ROUNDS: usize = 3;
@@ -33,7 +34,17 @@ fn main() -> Result<ExitCode, Box<dyn std::error::Error>> {
             compiling_again(&root, &mut text)?;
             tests::console::line(&text);
         }
-        Some(other) => return Err(format!("`{other}` is none of the tables: edits").into()),
+        Some("ablation") => {
+            let names: Vec<String> = arguments.collect();
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            let names = if names.is_empty() { ablation::all_scenes() } else { names };
+            let mut text = String::new();
+            ablation::tables(&mut text, ablation::PAGE, &names)?;
+            tests::console::line(&text);
+        }
+        Some(other) => {
+            return Err(format!("`{other}` is none of the tables: edits, ablation").into());
+        }
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -46,6 +57,7 @@ fn all(root: &Path) -> Result<(), Box<dyn std::error::Error>> {
     bvh(&pack, &mut text)?;
     open("mesh", &pack, &mut text)?;
     compiling_again(root, &mut text)?;
+    ablation::tables(&mut text, ablation::PAGE, &ablation::all_scenes())?;
     let target = root.join("docs/benchmarks.md");
     std::fs::write(&target, &text)?;
     tests::console::line(&text);
