@@ -4,6 +4,7 @@
 //! becomes a film, a film becomes a mean with its standard error.
 
 pub mod ball;
+pub mod benchmarks;
 pub mod console;
 pub mod corrections;
 pub mod edits;
