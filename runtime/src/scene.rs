@@ -7,6 +7,7 @@ use crate::job::Job;
 use crate::schedule::WorkItem;
 use glam::UVec4;
 use pack::abi::{Camera, Frame, NONE, RenderSettings};
+use pack::features;
 use pack::{Checked, Kind, Pack};
 use std::fmt::Write as _;
 
@@ -158,8 +159,9 @@ impl Scene {
             fog: settings.fog,
             wide: match self.pack.section_bytes(Kind::WIDENODE) {
                 None => 0,
-                Some(_) if job.native_walk => 1,
-                Some(_) => 2,
+                Some(_) if !job.native_walk => 2,
+                Some(_) if self.pack.features() & features::ALPHA_CLIP == 0 => 3,
+                Some(_) => 1,
             },
             inside: settings.inside,
             ..Frame::default()

@@ -54,9 +54,9 @@ fn peak() -> u64 {
 }
 
 /// One compilation.
-struct Cost {
-    cpu: f64,
-    wall: f64,
+pub(crate) struct Cost {
+    pub(crate) cpu: f64,
+    pub(crate) wall: f64,
     peak: u64,
     /// The last line that `rtc` said.
     said: String,
@@ -99,7 +99,8 @@ pub fn table(scenes: &Path, folder: &Path, text: &mut String) -> Outcome<PathBuf
     Ok(pack)
 }
 
-fn compile(scene: &Path, pack: &Path, folder: &Path) -> Outcome<Cost> {
+/// One compilation in a process of its own, with the cache in `folder`.
+pub(crate) fn compile(scene: &Path, pack: &Path, folder: &Path) -> Outcome<Cost> {
     let start = Instant::now();
     let output = Command::new(std::env::current_exe()?)
         .env("RTC_CACHE_DIR", folder.join("cache"))

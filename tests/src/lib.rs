@@ -5,6 +5,7 @@
 
 pub mod ablation;
 pub mod ball;
+pub mod benchmarks;
 pub mod console;
 pub mod corrections;
 pub mod edits;

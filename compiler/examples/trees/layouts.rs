@@ -1,6 +1,8 @@
-//! The two layouts of nodes: what they take, and what rays cost in the kernel that renders.
+//! The two layouts of nodes: what they take, and what rays cost in the kernel that renders; beside it,
+//! where there is one, another library's walk through its own trees.
 
 use std::error::Error;
+use std::path::Path;
 
 use compiler::bvh::{self, Joined, Layout, Preset};
 use glam::UVec4;
@@ -8,6 +10,7 @@ use pack::abi::{Frame, NONE, TriShade, Triangle};
 use runtime::kernel::f32 as kernel;
 
 use crate::measure::{build, cpu_seconds, walked, walked_wide};
+use crate::other::{self, Yardstick};
 use crate::scene::Tri;
 use crate::walk::{Cost, Ray};
 
@@ -16,9 +19,8 @@ pub(crate) const ROUNDS: usize = 5;
 /// The kernel's frame: everything is nearer than 1.
 const SCALE: f32 = 1.0 / 8192.0;
 
-/// A layout of one tree.
+/// One walk through one layout of one tree.
 pub(crate) struct Row {
-    pub(crate) preset: Preset,
     pub(crate) layout: Layout,
     /// Who walks it.
     pub(crate) walk: &'static str,
@@ -31,12 +33,31 @@ pub(crate) struct Row {
     pub(crate) cpu: f64,
 }
 
+/// The same rays in trees and walks of another library.
+pub(crate) struct Other {
+    pub(crate) name: &'static str,
+    /// Median of CPU seconds of all rays.
+    pub(crate) cpu: f64,
+    /// Rays that hit something else than ours, or at another distance by more than `OTHER_HIT`.
+    pub(crate) differ: usize,
+}
+
+/// What rays cost in one tree, ours first; the others have one that was made for the same.
+pub(crate) struct Group {
+    pub(crate) preset: Preset,
+    pub(crate) rows: Vec<Row>,
+    pub(crate) others: Vec<Other>,
+}
+
 /// All of them.
-pub(crate) struct Rows {
+pub(crate) struct Groups {
     pub(crate) n_triangles: usize,
     pub(crate) n_rays: usize,
-    pub(crate) trees: Vec<Row>,
+    pub(crate) groups: Vec<Group>,
 }
+
+/// Distances that differ by less, relative, are of the same hit.
+pub(crate) const OTHER_HIT: f32 = 1e-3;
 
 /// What a kernel reads of one layout.
 struct Words {
@@ -47,14 +68,19 @@ struct Words {
 }
 
 /// Both layouts of two trees.
-pub(crate) fn all(triangles: &[Tri]) -> Result<Rows, Box<dyn Error>> {
+pub(crate) fn all(triangles: &[Tri], yardstick: Option<&Path>) -> Result<Groups, Box<dyn Error>> {
     let scaled: Vec<Tri> = triangles.iter().map(|t| t.map(|p| p.map(|x| x * SCALE))).collect();
-    let mut all = Rows { n_triangles: scaled.len(), n_rays: 0, trees: Vec::new() };
-    for preset in [Preset::Fast, Preset::Default] {
+    let folder = tempfile::tempdir()?;
+    let other = yardstick.map(|p| Yardstick::new(p, folder.path(), &scaled)).transpose()?;
+    let mut all = Groups { n_triangles: scaled.len(), n_rays: 0, groups: Vec::new() };
+    for (preset, modes) in
+        [(Preset::Fast, &other::WALKS_OF_BINNED[..]), (Preset::Default, &other::WALKS_OF_SPLIT[..])]
+    {
         let (tree, _) = build(preset, &scaled)?;
         let rays = rays(&tree, triangles);
         all.n_rays = rays.len();
-        all.trees.extend(compare(preset, &tree, &scaled, &rays)?);
+        let others = other.as_ref().map(|other| (other, modes));
+        all.groups.push(compare(preset, &tree, &scaled, &rays, others)?);
     }
     Ok(all)
 }
@@ -75,7 +101,8 @@ fn compare(
     tree: &Joined,
     triangles: &[Tri],
     rays: &[Ray],
-) -> Result<Vec<Row>, Box<dyn Error>> {
+    others: Option<(&Yardstick<'_>, &[other::Mode])>,
+) -> Result<Group, Box<dyn Error>> {
     let before = cpu_seconds();
     let mut wide = Vec::new();
     let root = bvh::widen(&tree.nodes, tree.root, &mut wide)?;
@@ -86,11 +113,11 @@ fn compare(
     let kernels = [
         ("generated", tree.root, binary_nodes, 0),
         ("generated", root, wide_nodes, 2),
-        ("by hand", root, wide_nodes, 1),
+        ("by hand", root, wide_nodes, 3),
     ];
     let words =
         kernels.map(|(_, root, nodes, asked)| Words::new(tree, root, nodes, asked, triangles));
-    let took = times(tree, &words, rays);
+    let (took, others) = times(tree, &words, rays, others)?;
     let costs = [
         walked(tree).cost(rays, triangles),
         walked_wide(&wide, &tree.triangle_order).cost(rays, triangles),
@@ -99,7 +126,6 @@ fn compare(
     let row = |((walk, _, nodes, asked), cpu): ((&'static str, u32, &[u8], u32), f64)| {
         let is_wide = usize::from(asked != 0);
         Row {
-            preset,
             layout: [Layout::Binary, Layout::Wide][is_wide],
             walk,
             made: [0.0, made][is_wide],
@@ -109,12 +135,19 @@ fn compare(
             cpu,
         }
     };
-    Ok(kernels.into_iter().zip(took).map(row).collect())
+    Ok(Group { preset, rows: kernels.into_iter().zip(took).map(row).collect(), others })
 }
 
-/// Median of CPU seconds of each kernel.
-fn times<const N: usize>(tree: &Joined, words: &[Words; N], rays: &[Ray]) -> [f64; N] {
+/// Median of CPU seconds of each kernel, and of what is beside them.
+fn times<const N: usize>(
+    tree: &Joined,
+    words: &[Words; N],
+    rays: &[Ray],
+    others: Option<(&Yardstick<'_>, &[other::Mode])>,
+) -> Result<([f64; N], Vec<Other>), Box<dyn Error>> {
     let mut took = [const { Vec::new() }; N];
+    let modes = others.map_or(&[][..], |(_, modes)| modes);
+    let mut theirs: Vec<(Vec<f64>, usize)> = vec![(Vec::new(), 0); modes.len()];
     let mut hits = Vec::new();
     for _ in 0..ROUNDS {
         for (words, took) in words.iter().zip(&mut took) {
@@ -126,11 +159,37 @@ fn times<const N: usize>(tree: &Joined, words: &[Words; N], rays: &[Ray]) -> [f6
             let differ = hits.iter().zip(&found).filter(|(a, b)| a != b).count();
             assert_eq!(differ, 0, "rays have other hits");
         }
+        for ((program, mode), (took, differ)) in others
+            .iter()
+            .flat_map(|(program, modes)| modes.iter().map(move |m| (program, m)))
+            .zip(&mut theirs)
+        {
+            let (cpu, found) = program.walk(mode, rays)?;
+            took.push(cpu);
+            *differ = hits
+                .iter()
+                .zip(&found)
+                .filter(|((t, whose), there)| !same(*t, whose.is_some(), **there))
+                .count();
+        }
     }
-    took.map(|mut took| {
-        took.sort_by(f64::total_cmp);
-        took[ROUNDS / 2]
-    })
+    let other = |(mode, (mut took, differ)): (&other::Mode, (Vec<f64>, usize))| Other {
+        name: mode.1,
+        cpu: median(&mut took),
+        differ,
+    };
+    Ok((took.map(|mut took| median(&mut took)), modes.iter().zip(theirs).map(other).collect()))
+}
+
+fn median(took: &mut [f64]) -> f64 {
+    took.sort_by(f64::total_cmp);
+    took[ROUNDS / 2]
+}
+
+/// Whether `there`, a distance or -1, is the same hit as ours at a distance with bits `t`.
+fn same(t: u32, hit: bool, there: f32) -> bool {
+    let t = f32::from_bits(t);
+    if hit { (there - t).abs() <= t * OTHER_HIT } else { there < 0.0 }
 }
 
 /// Distance and triangle of the scene, in whichever place it was met.

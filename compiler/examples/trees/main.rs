@@ -1,10 +1,9 @@
 //! `cargo run --release -p compiler --example trees [YARDSTICK]`: builds the tree of one hard scene
 //! with every builder, counts what rays cost in each, and rewrites `docs/bvh.md`.
 //!
-//! `YARDSTICK` is a program that builds the same scene with another library: called as
-//! `YARDSTICK bvh_med|bvh_high 1 TREE` with the scene's path in `SCENE`, it prints `cpu SECONDS` and
-//! writes the tree in the form of `bvh_dump`. Its builds are interleaved with ours, and its trees
-//! are walked by the same code.
+//! `YARDSTICK` is a program that builds the same scene with another library, and traces the same rays with
+//! it; `other.rs` says how it is called. Its runs are interleaved with ours, and its trees are walked by the
+//! same code, too.
 #![expect(clippy::print_stdout, reason = "a measuring tool reports on standard output")]
 
 mod layouts;
@@ -25,7 +24,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let yardstick = std::env::args().nth(1).map(PathBuf::from);
     rayon::ThreadPoolBuilder::new().num_threads(1).build_global()?;
     let scene = scene::scene(true);
-    let nodes = layouts::all(&scene)?;
+    let nodes = layouts::all(&scene, yardstick.as_deref())?;
     let with = measure::all(&scene, yardstick.as_deref())?;
     let without = measure::all(&scene::scene(false), yardstick.as_deref())?;
     let text = page(&with, &without) + &nodes_section(&nodes);
@@ -115,8 +114,8 @@ fn table(rows: &Rows) -> String {
     text
 }
 
-/// The layouts of nodes.
-fn nodes_section(all: &layouts::Rows) -> String {
+/// The layouts of nodes, and who walks them.
+fn nodes_section(all: &layouts::Groups) -> String {
     let mut text = format!(
         "\n## Layouts of nodes\n\nWhat `rtc --nodes` chooses between, with the ground. `binary` holds the boxes of two \
          children in 24 bytes each; `wide` up to four, in 6 bytes each on a grid of the node's own, rounded outwards. \
@@ -131,23 +130,62 @@ fn nodes_section(all: &layouts::Rows) -> String {
         all.n_rays,
     );
     let per_ray = |n: u64| n as f64 / all.n_rays as f64;
-    for group in all.trees.chunks(3) {
-        for row in group {
+    let per_mray = |cpu: f64| cpu / all.n_rays as f64 * 1e6;
+    for group in &all.groups {
+        let first = group.rows[0].cpu;
+        for row in &group.rows {
             let _ = writeln!(
                 text,
                 "| `{}` | `{}` | {} | {} | {:.1} | {:.1} | {:.1} | {:.2} | {:.2} | {} |",
-                row.preset,
+                group.preset,
                 row.layout,
                 row.walk,
                 if row.made > 0.0 { format!("{:.2}", row.made) } else { "–".to_owned() },
                 row.node_bytes as f64 / all.n_triangles as f64,
                 per_ray(row.cost.steps),
                 per_ray(row.cost.tests),
-                row.cpu / all.n_rays as f64 * 1e6,
-                row.cpu / group[0].cpu,
+                per_mray(row.cpu),
+                row.cpu / first,
                 row.stack,
             );
         }
+        for other in &group.others {
+            let cpu = per_mray(other.cpu);
+            let _ = writeln!(
+                text,
+                "| {} | its own | `rtcIntersect1` | – | – | – | – | {cpu:.2} | {:.2} | – |",
+                other.name,
+                other.cpu / first,
+            );
+        }
     }
-    text
+    text + &speeds(all)
+}
+
+/// Our best walk beside others', where there are any.
+fn speeds(all: &layouts::Groups) -> String {
+    let mut text = String::new();
+    for group in &all.groups {
+        let Some(ours) = group.rows.last() else { continue };
+        for other in &group.others {
+            let _ = write!(
+                text,
+                " {}: {:.2} times its rays a CPU second with `{}`; {} rays hit something else, or more than {} of \
+                 the distance away.",
+                other.name,
+                other.cpu / ours.cpu,
+                group.preset,
+                other.differ,
+                layouts::OTHER_HIT,
+            );
+        }
+    }
+    if text.is_empty() {
+        return text;
+    }
+    format!(
+        "\nThe walk by hand beside Embree's, whose trees have eight children a node in 32-bit floats and triangles with \
+         their edges worked out, and whose walk is written for each processor; its CPU seconds were taken by the program \
+         itself, around its loop over the same rays, in the same rounds:{text}\n"
+    )
 }

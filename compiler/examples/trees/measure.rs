@@ -1,11 +1,11 @@
 //! Building, timing and walking trees.
 
 use std::error::Error;
-use std::fs;
 use std::path::Path;
 
 use compiler::bvh::{self, Joined, Preset, Primitives};
 use compiler::cache::Cache;
+use cpu_time::ProcessTime;
 use glam::Vec3;
 use pack::abi::{ChildRef, Node, WideNode};
 
@@ -126,9 +126,7 @@ pub(crate) fn walked_wide(nodes: &[WideNode], order: &[u32]) -> Walked {
     Walked { nodes: nodes.iter().map(children).collect(), order: order.to_vec() }
 }
 
-/// User and system time of this process, where the system tells (0 elsewhere).
+/// User and system time of this process, seconds.
 pub(crate) fn cpu_seconds() -> f64 {
-    let stat = fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    let ticks = |i| stat.split(' ').nth(i).and_then(|s: &str| s.parse().ok()).unwrap_or(0.0);
-    (ticks(13) + ticks(14)) / 100.0
+    ProcessTime::now().as_duration().as_secs_f64()
 }

@@ -1,4 +1,12 @@
-//! Trees of another library, through files. The forms are those of `bvh_dump`.
+//! Trees and walks of another library, through files. The forms of scenes and trees are those of `bvh_dump`;
+//! little endian.
+//!
+//! - `PROGRAM MODE 1 TREE` with the scene's path in `SCENE` builds with one thread and writes the tree.
+//! - `PROGRAM MODE 1 RAYS HITS` builds, and then walks: `RAYS` holds a `u64` and so many times six `f32`, origin
+//!   and direction; it writes `HITS`, a `u64` and so many times an `f32`, the distance of the nearest hit or
+//!   -1.
+//!
+//! Each prints `cpu` and a number: the CPU seconds of the build, or of the walk alone.
 
 use std::error::Error;
 use std::fs;
@@ -8,10 +16,20 @@ use std::process::Command;
 use glam::Vec3;
 
 use crate::scene::Tri;
-use crate::walk::{Child, To, Walked, pair as both};
+use crate::walk::{Child, Ray, To, Walked, pair as both};
 
 /// What the program is asked for, and what that is called on the page.
-pub(crate) const MODES: [(&str, &str); 2] = [
+pub(crate) type Mode = (&'static str, &'static str);
+
+/// Walks through trees without spatial splits.
+pub(crate) const WALKS_OF_BINNED: [Mode; 1] = [("intersect_med", "Embree 3.13, medium")];
+/// Walks through trees with them; the second with every precaution against rays that slip through.
+pub(crate) const WALKS_OF_SPLIT: [Mode; 2] = [
+    ("intersect_high", "Embree 3.13, high"),
+    ("intersect_high_robust", "Embree 3.13, high, robust"),
+];
+/// Builds.
+pub(crate) const MODES: [Mode; 2] = [
     ("bvh_med", "Embree 3.13, medium (binned)"),
     ("bvh_high", "Embree 3.13, high (spatial splits)"),
 ];
@@ -39,12 +57,34 @@ impl<'a> Yardstick<'a> {
 
     /// CPU seconds and the tree's bytes.
     pub(crate) fn build(&self, mode: &str) -> Result<(f64, Vec<u8>), Box<dyn Error>> {
-        let mut command = Command::new(self.program);
-        command.args([mode, "1"]).arg(&self.tree).env("SCENE", &self.scene);
-        let said = String::from_utf8(command.output()?.stdout)?;
-        let cpu = said.split("cpu ").nth(1).and_then(|rest| rest.split(' ').next());
-        let cpu = cpu.and_then(|s| s.trim().parse().ok()).ok_or("the yardstick says no time")?;
+        let cpu = self.run(mode, &[&self.tree])?;
         Ok((cpu, fs::read(&self.tree)?))
+    }
+
+    /// CPU seconds of a walk, and the distance to what every ray hits.
+    pub(crate) fn walk(
+        &self,
+        mode: &Mode,
+        rays: &[Ray],
+    ) -> Result<(f64, Vec<f32>), Box<dyn Error>> {
+        let mut bytes = (rays.len() as u64).to_le_bytes().to_vec();
+        let numbers = rays.iter().flat_map(|ray| [ray.origin.to_array(), ray.dir.to_array()]);
+        bytes.extend(numbers.flatten().flat_map(f32::to_le_bytes));
+        let [rays, hits] = ["rays.bin", "hits.bin"].map(|name| self.scene.with_file_name(name));
+        fs::write(&rays, bytes)?;
+        let cpu = self.run(mode.0, &[&rays, &hits])?;
+        let bytes = fs::read(&hits)?;
+        let numbers = bytes.get(8..).ok_or("the yardstick wrote no hits")?.as_chunks::<4>().0;
+        Ok((cpu, numbers.iter().map(|four| f32::from_le_bytes(*four)).collect()))
+    }
+
+    /// CPU seconds that the program says it took.
+    fn run(&self, mode: &str, files: &[&Path]) -> Result<f64, Box<dyn Error>> {
+        let mut command = Command::new(self.program);
+        command.args([mode, "1"]).args(files).env("SCENE", &self.scene);
+        let said = String::from_utf8(command.output()?.stdout)?;
+        let cpu = said.split("cpu ").nth(1).and_then(|rest| rest.split_whitespace().next());
+        Ok(cpu.and_then(|s| s.parse().ok()).ok_or("the yardstick says no time")?)
     }
 }
 

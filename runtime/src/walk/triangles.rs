@@ -3,71 +3,94 @@
 //! Each lane does the operations of `triangle_intersect` (`shape/triangle.wgsl`, where it says why) in
 //! their order, so that its bits are the same. Which hit counts is then asked one by one.
 
-use crate::kernel::f32::{
-    CHILD_COUNT_SHIFT, CHILD_FIRST, CHILD_SPHERES, Hit, Kernel, MOVES, Ray, TriangleShear,
-};
-use glam::{UVec4, Vec2, Vec3};
+use crate::kernel::f32::{CHILD_COUNT_SHIFT, CHILD_FIRST, Hit, Kernel, Ray, TriangleShear, Walk};
+use bytemuck::cast;
+use glam::{Vec2, Vec3};
 use wide::{f32x4, i32x4};
 
+/// A corner as it is stored: three floats and an id.
+type Row = [u32; 4];
 /// Triangles that are tested together.
 const WIDTH: u32 = 4;
 
-/// The better of `best` and the hits in the leaf with reference `child`.
-#[inline]
+/// A ray, and what turns it into the z axis, in all lanes.
+pub(super) struct Sheared {
+    origin: [f32x4; 3],
+    slope: [f32x4; 2],
+    inv_depth: f32x4,
+    /// Which axis becomes z.
+    axis: u32,
+}
+
+impl Sheared {
+    #[inline(always)]
+    pub(super) fn new(origin: Vec3, shear: &TriangleShear) -> Self {
+        let all = f32x4::splat;
+        Self {
+            origin: [all(origin.x), all(origin.y), all(origin.z)],
+            slope: [all(shear.slope.x), all(shear.slope.y)],
+            inv_depth: all(shear.inv_depth),
+            axis: shear.axis,
+        }
+    }
+}
+
+/// The better of `best` and the hits in the leaf of triangles with reference `child`; `all`: none is to be
+/// asked whether it counts for such a ray.
+#[inline(always)]
 pub(super) fn leaf(
     kernel: &mut Kernel<'_>,
     child: u32,
-    ray: &Ray,
-    shear: &TriangleShear,
+    walk: &Walk,
+    sheared: &Sheared,
+    all: bool,
     best: Hit,
 ) -> Hit {
-    if child & CHILD_SPHERES != 0 {
-        return kernel.leaf_trace(child, *ray, *shear, best);
+    // Asked once, and not in every test.
+    match sheared.axis {
+        0 => leaf_along::<0>(kernel, child, walk, sheared, all, best),
+        1 => leaf_along::<1>(kernel, child, walk, sheared, all, best),
+        _ => leaf_along::<2>(kernel, child, walk, sheared, all, best),
     }
-    let mut first = child & CHILD_FIRST;
-    let end = first + ((child >> CHILD_COUNT_SHIFT) & 7) + 1;
-    let mut hit = best;
-    while first < end {
-        let next = (first + WIDTH).min(end);
-        // A lane without a triangle of its own repeats the last one.
-        let corners = [0, 1, 2, 3].map(|lane| corners(kernel, (first + lane).min(next - 1)));
-        let [Some(a), Some(b), Some(c), Some(d)] = corners else {
-            return kernel.triangles_trace(first, end - first, *ray, *shear, hit);
-        };
-        if (a[0].w | b[0].w | c[0].w | d[0].w) & MOVES != 0 {
-            return kernel.triangles_trace(first, end - first, *ray, *shear, hit);
+}
+
+#[inline(always)]
+fn leaf_along<const AXIS: u32>(
+    kernel: &mut Kernel<'_>,
+    child: u32,
+    walk: &Walk,
+    sheared: &Sheared,
+    all: bool,
+    best: Hit,
+) -> Hit {
+    let first = child & CHILD_FIRST;
+    let n = ((child >> CHILD_COUNT_SHIFT) & 7) + 1;
+    let words = kernel.tri_words;
+    // No pack that passed its checks leads elsewhere.
+    let words = words.get(3 * first as usize..3 * (first + n) as usize).unwrap_or_default();
+    let rows: &[Row] = bytemuck::cast_slice(words);
+    let tris = rows.as_chunks::<3>().0;
+    let (mut hit, mut at) = (best, first);
+    for group in tris.chunks(WIDTH as usize) {
+        let corners = corners::<AXIS>(group, sheared);
+        if corners[0].id.is_negative().any() {
+            // One that moves.
+            return kernel.triangles_trace(at, first + n - at, walk.ray, walk.leaf, hit);
         }
-        let met = Lanes::intersect([a, b, c, d], ray.origin, shear);
-        let mut left = met.hits & ((1 << (next - first)) - 1);
-        while left != 0 {
-            let lane = left.trailing_zeros();
-            left &= left - 1;
-            let (i, k) = (first + lane, lane as usize & 3);
-            let (t, weights) = (met.t[k], Vec2::new(met.b1[k], met.b2[k]));
-            let accepted = kernel.triangles_accept(hit, t, i, ray.instance)
-                && !kernel.triangles_skipped(i, *ray);
-            if accepted && kernel.candidate_triangle(i, weights, *ray) {
-                hit = Hit { t, prim: i, b: weights, instance: ray.instance };
+        if let Some(met) = Lanes::intersect(&corners, sheared.inv_depth, hit.t) {
+            let mut left = met.hits & ((1 << group.len()) - 1);
+            while left != 0 {
+                let lane = left.trailing_zeros();
+                left &= left - 1;
+                let new = met.hit(lane, at + lane, &walk.ray);
+                if counts(kernel, &new, &hit, &walk.ray, all) {
+                    hit = new;
+                }
             }
         }
-        first = next;
+        at += WIDTH;
     }
     hit
-}
-
-/// The three corners of a triangle with their ids.
-#[inline]
-fn corners(kernel: &Kernel<'_>, i: u32) -> Option<[UVec4; 3]> {
-    kernel.tri_words.get(3 * i as usize..)?.first_chunk().copied()
-}
-
-/// What a ray and four triangles have in common.
-struct Lanes {
-    /// One bit a lane: it is hit, at a distance above 0.
-    hits: u32,
-    t: [f32; 4],
-    b1: [f32; 4],
-    b2: [f32; 4],
 }
 
 /// One corner of four triangles, seen along the ray, and its ids.
@@ -78,27 +101,70 @@ struct Corner {
     id: i32x4,
 }
 
+/// The corners of up to four triangles; a lane without one of its own repeats the last.
+#[inline(always)]
+fn corners<const AXIS: u32>(group: &[[Row; 3]], sheared: &Sheared) -> [Corner; 3] {
+    let last = group.len().saturating_sub(1);
+    let tri = |lane: usize| group.get(lane.min(last)).unwrap_or(&[[0; 4]; 3]);
+    let [a, b, c, d] = [tri(0), tri(1), tri(2), tri(3)];
+    let corner = |k: usize| Corner::new::<AXIS>([&a[k], &b[k], &c[k], &d[k]], sheared);
+    [corner(0), corner(1), corner(2)]
+}
+
 impl Corner {
-    /// Corner `k`, sheared.
-    #[inline]
-    fn new(tris: &[[UVec4; 3]; 4], k: usize, origin: Vec3, shear: &TriangleShear) -> Self {
-        let row = |lane: usize| {
-            // Integers do not become floats.
-            let [x, y, z, _] = tris[lane][k].to_array().map(f32::from_bits);
-            f32x4::new([x, y, z, 0.0])
-        };
-        let [x, y, z, _] = f32x4::transpose([row(0), row(1), row(2), row(3)]);
-        let x = x - f32x4::splat(origin.x);
-        let y = y - f32x4::splat(origin.y);
-        let z = z - f32x4::splat(origin.z);
-        let (x, y, z) = match shear.axis {
+    #[inline(always)]
+    fn new<const AXIS: u32>([a, b, c, d]: [&Row; 4], sheared: &Sheared) -> Self {
+        // Nothing is computed with the ids as floats.
+        let [x, y, z, id] = f32x4::transpose([cast(*a), cast(*b), cast(*c), cast(*d)]);
+        let [ox, oy, oz] = sheared.origin;
+        let (x, y, z) = (x - ox, y - oy, z - oz);
+        let (x, y, z) = match AXIS {
             0 => (y, z, x),
             1 => (z, x, y),
             _ => (x, y, z),
         };
-        // Below 2^31: triangles that move are not seen here.
-        let id = i32x4::new([0, 1, 2, 3].map(|lane| tris[lane][k].w.cast_signed()));
-        Self { x: x - z * shear.slope.x, y: y - z * shear.slope.y, z, id }
+        let [slope_x, slope_y] = sheared.slope;
+        Self { x: x - z * slope_x, y: y - z * slope_y, z, id: cast(id) }
+    }
+}
+
+/// What a ray and four triangles have in common.
+struct Lanes {
+    /// One bit a lane: it is hit, at a distance above 0 and not behind what is known.
+    hits: u32,
+    t: [f32; 4],
+    b1: [f32; 4],
+    b2: [f32; 4],
+}
+
+/// The lanes that are hit, and the weights of the corners.
+struct Edges {
+    inside: f32x4,
+    weights: [f32x4; 3],
+}
+
+impl Edges {
+    /// The edge functions; swapped ends only change their signs, twice, unless the ray meets an edge.
+    #[inline(always)]
+    fn new([a, b, c]: &[Corner; 3]) -> Self {
+        let edge = |p: &Corner, q: &Corner| p.x * q.y - p.y * q.x;
+        let [e0, e1, e2] = [edge(b, c), edge(c, a), edge(a, b)];
+        let zero = f32x4::ZERO;
+        let [p0, p1, p2] = [e0.simd_gt(zero), e1.simd_gt(zero), e2.simd_gt(zero)];
+        let [n0, n1, n2] = [e0.simd_lt(zero), e1.simd_lt(zero), e2.simd_lt(zero)];
+        if ((p0 | n0) & (p1 | n1) & (p2 | n2)).all() {
+            Self { inside: (p0 & p1 & p2) | (n0 & n1 & n2), weights: [e0, e1, e2] }
+        } else {
+            Self::in_order(&[Edge::new(b, c), Edge::new(c, a), Edge::new(a, b)])
+        }
+    }
+
+    /// The same with the ends of every edge in the order of their ids.
+    #[inline(always)]
+    fn in_order([e0, e1, e2]: &[Edge; 3]) -> Self {
+        let [in0, in1, in2] = [e0.inside(), e1.inside(), e2.inside()];
+        let outside = (in0 ^ in1) | (in1 ^ in2);
+        Self { inside: !outside, weights: [e0.weight(), e1.weight(), e2.weight()] }
     }
 }
 
@@ -111,9 +177,9 @@ struct Edge {
 }
 
 impl Edge {
-    #[inline]
+    #[inline(always)]
     fn new(a: &Corner, b: &Corner) -> Self {
-        let swap: f32x4 = bytemuck::cast(a.id.simd_gt(b.id));
+        let swap: f32x4 = cast(a.id.simd_gt(b.id));
         let px = swap.bitselect(b.x, a.x);
         let py = swap.bitselect(b.y, a.y);
         let qx = swap.bitselect(a.x, b.x);
@@ -122,41 +188,53 @@ impl Edge {
     }
 
     /// The lanes on the inner side; an edge that is met exactly counts as moved.
-    #[inline]
-    fn inside(&self, zero: bool) -> f32x4 {
-        let mut side = self.e;
-        if zero {
-            let ([px, py], [qx, qy]) = (self.p, self.q);
-            let moved = qy.simd_eq(py).bitselect(px - qx, qy - py);
-            side = self.e.simd_eq(f32x4::ZERO).bitselect(moved, self.e);
-        }
+    #[inline(always)]
+    fn inside(&self) -> f32x4 {
+        let ([px, py], [qx, qy]) = (self.p, self.q);
+        let moved = qy.simd_eq(py).bitselect(px - qx, qy - py);
+        let side = self.e.simd_eq(f32x4::ZERO).bitselect(moved, self.e);
         side.simd_gt(f32x4::ZERO) ^ self.swap
     }
 
     /// The weight of the corner opposite.
-    #[inline]
+    #[inline(always)]
     fn weight(&self) -> f32x4 {
         self.e ^ (self.swap & f32x4::splat(-0.0))
     }
 }
 
 impl Lanes {
-    #[inline]
-    fn intersect(tris: [[UVec4; 3]; 4], origin: Vec3, shear: &TriangleShear) -> Self {
-        let [a, b, c] = [0, 1, 2].map(|k| Corner::new(&tris, k, origin, shear));
-        let edges = [Edge::new(&b, &c), Edge::new(&c, &a), Edge::new(&a, &b)];
-        let [e0, e1, e2] = [&edges[0].e, &edges[1].e, &edges[2].e].map(|e| e.simd_eq(f32x4::ZERO));
-        let zero = (e0 | e1 | e2).any();
-        let [in0, in1, in2] = [0, 1, 2].map(|k| edges[k].inside(zero));
-        let outside = (in0 ^ in1) | (in1 ^ in2);
-        if outside.all() {
-            return Self { hits: 0, t: [0.0; 4], b1: [0.0; 4], b2: [0.0; 4] };
+    /// Nothing if no lane is hit before `t_max` or at it.
+    #[inline(always)]
+    fn intersect(corners: &[Corner; 3], inv_depth: f32x4, t_max: f32) -> Option<Self> {
+        let Edges { inside, weights: [w0, w1, w2] } = Edges::new(corners);
+        if inside.none() {
+            return None;
         }
-        let [w0, w1, w2] = [0, 1, 2].map(|k| edges[k].weight());
+        let [a, b, c] = corners;
         let det = w0 + w1 + w2;
-        let t = (w0 * a.z + w1 * b.z + w2 * c.z) / det * f32x4::splat(shear.inv_depth);
-        let flat = det.simd_eq(f32x4::ZERO);
-        let hits = t.simd_gt(f32x4::ZERO).to_bitmask() & !(outside | flat).to_bitmask();
-        Self { hits, t: t.to_array(), b1: (w1 / det).to_array(), b2: (w2 / det).to_array() }
+        let t = (w0 * a.z + w1 * b.z + w2 * c.z) / det * inv_depth;
+        let near = t.simd_gt(f32x4::ZERO) & t.simd_le(f32x4::splat(t_max));
+        let hits = (inside & near & det.simd_ne(f32x4::ZERO)).to_bitmask();
+        let (b1, b2) = (w1 / det, w2 / det);
+        let met = Self { hits, t: t.to_array(), b1: b1.to_array(), b2: b2.to_array() };
+        (hits != 0).then_some(met)
     }
+
+    /// The hit of one lane, which is triangle `i`.
+    #[inline(always)]
+    fn hit(&self, lane: u32, i: u32, ray: &Ray) -> Hit {
+        let k = lane as usize & 3;
+        let b = Vec2::new(self.b1[k], self.b2[k]);
+        Hit { t: self.t[k], prim: i, b, instance: ray.instance }
+    }
+}
+
+/// Whether `new`, at a distance above 0, replaces `best`.
+#[inline(always)]
+fn counts(kernel: &mut Kernel<'_>, new: &Hit, best: &Hit, ray: &Ray, all: bool) -> bool {
+    let accepted = new.t < best.t || kernel.triangles_accept(*best, new.t, new.prim, ray.instance);
+    accepted
+        && !kernel.triangles_skipped(new.prim, *ray)
+        && (all || kernel.candidate_triangle(new.prim, new.b, *ray))
 }

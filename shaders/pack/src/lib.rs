@@ -22,6 +22,7 @@
 compile_error!("packs are little-endian and read in place; this machine is big-endian");
 
 pub mod abi;
+mod atomic;
 pub mod bvh;
 mod check;
 mod contents;
@@ -37,6 +38,7 @@ mod reader;
 mod table;
 mod writer;
 
+pub use atomic::write_atomic;
 pub use describe::{SectionRow, describe};
 pub use error::{PackError, Place};
 pub use fault::{BvhFault, ElementFault, HeaderFault, SectionFault};
@@ -45,7 +47,7 @@ pub use kind::{Kind, MAX_INSTANCES, PackRecord, SECTIONS, SectionSpec};
 pub use manifest::Manifest;
 pub use map::MapMode;
 pub use reader::{Checked, Pack, Section, Unchecked};
-pub use writer::{PackWriter, write_atomic};
+pub use writer::PackWriter;
 
 /// The smallest settings and camera that pass the checks; for the crate's own examples.
 #[doc(hidden)]

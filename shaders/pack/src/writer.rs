@@ -5,13 +5,13 @@
 //! the records come from.
 
 use std::borrow::Cow;
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::Path;
 
 use rayon::prelude::*;
 
 use crate::abi::RenderSettings;
+use crate::atomic::write_atomic;
 use crate::contents::Contents;
 use crate::error::PackError;
 use crate::fault::SectionFault;
@@ -268,36 +268,4 @@ impl<'a> Plan<'a> {
         }
         Ok(())
     }
-}
-
-/// Writes a file under a temporary name in the same directory, flushes it to the disk and renames
-/// it to `path`. On any error `path` is as it was, and the temporary file is gone.
-pub fn write_atomic(
-    path: &Path,
-    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> Result<(), PackError> {
-    let io = |action| move |source| PackError::Io { action, path: path.to_owned(), source };
-    let dir = match path.parent() {
-        Some(dir) if !dir.as_os_str().is_empty() => dir,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".pack-").suffix(".tmp");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // As any program creates a file; the umask takes its part.
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    let file = builder.tempfile_in(dir).map_err(io("create"))?;
-    let mut out = BufWriter::with_capacity(1 << 20, file);
-    content(&mut out).map_err(io("write"))?;
-    let file = out.into_inner().map_err(|error| io("write")(error.into_error()))?;
-    file.as_file().sync_all().map_err(io("write"))?;
-    file.persist(path).map_err(|error| io("rename")(error.error))?;
-    // The name itself is safe once the directory is; not every file system can promise that.
-    if let Ok(dir) = File::open(dir) {
-        drop(dir.sync_all());
-    }
-    Ok(())
 }

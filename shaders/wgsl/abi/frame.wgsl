@@ -46,8 +46,8 @@ struct Frame {
     // Indices of the `Material`s inside of which the camera is, the one that counts first, then
     // `NONE`.
     inside: vec4<u32>,
-    // 0: the nodes are `Node`s, else `WideNode`s. The full kernel asks, a specialised one knows. 2: on the
-    // CPU, too, they are walked by what stands in the WGSL.
+    // 0: the nodes are `Node`s, else `WideNode`s. The full kernel asks, a specialised one knows. On the CPU 2
+    // says that they are walked by what stands in the WGSL, too, and 3 that nothing is cut out.
     wide: u32,
     // First heap word of the table by which the sky is sampled.
     sky_table_at: u32,

@@ -1,0 +1,112 @@
+//! Tables of `docs/benchmarks.md`, each of which can be asked for by its name.
+//!
+//! Turns what this machine does now into Markdown. Everything is measured in this process or in children of
+//! it that are the same program under another name: CPU seconds (user + system of the whole process, so that
+//! threads of a software adapter count), medians of interleaved rounds.
+
+mod compiling;
+mod devices;
+mod first;
+mod open;
+mod packs;
+mod trees;
+mod walks;
+
+use std::error::Error;
+use std::fmt::Write as _;
+
+use crate::{ablation, edits};
+use packs::Packs;
+
+/// What a table gives.
+pub type Outcome = Result<(), Box<dyn Error>>;
+
+/// A table: its name, what it tells, and what measures it and writes it into the text.
+pub struct Table {
+    /// Which word asks for it.
+    pub name: &'static str,
+    /// For those who ask which there are.
+    pub about: &'static str,
+    /// Measures and writes.
+    pub write: fn(&mut Packs, &mut String) -> Outcome,
+}
+
+/// All of them, in the order of the page.
+pub const TABLES: [Table; 8] = [
+    Table { name: "devices", about: "path tracing on the CPU and others", write: devices::table },
+    Table { name: "walks", about: "the walk through the tree", write: walks::table },
+    Table { name: "trees", about: "building a tree", write: trees::table },
+    Table { name: "compile", about: "text to pack, cold and warm", write: compiling::table },
+    Table { name: "edits", about: "compiling again after edits", write: compiling::edits },
+    Table { name: "open", about: "mapping and checking packs", write: open::table },
+    Table { name: "first", about: "process start to first pixel", write: first::table },
+    Table { name: "ablation", about: "what leaving out features is worth", write: ablated },
+];
+
+/// Scenes that tables are about.
+pub(crate) const SCENES: [&str; 3] = ["mesh", "materials", "shrine"];
+/// Rounds of each measurement; odd, so that the median is a measured value.
+pub(crate) const ROUNDS: usize = 3;
+
+fn ablated(_: &mut Packs, text: &mut String) -> Outcome {
+    ablation::tables(text, ablation::PAGE, &ablation::all_scenes())
+}
+
+/// What a child of this program does, if `name` is one's first argument: its exit code.
+pub fn child(name: &str, arguments: impl Iterator<Item = String>) -> Option<u8> {
+    match name {
+        edits::CHILD => Some(edits::child(arguments)),
+        first::CHILD => Some(first::child(arguments)),
+        _ => None,
+    }
+}
+
+/// The tables with these names, in the order of the page; all of them if no name is given.
+///
+/// # Errors
+/// When there is no such table, or something cannot be measured.
+pub fn page(names: &[String]) -> Result<String, Box<dyn Error>> {
+    let known = |name: &String| TABLES.iter().any(|table| table.name == name);
+    if let Some(unknown) = names.iter().find(|name| !known(name)) {
+        let tables = TABLES.each_ref().map(|table| format!("  {:<9}{}", table.name, table.about));
+        return Err(format!("`{unknown}` is none of the tables:\n{}", tables.join("\n")).into());
+    }
+    let wanted = |table: &&Table| names.is_empty() || names.iter().any(|name| name == table.name);
+    let mut packs = Packs::new()?;
+    let mut text = header();
+    for table in TABLES.iter().filter(wanted) {
+        (table.write)(&mut packs, &mut text)?;
+    }
+    Ok(text)
+}
+
+fn header() -> String {
+    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let mut text = String::from("# Benchmarks\n\n");
+    let _ = writeln!(
+        text,
+        "Made by `cargo run --release -p tests --bin benchmarks`; edit the program, not this page. With names of tables \
+         (`benchmarks open first`) it only prints those. \
+         CPU seconds are user + system time of the process, medians of {ROUNDS} interleaved rounds. \
+         Compare rows of one page, not pages: machines differ.\n\n\
+         Machine: {} {}, {threads} hardware threads, {}.",
+        std::env::consts::ARCH,
+        std::env::consts::OS,
+        processor(),
+    );
+    text
+}
+
+fn processor() -> String {
+    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let line = info.lines().find_map(|line| line.strip_prefix("model name"));
+    let name = line.and_then(|line| line.split_once(':')).map(|(_, name)| name.trim().to_owned());
+    name.unwrap_or_else(|| "unknown processor".to_owned())
+}
+
+/// The median; of an even number the upper one.
+pub(crate) fn median(values: impl IntoIterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.into_iter().collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
