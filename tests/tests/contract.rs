@@ -134,7 +134,9 @@ fn texels_beyond_one_binding_are_read_through_windows() {
     assert_eq!(differences(&device, "large texture", &pack, 0), Vec::<String>::new());
     // The second window can be seen: without it the picture is another.
     let mut cut = scene;
-    cut.lowered.texels[shaders::WINDOW_WORDS as usize..].fill([0; 4]);
+    let mut texels = cut.lowered.texels.to_vec();
+    texels[shaders::WINDOW_WORDS as usize..].fill([0; 4]);
+    cut.lowered.texels = texels.into();
     let films = [pack(), pack_of(&cut)()].map(|pack| picture::cpu(pack, |_| {}));
     assert!(pixels(films[0].film(), films[1].film()).is_some());
 }
@@ -151,7 +153,7 @@ fn large_texture() -> Compiled {
     assert!(words > shaders::WINDOW_WORDS);
     // Every word tells where it is.
     let word = |i: u32| [i.wrapping_mul(0x9e37_79b1), i >> 3, !i, i.rotate_left(9)];
-    scene.lowered.texels = (0..words).map(word).collect();
+    scene.lowered.texels = (0..words).map(word).collect::<Vec<_>>().into();
     scene.features.windows.texel = 2;
     scene.kernel = shaders::link(&scene.features).expect("two windows are few bindings");
     scene

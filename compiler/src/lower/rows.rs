@@ -64,6 +64,12 @@ impl<'a, T> IntoIterator for &'a Rows<T> {
     }
 }
 
+impl<T: PartialEq> PartialEq for Rows<T> {
+    fn eq(&self, other: &Self) -> bool {
+        **self == **other
+    }
+}
+
 impl<T: fmt::Debug> fmt::Debug for Rows<T> {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         out.debug_list().entries(self.iter()).finish()
