@@ -203,8 +203,7 @@ pub fn lower(
     let settings = settings(scene, &frame, &joined, ordered.lights.len());
     let declared = medium::records(scene, materials.waters(), &frame);
     let (mut materials, textures) = materials.into_records();
-    medium::mark(scene, &mut materials);
-    let medium::Used { media, around: [air, fog] } = medium::used(scene, &declared, &mut materials);
+    let (media, [air, fog]) = medium::used(scene, &declared, &mut materials);
     let objects = objects(&placement, &materials, &frame, !motions.is_empty());
     let instances = forget_objects(&objects, &mut ordered, instances);
     motion::mark(&objects, &mut ordered);

@@ -103,7 +103,7 @@ mod with_gpu {
         std::thread::scope(|scope| {
             let watcher = scope.spawn(|| console.pass_interrupts(&control, &over));
             let choice = DeviceChoice::parse(&args.device);
-            let ablation = ablate(scene, job, &choice, &plan, &control, &mut tell);
+            let ablation = ablate(scene, job, &choice, plan, &control, &mut tell);
             over.store(true, Ordering::Relaxed);
             watcher.thread().unpark();
             ablation
