@@ -174,7 +174,15 @@ impl Scene {
     }
 }
 
+#[cfg(feature = "gpu")]
 impl<'a> Setup<'a> {
+    /// The same scene for another kernel, which can do at least what the pack's can.
+    pub(crate) fn with_kernel(self, kernel: &'a str) -> Self {
+        Self { kernel: Some(kernel), ..self }
+    }
+}
+
+impl Setup<'_> {
     /// The uniform of one tile.
     pub(crate) fn frame(&self, item: &WorkItem) -> Frame {
         Frame {
@@ -207,12 +215,6 @@ impl<'a> Setup<'a> {
     pub(crate) fn nodes(&self) -> &[UVec4] {
         let wide = self.section(Kind::WIDENODE);
         if wide.is_empty() { self.section(Kind::NODE) } else { wide }
-    }
-
-    /// The same scene for another kernel, which can do at least what the pack's can.
-    #[cfg(feature = "gpu")]
-    pub(crate) fn with_kernel(self, kernel: &'a str) -> Self {
-        Self { kernel: Some(kernel), ..self }
     }
 
     /// Every storage buffer that is only read: binding number and bytes, none empty.
