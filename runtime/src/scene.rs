@@ -263,3 +263,17 @@ impl Setup<'_> {
 fn words(bytes: &[u8]) -> &[UVec4] {
     bytemuck::try_cast_slice(bytes).expect("sections are whole 16-byte words at page boundaries")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sections_are_bound_where_the_pack_says() {
+        assert!(HEAP.iter().all(|kind| kind.binding() == Some(2)));
+        #[cfg(feature = "gpu")]
+        assert!(BOUND.iter().all(|(binding, kind)| kind.binding() == Some(*binding)));
+        let n_heap = pack::SECTIONS.iter().filter(|spec| spec.kind.binding() == Some(2)).count();
+        assert_eq!(n_heap, HEAP.len());
+    }
+}
