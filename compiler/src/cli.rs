@@ -39,6 +39,7 @@ Examples:
   rtc check scene.rts                only look for errors
   rtc scene.rts -D hour=7h           override a `param` of the scene
   rtc fmt scene.rts                  tidy the text
+  rtc scene.rts --explain-features   what its kernel can do, which line needs that, what was left out
   rtc explain E0301                  what an error means, with an example
   rtc show --resolved scene.rts      every value, defaults included
   rtc inspect scene.pack             what is in a pack";

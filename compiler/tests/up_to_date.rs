@@ -90,3 +90,42 @@ fn warnings_are_said_every_time() {
         assert!(log.contains("warning[W0520]") && !log.contains("up to date"), "{log}");
     }
 }
+
+#[test]
+fn features_are_told_also_of_a_pack_that_is_up_to_date() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("scene.rts"), SCENE).expect("writable");
+    image::RgbImage::new(2, 2).save(folder.path().join("tile.png")).expect("writable");
+    let told = || {
+        let output = Command::new(env!("CARGO_BIN_EXE_rtc"))
+            .current_dir(folder.path())
+            .env("RTC_CACHE_DIR", folder.path().join("cache"))
+            .args(["scene.rts", "-o", "a.pack", "--color", "never", "--explain-features"])
+            .output()
+            .expect("rtc starts");
+        assert_eq!(output.status.code(), Some(0));
+        [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned())
+    };
+    let ([first, _], [again, log]) = (told(), told());
+    assert!(log.contains("a.pack is up to date"), "{log}");
+    assert_eq!(first, again);
+    // Name, place, reason; a section with its binding; both kernels.
+    let row = |start: &str| {
+        let found = first.lines().find(|line| line.trim_start().starts_with(start));
+        found.unwrap_or_else(|| panic!("no `{start}` in {first}")).to_owned()
+    };
+    for (start, parts) in [
+        ("sRGB textures", ["scene.rts:4", "1 images, the first of: `clay`"]),
+        ("spheres", ["scene.rts:5", "`ball`"]),
+        ("several lights", ["scene.rts:6", "it is the only one: `lamp`"]),
+        ("lens", ["scene.rts:7", "its aperture is 0: `eye`"]),
+        ("fog", [" - ", "nothing uses it"]),
+        ("SPHERE", [" 64 ", " 6 "]),
+        ("kernel:", ["% of the ", "words of SPIR-V, "]),
+    ] {
+        let line = row(start);
+        assert!(parts.iter().all(|part| line.contains(part)), "{line}");
+    }
+    let kept = first.split("features left out").next().expect("there are two lists");
+    assert!(kept.contains("sphere lights") && !kept.contains("fog"), "{first}");
+}

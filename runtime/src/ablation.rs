@@ -153,7 +153,7 @@ pub fn ablate(
     scene: &Scene,
     job: &Job,
     choice: &DeviceChoice,
-    plan: &Plan,
+    plan: Plan,
     control: &Control,
     tell: &mut dyn FnMut(Event<'_>),
 ) -> Result<Ablation, AblationError> {
@@ -204,7 +204,7 @@ pub fn ablate(
 /// Name and text of the kernels that `ablate` compares, the pack's own first.
 #[must_use]
 pub fn kernel_texts(scene: &Scene, each: bool) -> Vec<(String, String)> {
-    kernels(&scene.setup(&Job::of_scene(scene)), &Plan { rounds: 0, each })
+    kernels(&scene.setup(&Job::of_scene(scene)), Plan { rounds: 0, each })
 }
 
 /// For tests: the pack's own kernel, put together again as the others are.
@@ -217,7 +217,7 @@ pub fn relinked(scene: &Scene) -> Option<String> {
 }
 
 /// Name and text of every kernel that can render the scene of `setup` and is another than those before it.
-fn kernels(setup: &Setup<'_>, plan: &Plan) -> Vec<(String, String)> {
+fn kernels(setup: &Setup<'_>, plan: Plan) -> Vec<(String, String)> {
     let own = setup.kernel().to_owned();
     let mut all = vec![("specialised".to_owned(), own.clone())];
     if setup.stack_need() <= crate::kernel::f32::STACK_SIZE && !has_windows(&own) {

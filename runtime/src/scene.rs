@@ -176,7 +176,15 @@ impl Scene {
     }
 }
 
+#[cfg(feature = "gpu")]
 impl<'a> Setup<'a> {
+    /// The same scene for another kernel, which can do at least what the pack's can.
+    pub(crate) fn with_kernel(self, kernel: &'a str) -> Self {
+        Self { kernel: Some(kernel), ..self }
+    }
+}
+
+impl Setup<'_> {
     /// The uniform of one tile.
     pub(crate) fn frame(&self, item: &WorkItem) -> Frame {
         Frame {
@@ -209,12 +217,6 @@ impl<'a> Setup<'a> {
     pub(crate) fn nodes(&self) -> &[UVec4] {
         let wide = self.section(Kind::WIDENODE);
         if wide.is_empty() { self.section(Kind::NODE) } else { wide }
-    }
-
-    /// The same scene for another kernel, which can do at least what the pack's can.
-    #[cfg(feature = "gpu")]
-    pub(crate) fn with_kernel(self, kernel: &'a str) -> Self {
-        Self { kernel: Some(kernel), ..self }
     }
 
     /// Every storage buffer that is only read: binding number and bytes, none empty.
@@ -262,4 +264,18 @@ impl<'a> Setup<'a> {
 /// Bytes of whole records as words.
 fn words(bytes: &[u8]) -> &[UVec4] {
     bytemuck::try_cast_slice(bytes).expect("sections are whole 16-byte words at page boundaries")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sections_are_bound_where_the_pack_says() {
+        assert!(HEAP.iter().all(|kind| kind.binding() == Some(2)));
+        #[cfg(feature = "gpu")]
+        assert!(BOUND.iter().all(|(binding, kind)| kind.binding() == Some(*binding)));
+        let n_heap = pack::SECTIONS.iter().filter(|spec| spec.kind.binding() == Some(2)).count();
+        assert_eq!(n_heap, HEAP.len());
+    }
 }

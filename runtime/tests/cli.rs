@@ -181,3 +181,65 @@ fn a_pack_may_ask_for_an_output_below_the_working_folder() {
         assert_eq!(text(&output.stdout), expected, "{}", text(&output.stderr));
     }
 }
+
+#[test]
+#[cfg(feature = "gpu")]
+fn kernels_are_compared_also_without_a_device() {
+    let folder = folder();
+    let args = ["--ablate", "marbles.pack", "--size", "8x6", "--spp", "2", "--report", "a.json"];
+    let output = rtr(folder.path(), &args);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let table = text(&output.stdout);
+    for line in ["kernel ", "specialised ", "full ", "fog ", "CPU kernel, which has all features: "]
+    {
+        assert!(table.lines().any(|found| found.starts_with(line)), "{line}: {table}");
+    }
+    assert!(table.contains("no adapter: only texts were compared"), "{table}");
+    assert_eq!(files(folder.path()), ["a.json", "marbles.pack"]);
+    let report = std::fs::read_to_string(folder.path().join("a.json")).expect("it was written");
+    let report: serde_json::Value = serde_json::from_str(&report).expect("it is JSON");
+    let rows = report["rows"].as_array().expect("a list");
+    assert!(rows.len() > 20, "{}", rows.len());
+    let lines = |i: usize| rows[i]["wgsl_lines"].as_u64().expect("a number");
+    let words = |i: usize| rows[i]["spirv_words"].as_u64();
+    assert_eq!((&rows[0]["kernel"], &rows[1]["kernel"]), (&"specialised".into(), &"full".into()));
+    assert!(lines(1) > 2 * lines(0) && words(1) > words(0), "{report}");
+    assert!(rows.iter().all(|row| row["measured"].is_null()), "{report}");
+    assert!(report["cpu_ms"].as_f64().is_some_and(|ms| ms > 0.0), "{report}");
+    let fewer =
+        rtr(folder.path(), &["--ablate=full", "marbles.pack", "--size", "8x6", "--spp", "1"]);
+    assert!(!text(&fewer.stdout).contains("fog"), "{}", text(&fewer.stdout));
+}
+
+#[test]
+#[cfg(feature = "gpu")]
+fn kernels_are_not_compared_where_that_makes_no_sense() {
+    let folder = folder();
+    let code = |args: &[&str]| {
+        let output = rtr(folder.path(), args);
+        (output.status.code(), text(&output.stderr))
+    };
+    for args in [
+        &["--ablate=some", "marbles.pack"][..],
+        &["--ablate", "marbles.pack", "--time", "3s"],
+        &["--ablate", "marbles.pack", "-o", "a.png"],
+        &["--ablate", "marbles.pack", "--report", "a.csv"],
+    ] {
+        let (code, log) = code(args);
+        assert_eq!(code, Some(2), "{args:?}: {log}");
+        assert!(log.starts_with("error: "), "{log}");
+    }
+    let (exit, log) = code(&["--ablate", "marbles.pack", "--device", "no such thing"]);
+    assert_eq!(exit, Some(3), "{log}");
+    assert!(log.contains("no adapter is called `no such thing`"), "{log}");
+    let (exit, log) = code(&["--ablate", "none.pack"]);
+    assert_eq!(exit, Some(3), "{log}");
+    // A kernel that is not ours cannot be taken apart.
+    let kernel =
+        shaders::link(&common::features()).expect("it links").text + "\nconst MINE: u32 = 1u;\n";
+    std::fs::write(folder.path().join("other.pack"), common::pack_with_kernel(&kernel))
+        .expect("it can be written");
+    let (exit, log) = code(&["--ablate", "other.pack"]);
+    assert_eq!(exit, Some(3), "{log}");
+    assert!(log.contains("is not from this rtr: compile the scene again"), "{log}");
+}

@@ -56,6 +56,14 @@ fn a_report_has_every_checkpoint_and_a_plot_is_drawn() {
     assert_eq!(spp, [4, 8, 16, 32, 64]);
     assert_eq!((&json["replicates"], &json["stop"]), (&4.into(), &"complete".into()));
     assert_eq!(json["resolution"]["image"], serde_json::json!([72, 40]));
+    // The kernel of the pack: its sections with their bindings, its size against that of all features.
+    let kernel = &json["kernel"];
+    let sections = kernel["sections"].as_array().expect("a list");
+    let spheres = sections.iter().find(|section| section["name"] == "SPHERE").expect("it has some");
+    assert_eq!((&spheres["elements"], &spheres["binding"]), (&4.into(), &6.into()));
+    let lines = |name: &str| kernel[name].as_u64().expect("a number");
+    assert!(lines("full_wgsl_lines") > 2 * lines("wgsl_lines"), "{kernel}");
+    assert_eq!(kernel["kept"], serde_json::json!([]), "this pack was not made by rtc");
     let last = &json["checkpoints"][4];
     assert_eq!(last["rays"], json["counters"]["rays"]);
     let number = |name: &str| last[name].as_f64().expect("a number");

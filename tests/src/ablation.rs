@@ -99,7 +99,7 @@ fn compared(
     job.resize(effort.size);
     job.samples = SampleRange { start: 0, end: effort.samples };
     let plan = Plan { rounds: effort.rounds, each };
-    Ok(ablate(scene, &job, device, &plan, &Control::default(), &mut |_| {})?)
+    Ok(ablate(scene, &job, device, plan, &Control::default(), &mut |_| {})?)
 }
 
 fn row(name: &str, scene: &Scene, found: &Ablation) -> String {

@@ -168,7 +168,7 @@ fn on_a_software_adapter_every_kernel_gives_the_bits_of_the_cpu() {
             Event::End(row) => ended.push(row.kernel.clone()),
         };
         let plan = Plan { rounds: 1, each };
-        let found = ablate(&scene, &job, &device, &plan, &Control::default(), &mut tell);
+        let found = ablate(&scene, &job, &device, plan, &Control::default(), &mut tell);
         let found = found.expect("the adapter is there");
         assert_eq!(begun, ended);
         assert_eq!(found.rows.len(), ended.len());

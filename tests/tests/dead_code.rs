@@ -74,10 +74,8 @@ impl Reached {
         }
         for (handle, expression) in function.expressions.iter() {
             match expression {
-                Expression::GlobalVariable(global) => {
-                    if self.globals.insert(*global) {
-                        self.ty(module, module.global_variables[*global].ty);
-                    }
+                Expression::GlobalVariable(global) if self.globals.insert(*global) => {
+                    self.ty(module, module.global_variables[*global].ty);
                 }
                 Expression::Compose { ty, .. } | Expression::ZeroValue(ty) => self.ty(module, *ty),
                 _ => {}
@@ -95,7 +93,9 @@ impl Reached {
         }
         match &module.types[ty].inner {
             TypeInner::Struct { members, .. } => {
-                members.iter().for_each(|member| self.ty(module, member.ty));
+                for member in members {
+                    self.ty(module, member.ty);
+                }
             }
             TypeInner::Array { base, .. } | TypeInner::Pointer { base, .. } => {
                 self.ty(module, *base);

@@ -160,7 +160,7 @@ fn text(lines: &str) -> String {
     };
     let places = ["AIR ", "CAMERA ", "THING ", "MATERIAL ", "LIGHT ", "SKY ", "MORE "];
     let own = lines.split('\n').filter(|line| !places.iter().any(|place| line.starts_with(place)));
-    let declared: String = own.map(|line| format!("{line}\n")).collect();
+    let declared = own.collect::<Vec<_>>().join("\n");
     let sky = take("SKY ");
     let sky =
         if sky.is_empty() { "constant { color = linear(0.2, 0.3, 0.4) }".to_owned() } else { sky };

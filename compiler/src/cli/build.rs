@@ -24,6 +24,7 @@ use pack::{MapMode, Pack};
 use shaders::ShaderError;
 
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch on the command line")]
 pub(super) struct BuildArgs {
     #[command(flatten)]
     scene: SceneArgs,

@@ -69,9 +69,9 @@ fn explanation(manifest: &Manifest, full: KernelSize) -> String {
     let (kept, left) = (&manifest.features_kept, &manifest.features_left_out);
     let all = kept.len() + left.len();
     let mut text = format!("features kept: {} of {all}\n", kept.len());
-    kept.iter().for_each(|feature| text += &line(manifest, feature));
+    text.extend(kept.iter().map(|feature| line(manifest, feature)));
     let _ = writeln!(text, "features left out: {} of {all}", left.len());
-    left.iter().for_each(|feature| text += &line(manifest, feature));
+    text.extend(left.iter().map(|feature| line(manifest, feature)));
     let KernelSize { lines, words } = manifest.kernel;
     let share = |part: u32, whole: u32| 100.0 * f64::from(part) / f64::from(whole.max(1));
     let _ = writeln!(
@@ -85,7 +85,7 @@ fn explanation(manifest: &Manifest, full: KernelSize) -> String {
     text
 }
 
-/// `  fog                      scene.rts:12             it is the atmosphere: `mist``.
+/// One line: the name, where the declaration is, the reason, the name of the declaration.
 fn line(manifest: &Manifest, feature: &Feature) -> String {
     let Feature { name, reason, by } = feature;
     let place = by.as_ref().and_then(|by| manifest.place(by)).unwrap_or_else(|| "-".to_owned());

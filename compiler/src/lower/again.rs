@@ -54,8 +54,7 @@ pub fn lower_again(
     let material_names = finish::names(scene, table.refs(), own_name);
     let declared = medium::records(scene, table.waters(), &frame);
     let (mut materials, _) = table.into_records();
-    medium::mark(scene, &mut materials);
-    let medium::Used { media, around } = medium::used(scene, &declared, &mut materials);
+    let (media, around) = medium::used(scene, &declared, &mut materials);
     let tree = (pack.render().root, pack.render().stack_need);
     Some(Lowered {
         render: settings(scene, &frame, tree, (inside, around), lights.len()),

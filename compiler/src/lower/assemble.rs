@@ -92,8 +92,7 @@ pub fn lower(
     let material_names = finish::names(scene, materials.refs(), own_name);
     let declared = medium::records(scene, materials.waters(), &frame);
     let (mut materials, textures) = materials.into_records();
-    medium::mark(scene, &mut materials);
-    let medium::Used { media, around } = medium::used(scene, &declared, &mut materials);
+    let (media, around) = medium::used(scene, &declared, &mut materials);
     let objects = finish::objects(&placement.things, &materials, &frame, !still);
     let instances = forget_objects(&objects, &mut ordered, instances);
     motion::mark(&objects, &mut ordered);

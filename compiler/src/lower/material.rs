@@ -455,8 +455,10 @@ pub(super) fn blank(kind: MaterialKind) -> abi::Material {
 /// The least coverage that exists, where some of the surface does not: `alpha` times an image that is
 /// `least` at least lies below. What lies nowhere below needs no test, for any ray.
 pub(super) fn cutting(cutoff: Option<f64>, alpha: f32, least: f32) -> Option<f32> {
-    // Written so that a NaN in an image keeps the test.
-    cutoff.map(|cutoff| cutoff as f32).filter(|cutoff| !(alpha * least >= *cutoff))
+    let cutoff = cutoff? as f32;
+    let everywhere = alpha * least;
+    // A NaN in an image keeps the test.
+    (everywhere < cutoff || everywhere.is_nan()).then_some(cutoff)
 }
 
 /// Gives the material a normal map, if there is one.

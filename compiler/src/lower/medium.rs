@@ -63,17 +63,16 @@ fn around(scene: &Scene) -> [u32; 2] {
     }
 }
 
-/// Media that something is filled with or surrounded by, and that do something to light.
-pub(super) struct Used {
-    pub(super) media: Vec<abi::Medium>,
-    /// What is around everything, and the fog, as `RenderSettings` holds them.
-    pub(super) around: [u32; 2],
-}
-
-/// Leaves out what nothing uses of `media`, one for each of the scene and then those of waters, and what is
-/// clear: along it a path keeps its light to the last bit. `materials` get the numbers of what is left.
-/// Surfaces keep their inside: clear things that overlap still ask which of them counts.
-pub(super) fn used(scene: &Scene, media: &[abi::Medium], materials: &mut [abi::Material]) -> Used {
+/// Those of `media`, one for each of the scene and then those of waters, that something is filled with or
+/// surrounded by and that are not clear: along a clear one a path keeps its light to the last bit. Also what is
+/// around everything and the fog, as `RenderSettings` holds them. `materials` are marked that have an inside,
+/// also a clear one: things that overlap still ask which of them counts; and they get the new numbers.
+pub(super) fn used(
+    scene: &Scene,
+    media: &[abi::Medium],
+    materials: &mut [abi::Material],
+) -> (Vec<abi::Medium>, [u32; 2]) {
+    mark(scene, materials);
     let mut around = around(scene);
     let mut names: Vec<&mut u32> = around.iter_mut().collect();
     names.extend(materials.iter_mut().map(|material| &mut material.medium));
@@ -90,7 +89,7 @@ pub(super) fn used(scene: &Scene, media: &[abi::Medium], materials: &mut [abi::M
         });
         *name = new as u32;
     }
-    Used { media: kept.iter().map(|old| media[*old as usize]).collect(), around }
+    (kept.iter().map(|old| media[*old as usize]).collect(), around)
 }
 
 /// Neither takes light away nor scatters it.
@@ -114,7 +113,7 @@ pub(super) fn has_inside(material: &abi::Material) -> bool {
 }
 
 /// Marks the materials that have an inside, where that matters.
-pub(super) fn mark(scene: &Scene, materials: &mut [abi::Material]) {
+fn mark(scene: &Scene, materials: &mut [abi::Material]) {
     if matters(scene, materials) {
         for material in materials.iter_mut().filter(|material| has_inside(material)) {
             material.flags |= material_flag::INTERIOR | material_flag::THROUGH;

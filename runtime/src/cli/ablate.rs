@@ -3,7 +3,6 @@
 use super::Exit;
 use super::args::RenderArgs;
 use super::console::Console;
-use pack::{MapMode, Pack};
 
 #[cfg(not(feature = "gpu"))]
 pub(super) fn command(args: &RenderArgs) -> Exit {
@@ -20,7 +19,7 @@ pub(super) use with_gpu::command;
 mod with_gpu {
     use super::super::args::AblateArg;
     use super::super::console::reset_interrupts;
-    use super::{Console, Exit, MapMode, Pack, RenderArgs};
+    use super::{Console, Exit, RenderArgs};
     use crate::ablation::{Ablation, AblationError, Event, Measured, Plan, Row, ablate};
     use crate::control::Control;
     use crate::job::Job;
@@ -28,6 +27,7 @@ mod with_gpu {
     use crate::region::SampleRange;
     use crate::render::DeviceChoice;
     use crate::scene::Scene;
+    use pack::{MapMode, Pack};
     use std::path::Path;
     use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -103,7 +103,7 @@ mod with_gpu {
         std::thread::scope(|scope| {
             let watcher = scope.spawn(|| console.pass_interrupts(&control, &over));
             let choice = DeviceChoice::parse(&args.device);
-            let ablation = ablate(scene, job, &choice, &plan, &control, &mut tell);
+            let ablation = ablate(scene, job, &choice, plan, &control, &mut tell);
             over.store(true, Ordering::Relaxed);
             watcher.thread().unpark();
             ablation

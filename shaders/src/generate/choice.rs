@@ -8,9 +8,9 @@ use std::fmt::Write as _;
 pub(crate) fn text(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: how a light of this scene is chosen.\n\n");
     if features.light_choice {
-        chosen(features, &mut text)
+        chosen(features, &mut text);
     } else {
-        only(&mut text)
+        only(&mut text);
     }
     text
 }
