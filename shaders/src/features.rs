@@ -234,12 +234,22 @@ impl FeatureSet {
             }));
         }
         bindings.sort_by_key(|binding| binding.number);
-        let count = bindings.len() - 1;
+        let count = storage(&bindings);
         if count > MAX_STORAGE {
             return Err(ShaderError::TooManyBindings { count, limit: MAX_STORAGE });
         }
         Ok(bindings)
     }
+
+    /// Storage buffers that the linked kernel declares; to be compared with [`PORTABLE_STORAGE`].
+    pub fn storage_buffers(&self) -> Result<usize, ShaderError> {
+        self.bindings().map(|bindings| storage(&bindings))
+    }
+}
+
+/// All but the frame, which is a uniform.
+fn storage(bindings: &[Binding]) -> usize {
+    bindings.len() - 1
 }
 
 /// Name of window `window` of the section variable `name`.

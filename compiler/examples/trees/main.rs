@@ -6,9 +6,11 @@
 //! same code, too.
 #![expect(clippy::print_stdout, reason = "a measuring tool reports on standard output")]
 
+mod degenerate;
 mod layouts;
 mod measure;
 mod other;
+mod peak;
 mod scene;
 mod walk;
 
@@ -21,13 +23,21 @@ use compiler::bvh::Preset;
 use measure::{Row, Rows};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let yardstick = std::env::args().nth(1).map(PathBuf::from);
+    let [first, second] = [1, 2].map(|i| std::env::args().nth(i));
     rayon::ThreadPoolBuilder::new().num_threads(1).build_global()?;
+    if first.as_deref() == Some(peak::CHILD) {
+        if let Some(bytes) = peak::child(&second.unwrap_or_default())? {
+            println!("{bytes}");
+        }
+        return Ok(());
+    }
+    let yardstick = first.map(PathBuf::from);
     let scene = scene::scene(true);
     let nodes = layouts::all(&scene, yardstick.as_deref())?;
     let with = measure::all(&scene, yardstick.as_deref())?;
     let without = measure::all(&scene::scene(false), yardstick.as_deref())?;
-    let text = page(&with, &without) + &nodes_section(&nodes);
+    let text =
+        page(&with, &without) + &nodes_section(&nodes) + &memory()? + &degenerate::section()?;
     std::fs::write(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/bvh.md"), &text)?;
     println!("{text}");
     Ok(())
@@ -112,6 +122,21 @@ fn table(rows: &Rows) -> String {
         );
     }
     text
+}
+
+/// What builds need beside the scene.
+fn memory() -> Result<String, Box<dyn Error>> {
+    let mut text = String::from(
+        "\n## Memory\n\nThe most that a build with the ground has beside the triangles it is given, bytes a triangle: a process of its own \
+         each, by what the system says is resident.\n\n| tree | bytes a triangle |\n|---|---|\n",
+    );
+    let n: usize = scene::PARTS.iter().map(|(_, n)| n).sum::<usize>() + scene::GROUND;
+    for preset in Preset::ALL {
+        let peak = peak::of(preset)?;
+        let shown = peak.map_or("–".to_owned(), |bytes| format!("{:.0}", bytes / n as f64));
+        let _ = writeln!(text, "| `{preset}` | {shown} |");
+    }
+    Ok(text)
 }
 
 /// The layouts of nodes, and who walks them.

@@ -21,7 +21,7 @@ use crate::pipeline::{self, CompileError, Compiled, Memory, Options, Phase};
 use crate::report::Reporter;
 use crate::reuse::{Reuse, Reused, Share};
 use pack::{MapMode, Pack};
-use shaders::ShaderError;
+use shaders::{FeatureSet, PORTABLE_STORAGE, ShaderError};
 
 #[derive(Debug, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch on the command line")]
@@ -150,6 +150,9 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
     }
     reporter.status(&done(&output, &compiled, start.elapsed()));
     if let Some(line) = reused_text(&compiled.reused) {
+        reporter.status(&line);
+    }
+    if let Some(line) = portability(&compiled.features) {
         reporter.status(&line);
     }
     let silent = silent && compiled.lowered.trees.warnings.is_empty();
@@ -365,6 +368,16 @@ fn done(output: &Path, compiled: &Compiled, time: Duration) -> String {
     )
 }
 
+/// What to say of a kernel with more storage buffers than every device has. It is no warning: it comes from the
+/// size of the scene, and nothing in the text is to be changed.
+fn portability(features: &FeatureSet) -> Option<String> {
+    let needed = features.storage_buffers().ok().filter(|needed| *needed > PORTABLE_STORAGE)?;
+    Some(format!(
+        "note: the kernel needs {needed} storage buffers of 128 MiB at most, and not every GPU has more than \
+         {PORTABLE_STORAGE} for it; `rtr` renders on the CPU where there are too few"
+    ))
+}
+
 /// What is stored once, and how often it is shown.
 fn instances_text(counters: &Counters) -> String {
     let (meshes, instances) = (grouped(counters.meshes), grouped(counters.instances));
@@ -482,6 +495,16 @@ mod tests {
         let reused = Reused { meshes: share(1, 2), kernel: share(1, 1), ..reused };
         let expected = "reused 1 of 2 meshes, 14 of 16 trees, the proof of the kernel";
         assert_eq!(reused_text(&reused).as_deref(), Some(expected));
+    }
+
+    #[test]
+    fn only_a_kernel_for_few_gpus_is_told_of() {
+        let mut features = FeatureSet::full();
+        assert_eq!(features.storage_buffers().ok(), Some(PORTABLE_STORAGE));
+        assert_eq!(portability(&features), None);
+        features.windows.tri = 3;
+        let line = portability(&features).expect("nine are more than seven");
+        assert!(line.contains("needs 9 storage buffers"), "{line}");
     }
 
     #[test]

@@ -65,6 +65,7 @@ impl<'a> Contents<'a> {
     }
 
     /// Elements of a section, as index relations count them.
+    #[inline]
     pub(crate) fn count(&self, kind: Kind) -> usize {
         match kind {
             Kind::NODE => self.nodes.len(),

@@ -164,16 +164,42 @@ impl WideNode {
 
     /// Ends of the box of child `slot`, 0 to 3, in steps along each axis.
     #[must_use]
+    #[inline]
     pub fn steps(&self, slot: usize) -> [[u8; 3]; 2] {
-        [self.lo, self.hi].map(|ends| ends.map(|word| word.to_le_bytes()[slot]))
+        let step = |word: u32| word.to_le_bytes()[slot];
+        let ([a, b, c], [x, y, z]) = (self.lo, self.hi);
+        [[step(a), step(b), step(c)], [step(x), step(y), step(z)]]
     }
 
     /// Lower and upper corner of the box of child `slot`, as every device computes them.
     #[must_use]
+    #[inline]
     pub fn corners(&self, slot: usize) -> [[f32; 3]; 2] {
-        self.steps(slot).map(|steps| {
-            [0, 1, 2].map(|axis| self.origin[axis] + f32::from(steps[axis]) * self.scale[axis])
-        })
+        let [lo, hi] = self.steps(slot);
+        [self.point(lo), self.point(hi)]
+    }
+
+    /// Lower and upper corner of the box around all children; that of a child that is not there is neutral.
+    #[must_use]
+    #[inline]
+    pub fn hull(&self) -> [[f32; 3]; 2] {
+        let least = |word: u32| {
+            let [a, b, c, d] = word.to_le_bytes();
+            a.min(b).min(c.min(d))
+        };
+        let most = |word: u32| {
+            let [a, b, c, d] = word.to_le_bytes();
+            a.max(b).max(c.max(d))
+        };
+        let ([a, b, c], [x, y, z]) = (self.lo, self.hi);
+        [self.point([least(a), least(b), least(c)]), self.point([most(x), most(y), most(z)])]
+    }
+
+    /// A point of the grid. It rises with each of its steps, rounded as it is.
+    #[inline]
+    fn point(&self, steps: [u8; 3]) -> [f32; 3] {
+        let at = |axis: usize| self.origin[axis] + f32::from(steps[axis]) * self.scale[axis];
+        [at(0), at(1), at(2)]
     }
 }
 

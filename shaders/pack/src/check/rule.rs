@@ -14,22 +14,30 @@ pub(super) trait Lanes {
 }
 
 impl Lanes for f32 {
+    #[inline]
     fn first(self, bad: impl Fn(f32) -> bool) -> Option<f32> {
         bad(self).then_some(self)
     }
 }
 
 impl<const N: usize> Lanes for [f32; N] {
+    #[inline]
     fn first(self, bad: impl Fn(f32) -> bool) -> Option<f32> {
+        // All at once: next to none is bad.
+        if !self.iter().fold(false, |any, lane| any | bad(*lane)) {
+            return None;
+        }
         self.into_iter().find(|lane| bad(*lane))
     }
 }
 
 /// Neither NaN nor infinite.
+#[inline]
 pub(super) fn finite(value: impl Lanes) -> Fault {
     value.first(|lane| !lane.is_finite()).map(ElementFault::NotFinite)
 }
 
+#[inline]
 fn range(value: impl Lanes, expected: &'static str, inside: impl Fn(f32) -> bool) -> Fault {
     // Written so that NaN is outside.
     let found = value.first(|lane| !inside(lane))?;
@@ -37,16 +45,19 @@ fn range(value: impl Lanes, expected: &'static str, inside: impl Fn(f32) -> bool
 }
 
 /// Finite and not negative: colours, radiances, lengths that may be 0.
+#[inline]
 pub(super) fn not_negative(value: impl Lanes) -> Fault {
     range(value, "a finite number, 0 or more", |lane| (0.0..f32::INFINITY).contains(&lane))
 }
 
 /// Finite and greater than 0.
+#[inline]
 pub(super) fn positive(value: impl Lanes) -> Fault {
     range(value, "a finite number greater than 0", |lane| lane > 0.0 && lane < f32::INFINITY)
 }
 
 /// A step of a grid: as [`positive`], with at most 16 significant bits.
+#[inline]
 pub(super) fn step(value: [f32; 3]) -> Fault {
     let long = value.into_iter().find(|lane| lane.to_bits() & 0xff != 0);
     positive(value).or_else(|| long.map(ElementFault::Step))
@@ -98,6 +109,7 @@ pub(super) fn bits(found: u32, known: u32) -> Fault {
 }
 
 /// Padding, which must be zero so that it can get a meaning later.
+#[inline]
 pub(super) fn unused(value: u32) -> Fault {
     (value != 0).then_some(ElementFault::Unused(value))
 }
@@ -117,12 +129,14 @@ pub(super) fn power_of_two(bits: [u32; 2]) -> Fault {
 }
 
 /// An index into a table.
+#[inline]
 pub(super) fn index(found: u32, table: super::rules::TableRef) -> Fault {
     let (target, count) = table;
     (found as usize >= count).then_some(ElementFault::Index { found, target, count })
 }
 
 /// An index into a table, or `NONE`.
+#[inline]
 pub(super) fn index_or_none(found: u32, table: super::rules::TableRef) -> Fault {
     if found == NONE { None } else { index(found, table) }
 }
@@ -133,6 +147,7 @@ pub(super) fn indices_or_none(found: [u32; 4], table: super::rules::TableRef) ->
 }
 
 /// A welded vertex id: below three a triangle.
+#[inline]
 pub(super) fn corner(found: u32, triangles: usize) -> Fault {
     let corners = triangles * 3;
     (found as usize >= corners).then_some(ElementFault::Corner { found, corners })

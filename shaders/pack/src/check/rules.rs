@@ -30,6 +30,7 @@ pub(super) trait Ruled: PackRecord + Sync {
     fn broken(&self, contents: &Contents<'_>) -> Option<Broken>;
 }
 
+#[inline]
 fn table(contents: &Contents<'_>, kind: Kind) -> TableRef {
     (kind, contents.count(kind))
 }
@@ -249,18 +250,21 @@ rules! { pack;
 }
 
 /// The whole grid is finite.
+#[inline]
 fn grid(record: &WideNode, _: &Contents<'_>) -> Option<Broken> {
     let end = [0, 1, 2].map(|axis| record.origin[axis] + 255.0 * record.scale[axis]);
     finite(end).map(|fault| ("scale", fault))
 }
 
 /// Bits 0-30 are a welded id.
+#[inline]
 fn id(found: u32, pack: &Contents<'_>) -> Option<ElementFault> {
     corner(found & !MOVES, pack.triangles.len())
 }
 
 /// Bits 0-30 are the index of an object. A pack in which nothing depends on objects has none, and 0
 /// stands for them.
+#[inline]
 fn object(found: u32, pack: &Contents<'_>) -> Option<ElementFault> {
     let count = pack.objects.len().max(1);
     // Bit 31 says something else of triangles than of spheres.
@@ -268,6 +272,7 @@ fn object(found: u32, pack: &Contents<'_>) -> Option<ElementFault> {
 }
 
 /// As `object`, or what says that the triangle's instance has the object.
+#[inline]
 fn object_of_triangle(found: u32, pack: &Contents<'_>) -> Option<ElementFault> {
     if found & !TRI_SMOOTH == OBJECT_OF_INSTANCE { None } else { object(found, pack) }
 }

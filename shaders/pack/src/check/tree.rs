@@ -54,6 +54,9 @@ trait Boxes: InnerNode + Ruled {
     /// The box of child `side`.
     fn corners(&self, side: usize) -> Corners;
 
+    /// The box around all children, if what `structure` asks of the node is true of it.
+    fn hull(&self) -> Corners;
+
     /// How far the box of child `side` may reach above the box that its parent has for this node.
     fn excess(&self) -> [f32; 3];
 
@@ -72,6 +75,15 @@ impl Boxes for Node {
         [(self.left_lo, self.left_hi), (self.right_lo, self.right_hi)][side]
     }
 
+    #[inline]
+    fn hull(&self) -> Corners {
+        // A number wins over a NaN.
+        let low = |axis: usize| self.left_lo[axis].min(self.right_lo[axis]);
+        let high = |axis: usize| self.left_hi[axis].max(self.right_hi[axis]);
+        ([low(0), low(1), low(2)], [high(0), high(1), high(2)])
+    }
+
+    #[inline]
     fn excess(&self) -> [f32; 3] {
         [0.0; 3]
     }
@@ -95,6 +107,12 @@ impl Boxes for WideNode {
         WideNode::corners(self, side).into()
     }
 
+    #[inline]
+    fn hull(&self) -> Corners {
+        WideNode::hull(self).into()
+    }
+
+    #[inline]
     fn excess(&self) -> [f32; 3] {
         self.scale
     }
@@ -348,14 +366,10 @@ fn box_fault<N: Boxes>(nodes: &[N], node: &N, side: usize) -> Option<BvhFault> {
     // An index beyond the nodes is the structure's fault.
     let inner = nodes.get(child as usize)?;
     let ((lo, hi), excess) = (node.corners(side), inner.excess());
+    let (low, high) = inner.hull();
     // A NaN is reported at the node that has it: it is not outside here.
-    let outside = |axis: usize, (low, high): Corners| {
-        low[axis] < lo[axis] || high[axis] > hi[axis] + excess[axis]
-    };
-    let there = |side: &usize| inner.child(*side) != NONE;
-    let axis_index = (0..3).find(|&axis| {
-        (0..N::SIDES.len()).filter(there).any(|side| outside(axis, inner.corners(side)))
-    })?;
+    let outside = |axis: usize| low[axis] < lo[axis] || high[axis] > hi[axis] + excess[axis];
+    let axis_index = (0..3).find(|axis| outside(*axis))?;
     Some(BvhFault::NotNested { side: name, child, axis_index })
 }
 
