@@ -5,12 +5,14 @@
 
 mod build;
 mod cache;
+mod compile;
 mod explain;
 mod files;
 mod fmt;
 mod inspect;
 mod record;
 mod show;
+mod summary;
 mod watch;
 
 use std::ffi::OsString;

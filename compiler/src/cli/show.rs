@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::build::analyze;
+use super::compile::analyze;
 use super::{OK, ReportArgs, SCENE, SceneArgs};
 
 #[derive(Debug, Args)]

@@ -1,0 +1,116 @@
+//! From the path of a scene to everything that its pack holds; what is wrong is reported.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+use lang::Analysis;
+use shaders::ShaderError;
+
+use super::files::{DiskLoader, TextError, read_text};
+use super::record::{Edited, Job};
+use super::{BUG, IO, SCENE, SceneArgs};
+use crate::import::Limits;
+use crate::pipeline::{self, CompileError, Compiled, Memory, Options, Phase};
+use crate::report::Reporter;
+use crate::reuse::Reuse;
+
+/// Reads and checks the text; an unreadable file is reported and becomes an exit code.
+pub(super) fn analyze(scene: &SceneArgs, reporter: &Reporter) -> Result<Analysis, u8> {
+    analyze_reading(scene, &Reuse::once(), reporter)
+}
+
+/// As `analyze`; `reuse` is told which files are read.
+fn analyze_reading(scene: &SceneArgs, reuse: &Reuse, reporter: &Reporter) -> Result<Analysis, u8> {
+    reuse.read(&scene.scene);
+    let shown = scene.scene.display().to_string();
+    let text = read_text(&scene.scene).map_err(|error| {
+        reporter.failure(&format!("cannot read {shown}: {error}"));
+        if scene.scene.extension().is_some_and(|e| e == "pack") {
+            reporter.status("help: this is a pack already; render it with `rtr`");
+        }
+        match error {
+            TextError::Io(_) => IO,
+            TextError::NotText(_) => SCENE,
+        }
+    })?;
+    let options = lang::Options { defines: scene.define.clone() };
+    Ok(lang::analyze(&shown, &text, &mut DiskLoader { reuse: Some(reuse) }, &options))
+}
+
+/// A scene that became everything that its pack holds.
+pub(super) struct Compilation {
+    pub(super) compiled: Compiled,
+    pub(super) phases: Vec<Phase>,
+    /// Texts of the scene.
+    pub(super) texts: Vec<PathBuf>,
+    /// There was nothing to say of it.
+    pub(super) silent: bool,
+    /// What there was to say will be said again when only texts have changed.
+    pub(super) whole: bool,
+}
+
+/// Compiles the scene of a job; `edited`: what is there of the last time.
+pub(super) fn compile(
+    args: &SceneArgs,
+    job: &Job<'_>,
+    edited: Option<&Edited>,
+    reuse: &Reuse,
+    reporter: &Reporter,
+) -> Result<Compilation, u8> {
+    let start = Instant::now();
+    let Analysis { sources, scene, mut diagnostics, .. } = analyze_reading(args, reuse, reporter)?;
+    let Some(scene) = scene else {
+        reporter.diagnostics(&sources, &diagnostics);
+        return Err(SCENE);
+    };
+    let n_of_text = diagnostics.len();
+    let mut phases = vec![Phase { name: "read and check the text", time: start.elapsed() }];
+    let options = Options {
+        root: args.scene.parent().unwrap_or(Path::new("")),
+        trees: job.trees,
+        limits: Limits::default(),
+        defines: &args.define,
+    };
+    let mut again = || -> Result<Option<Compiled>, CompileError> {
+        let Some(edited) = edited else { return Ok(None) };
+        let fits = |memory: &Memory| memory.fits(&scene, &sources);
+        let Some((pack, memory)) = job.earlier(job.trees.cache, edited, fits) else {
+            return Ok(None);
+        };
+        let known = (&Arc::new(pack), memory);
+        pipeline::compile_again(&scene, &sources, &options, known, reuse, &mut diagnostics)
+    };
+    let taken_over = again();
+    let result = match taken_over {
+        Ok(Some(compiled)) => {
+            edited.iter().flat_map(|edited| edited.data()).for_each(|path| reuse.read(path));
+            Ok(compiled)
+        }
+        Ok(None) => pipeline::compile_reusing(&scene, &sources, &options, reuse, &mut diagnostics),
+        Err(error) => Err(error),
+    };
+    reporter.diagnostics(&sources, &diagnostics);
+    let mut compiled = result.map_err(|error| failed(&error, reporter))?;
+    phases.append(&mut compiled.phases);
+    let silent = diagnostics.is_empty();
+    let whole = diagnostics.len() == n_of_text;
+    let texts = sources.ids().map(|id| PathBuf::from(sources.name(id))).collect();
+    Ok(Compilation { compiled, phases, texts, silent, whole })
+}
+
+fn failed(error: &CompileError, reporter: &Reporter) -> u8 {
+    match error {
+        CompileError::Scene => SCENE,
+        CompileError::Lower(_)
+        | CompileError::Pack(_)
+        | CompileError::Shader(ShaderError::TooManyBindings { .. }) => {
+            reporter.failure(&error.to_string());
+            IO
+        }
+        CompileError::Shader(_) | CompileError::Layout(_) => {
+            reporter.failure(&format!("{error}\nThis is a bug of rtc, not of your scene."));
+            BUG
+        }
+    }
+}
