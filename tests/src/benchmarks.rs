@@ -68,8 +68,8 @@ pub fn child(name: &str, arguments: impl Iterator<Item = String>) -> Option<u8> 
 pub fn page(names: &[String]) -> Result<String, Box<dyn Error>> {
     let known = |name: &String| TABLES.iter().any(|table| table.name == name);
     if let Some(unknown) = names.iter().find(|name| !known(name)) {
-        let tables = TABLES.each_ref().map(|table| format!("  {:<9}{}", table.name, table.about));
-        return Err(format!("`{unknown}` is none of the tables:\n{}", tables.join("\n")).into());
+        let tables = TABLES.each_ref().map(|table| format!("{} ({})", table.name, table.about));
+        return Err(format!("`{unknown}` is none of the tables: {}", tables.join(", ")).into());
     }
     let wanted = |table: &&Table| names.is_empty() || names.iter().any(|name| name == table.name);
     let mut packs = Packs::new()?;

@@ -7,7 +7,7 @@ use compiler::bvh::{self, Input, Preset};
 
 use crate::measure::cpu_seconds;
 
-#[expect(dead_code, reason = "the tests need more of it")]
+#[expect(dead_code, clippy::unwrap_used, reason = "what the tests need of it, too")]
 #[path = "../../tests/bvh/shapes.rs"]
 mod shapes;
 

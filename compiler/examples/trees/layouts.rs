@@ -53,7 +53,7 @@ pub(crate) struct Group {
 pub(crate) struct Groups {
     pub(crate) n_triangles: usize,
     pub(crate) n_rays: usize,
-    pub(crate) groups: Vec<Group>,
+    pub(crate) by_preset: Vec<Group>,
 }
 
 /// Distances that differ by less, relative, are of the same hit.
@@ -72,7 +72,7 @@ pub(crate) fn all(triangles: &[Tri], yardstick: Option<&Path>) -> Result<Groups,
     let scaled: Vec<Tri> = triangles.iter().map(|t| t.map(|p| p.map(|x| x * SCALE))).collect();
     let folder = tempfile::tempdir()?;
     let other = yardstick.map(|p| Yardstick::new(p, folder.path(), &scaled)).transpose()?;
-    let mut all = Groups { n_triangles: scaled.len(), n_rays: 0, groups: Vec::new() };
+    let mut all = Groups { n_triangles: scaled.len(), n_rays: 0, by_preset: Vec::new() };
     for (preset, modes) in
         [(Preset::Fast, &other::WALKS_OF_BINNED[..]), (Preset::Default, &other::WALKS_OF_SPLIT[..])]
     {
@@ -80,7 +80,7 @@ pub(crate) fn all(triangles: &[Tri], yardstick: Option<&Path>) -> Result<Groups,
         let rays = rays(&tree, triangles);
         all.n_rays = rays.len();
         let others = other.as_ref().map(|other| (other, modes));
-        all.groups.push(compare(preset, &tree, &scaled, &rays, others)?);
+        all.by_preset.push(compare(preset, &tree, &scaled, &rays, others)?);
     }
     Ok(all)
 }

@@ -156,7 +156,7 @@ fn nodes_section(all: &layouts::Groups) -> String {
     );
     let per_ray = |n: u64| n as f64 / all.n_rays as f64;
     let per_mray = |cpu: f64| cpu / all.n_rays as f64 * 1e6;
-    for group in &all.groups {
+    for group in &all.by_preset {
         let first = group.rows[0].cpu;
         for row in &group.rows {
             let _ = writeln!(
@@ -190,7 +190,7 @@ fn nodes_section(all: &layouts::Groups) -> String {
 /// Our best walk beside others', where there are any.
 fn speeds(all: &layouts::Groups) -> String {
     let mut text = String::new();
-    for group in &all.groups {
+    for group in &all.by_preset {
         let Some(ours) = group.rows.last() else { continue };
         for other in &group.others {
             let _ = write!(
