@@ -62,7 +62,7 @@ pub enum AblationError {
 pub struct Row {
     /// `specialised`, `full`, or the feature that was added.
     pub kernel: String,
-    /// Lines of WGSL that are not empty.
+    /// Lines of WGSL, see `KernelSize::lines_of`.
     pub wgsl_lines: u32,
     /// Words of SPIR-V, without names and checks; `None` where this build cannot write it.
     pub spirv_words: Option<u32>,

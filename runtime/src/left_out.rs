@@ -16,7 +16,7 @@ pub struct LeftOut {
     pub left_out: Vec<Reason>,
     /// What the pack holds, in file order.
     pub sections: Vec<Section>,
-    /// Lines of WGSL that are not empty.
+    /// Lines of WGSL, see `KernelSize::lines_of`.
     pub wgsl_lines: u32,
     /// Words of SPIR-V, without names and checks; `None` where the manifest does not say.
     pub spirv_words: Option<u32>,

@@ -80,18 +80,18 @@ pub struct Feature {
 /// How large a kernel is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct KernelSize {
-    /// Lines of its WGSL that are not empty.
+    /// Lines of its WGSL, see [`KernelSize::lines_of`].
     pub lines: u32,
     /// Words of four bytes of its SPIR-V, without names and without runtime checks.
     pub words: u32,
 }
 
 impl KernelSize {
-    /// Lines of a text that are not empty.
+    /// Lines of a linked text, without empty ones and without those that name the module of what follows.
     #[must_use]
     pub fn lines_of(wgsl: &str) -> u32 {
-        let lines = wgsl.lines().filter(|line| !line.trim().is_empty()).count();
-        u32::try_from(lines).unwrap_or(u32::MAX)
+        let counts = |line: &&str| !line.trim().is_empty() && !line.starts_with("// ---- ");
+        u32::try_from(wgsl.lines().filter(counts).count()).unwrap_or(u32::MAX)
     }
 }
 
@@ -218,6 +218,11 @@ mod tests {
         for manifest in [Manifest::default(), example()] {
             assert_eq!(Manifest::decode(&manifest.encode().unwrap()).unwrap(), manifest);
         }
+    }
+
+    #[test]
+    fn lines_are_those_of_declarations() {
+        assert_eq!(KernelSize::lines_of("// ---- a.wgsl\n// A.\nfn f() {\n\n}\n  \n"), 3);
     }
 
     #[test]
