@@ -28,6 +28,9 @@ pub const PAGE: Effort = Effort { size: [240, 135], samples: 16, rounds: 3 };
 /// The scene whose absent features are measured one by one: it has few.
 const EACH: &str = "cornell";
 
+/// Environment variable that asks for the table on software adapters, too.
+const SOFTWARE: &str = "ABLATION_SOFTWARE";
+
 /// Below this share of the time a difference is not told from chance.
 const MARGIN: f64 = 0.02;
 
@@ -61,7 +64,8 @@ pub fn tables(text: &mut String, effort: Effort, names: &[&str]) -> Result<(), B
     }
     if devices == [DeviceChoice::Cpu] {
         text.push_str(
-            "\nNo adapter was found, not even a software one: only texts were compared.\n",
+            "\nNo GPU was found: only texts were compared. Software adapters are measured where the \
+            environment has `ABLATION_SOFTWARE=1`; they take minutes for the full kernel.\n",
         );
     }
     for verdict in verdicts {
@@ -81,9 +85,12 @@ fn scene_of(name: &str) -> Result<Scene, Box<dyn Error>> {
     Ok(Scene::new(Pack::from_bytes(bytes(&example(found, &[])))?))
 }
 
-/// Every adapter; without any, the CPU.
+/// Every adapter; without any, the CPU. Software adapters translate the full kernel for many minutes: they count
+/// only where [`SOFTWARE`] is set.
 fn devices() -> Vec<DeviceChoice> {
-    let adapters = runtime::gpu::adapters();
+    let software = std::env::var_os(SOFTWARE).is_some();
+    let mut adapters = runtime::gpu::adapters();
+    adapters.retain(|adapter| software || !adapter.is_software());
     let named = adapters.iter().map(|adapter| DeviceChoice::Named(adapter.name().to_owned()));
     let all: Vec<DeviceChoice> = named.collect();
     if all.is_empty() { vec![DeviceChoice::Cpu] } else { all }
