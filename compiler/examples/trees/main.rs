@@ -209,8 +209,7 @@ fn speeds(all: &layouts::Groups) -> String {
         return text;
     }
     format!(
-        "\nThe walk by hand beside Embree's, whose trees have eight children a node in 32-bit floats and triangles with \
-         their edges worked out, and whose walk is written for each processor; its CPU seconds were taken by the program \
-         itself, around its loop over the same rays, in the same rounds:{text}\n"
+        "\nThe walk by hand beside Embree's, which has trees and triangles of its own making; its CPU seconds were taken by \
+         the program itself, around its loop over the same rays, in the same rounds:{text}\n"
     )
 }
