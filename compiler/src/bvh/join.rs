@@ -136,6 +136,12 @@ impl Joined {
         Ok(())
     }
 
+    /// Reference to the root, and the stack that a walk from it needs.
+    #[must_use]
+    pub fn entry(&self) -> (u32, u32) {
+        (self.root, self.stack_need)
+    }
+
     /// Expected cost of a ray by the surface-area heuristic, up to a factor that depends on the scene
     /// alone: the sum over all children of half-area times 1 (node) or the number of primitives.
     #[must_use]

@@ -140,7 +140,7 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
     let memory = compiled.memory.as_ref().filter(|_| whole);
     if silent || memory.is_some() {
         let now = edited.map(Edited::now).unwrap_or_default();
-        job.keep(&cache, reuse, Done { texts, pack, silent, memory, now });
+        job.keep(&cache, reuse, &Done { texts, pack, silent, memory, now });
     }
     explained(args, &output, reporter)
 }

@@ -149,7 +149,7 @@ impl Job<'_> {
     }
 
     /// Keeps what `reuse` says was read, unless a file changed meanwhile.
-    pub(super) fn keep(&self, cache: &Cache, reuse: &Reuse, done: Done<'_>) {
+    pub(super) fn keep(&self, cache: &Cache, reuse: &Reuse, done: &Done<'_>) {
         let record = |memory: Option<String>| {
             let reads: Vec<(PathBuf, Stamp)> = reuse.reads().into_iter().collect();
             let hash = |(path, stamp): &(PathBuf, Stamp)| {

@@ -21,7 +21,7 @@ use super::material::MaterialTable;
 use super::motion::Shutter;
 use super::object::Thing;
 use super::rows::Rows;
-use super::sketch::{KnownSky, Sketch};
+use super::sketch::{KnownEmitter, KnownSky, Sketch};
 use super::texture::TextureTable;
 use super::trees::Trees;
 use super::{camera, medium, power, sky};
@@ -106,7 +106,7 @@ fn lights(
     materials: &MaterialTable<'_>,
     flux: Option<f64>,
 ) -> Option<Vec<abi::Light>> {
-    let mut emitters: Vec<_> = sketch.emitters.iter().map(|known| known.emitter()).collect();
+    let mut emitters: Vec<_> = sketch.emitters.iter().map(KnownEmitter::emitter).collect();
     emitters.extend(flux.and(sketch.sky_area).map(power::sky));
     let powers = power::powers(&emitters, materials, flux);
     let selected: Vec<bool> = sketch.emitters.iter().map(|known| known.selected).collect();

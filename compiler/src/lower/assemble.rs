@@ -9,21 +9,22 @@ use std::time::Instant;
 use glam::DVec3;
 use lang::diagnostic::Diagnostic;
 use lang::scene::Scene;
+use lang::source::Span;
 use pack::abi::{self, NONE, OBJECT_OF_INSTANCE, TRI_SMOOTH};
 
 use super::finish::{self, settings};
-use super::geometry::{self, Placement};
+use super::geometry::{Placement, place};
 use super::inside::{Boundary, Solids, boundaries};
 use super::lowered::{Counters, LowerError, Lowered, Times};
 use super::material::MaterialTable;
 use super::order::{Declared, Ordered, order};
 use super::sketch::{KnownEmitter, KnownSky, Sketch};
 use super::sky::LoweredSky;
-use super::trees::{Trees, add_meshes, build_tree, widened};
+use super::trees::{Corners, Trees, add_meshes, build_tree};
 use super::{Loaded, camera, closed, medium, motion, power, sky, thick};
 use crate::bvh::{self, Joined};
 use crate::normalize::Normalization;
-use crate::weld::weld;
+use crate::weld::{Welded, weld};
 
 /// Lowers a scene whose files are loaded. Faults of single instances are added to `diagnostics`.
 ///
@@ -37,8 +38,7 @@ pub fn lower(
 ) -> Result<Lowered, LowerError> {
     let start = Instant::now();
     let mut materials = MaterialTable::new(scene, loaded);
-    let mut placement =
-        geometry::place(scene, loaded, trees.instancing, &mut materials, diagnostics);
+    let mut placement = place(scene, loaded, trees.instancing, &mut materials, diagnostics);
     check_count(&placement)?;
     let (inside, boundaries) = inside(scene, loaded, &materials, &placement, diagnostics);
     let environment = loaded.environment.as_ref();
@@ -47,49 +47,37 @@ pub fn lower(
     let sky_area = power::weigh(&mut placement);
     placement.emitters.extend(flux.and(sky_area).map(power::sky));
     let frame = normalization(&placement);
-    let mut counters = Counters::default();
-    let corners = normalised(&mut placement, &frame, &mut counters);
-    let shared = add_meshes(&mut placement, corners, &mut counters);
-    let welded = weld(&shared.all);
-    counters.vertices = u64::from(welded.n_ids);
+    let (shared, welded, mut counters) = weld_all(&mut placement, &frame);
     let mut times = Times { geometry: start.elapsed(), ..Times::default() };
 
     let start = Instant::now();
     let balls = normalised_spheres(&placement, &frame);
     let motions = motion::displacements(&placement.things, &frame);
-    let (mut joined, report) = build_tree(&placement, &shared, &balls, (&motions, &frame), trees)?;
-    let mesh_of: Vec<usize> = placement.placed.iter().map(|placed| placed.mesh).collect();
-    let wide_nodes = widened(&mut joined, trees.layout, &mesh_of)?;
+    let (joined, wide_nodes, report) =
+        build_tree(&placement, &shared, &balls, (&motions, &frame), trees)?;
     times.bvh = start.elapsed();
 
     let start = Instant::now();
     let instances = instances(&placement, &joined, &motions, &frame);
-    let declared = Declared { corners: shared.all, welded, balls };
     let powers = power::powers(&placement.emitters, &materials, flux);
-    let mut ordered = order(&placement, &powers, &declared, &joined);
-    drop(declared);
-    counters.references = ordered.triangles.len() as u64;
-    counters.spheres = ordered.spheres.len() as u64;
-    counters.lights = ordered.lights.len() as u64;
+    let declared = Declared { corners: shared.all, welded, balls };
+    let mut ordered = order(&placement, &powers, declared, &joined);
+    ordered.count(&mut counters);
     times.order = start.elapsed();
 
     let still = motions.is_empty();
     let sketch = Sketch {
-        frame: (frame.center, frame.exponent),
-        materials: materials.known(),
-        textures: materials.textures.known(),
         emitters: known_emitters(&placement, &ordered),
         sky_area,
         sky: KnownSky { flux, ..KnownSky::default() },
         boundaries,
-        counters,
         n_trees: report.groups,
+        ..Sketch::of(&frame, &materials, counters)
     };
     let light_nodes = light_tree(&mut ordered, materials.records(), &motions);
     let (sky, sky_table) = finish::sky_records(sky, &ordered.lights);
     diagnostics.extend(finish::darkness(scene, &ordered.lights, sky.as_ref()));
-    let own_name = |index: usize| materials.own_name(materials.refs()[index]).unwrap_or_default();
-    let material_names = finish::names(scene, materials.refs(), own_name);
+    let material_names = names(scene, &materials);
     let declared = medium::records(scene, materials.waters(), &frame);
     let (mut materials, textures) = materials.into_records();
     let (media, around) = medium::used(scene, &declared, &mut materials);
@@ -97,9 +85,8 @@ pub fn lower(
     let instances = forget_objects(&objects, &mut ordered, instances);
     motion::mark(&objects, &mut ordered);
     let (textures, texels) = textures.into_records();
-    let tree = (joined.root, joined.stack_need);
     Ok(Lowered {
-        render: settings(scene, &frame, tree, (inside, around), ordered.lights.len()),
+        render: settings(scene, &frame, joined.entry(), (inside, around), ordered.lights.len()),
         camera: camera::camera(&scene.camera, &frame),
         sky,
         sky_table,
@@ -122,6 +109,23 @@ pub fn lower(
         trees: report,
         sketch: still.then_some(sketch),
     })
+}
+
+/// Triangles in the normalised frame, those of the world and those of meshes that are stored once, and their
+/// vertices.
+fn weld_all(placement: &mut Placement, frame: &Normalization) -> (Corners, Welded, Counters) {
+    let mut counters = Counters::default();
+    let corners = normalised(placement, frame, &mut counters);
+    let shared = add_meshes(placement, corners, &mut counters);
+    let welded = weld(&shared.all);
+    counters.vertices = u64::from(welded.n_ids);
+    (shared, welded, counters)
+}
+
+/// Name and place of declaration of each material in use.
+fn names(scene: &Scene, materials: &MaterialTable<'_>) -> Vec<(String, Option<Span>)> {
+    let own_name = |index: usize| materials.own_name(materials.refs()[index]).unwrap_or_default();
+    finish::names(scene, materials.refs(), own_name)
 }
 
 /// What the camera is inside of, as `RenderSettings` holds it, and the surfaces that tell.

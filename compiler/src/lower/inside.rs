@@ -103,7 +103,9 @@ impl Solids {
             let crossing = match form {
                 Form::Triangle(corners) => {
                     let corners = corners.map(DVec3::from);
-                    corners.iter().for_each(|p| solid.grow(*p));
+                    for p in corners {
+                        solid.grow(p);
+                    }
                     hit_triangle(&corners, eye)
                 }
                 Form::Sphere { center, radius } => {

@@ -7,6 +7,7 @@ use pack::abi::{self, LightKind, NONE};
 
 use super::geometry::Placement;
 use super::light::{self, Geometry};
+use super::lowered::Counters;
 use crate::bvh::Joined;
 use crate::weld::Welded;
 
@@ -31,7 +32,7 @@ pub(super) struct Ordered {
 pub(super) fn order(
     placement: &Placement,
     powers: &[f64],
-    declared: &Declared,
+    declared: Declared,
     joined: &Joined,
 ) -> Ordered {
     let triangle = |&i: &u32| {
@@ -53,11 +54,19 @@ pub(super) fn order(
         lights: Vec::new(),
         selected: Vec::new(),
     };
+    drop(declared);
     ordered.connect_lights(placement, powers, joined);
     ordered
 }
 
 impl Ordered {
+    /// Notes how many there are of everything.
+    pub(super) fn count(&self, counters: &mut Counters) {
+        counters.references = self.triangles.len() as u64;
+        counters.spheres = self.spheres.len() as u64;
+        counters.lights = self.lights.len() as u64;
+    }
+
     fn connect_lights(&mut self, placement: &Placement, powers: &[f64], joined: &Joined) {
         let triangle_at = first_places(&joined.triangle_order, placement.shades.len());
         let sphere_at = first_places(&joined.sphere_order, placement.spheres.len());

@@ -10,7 +10,9 @@ use super::Counters;
 use super::inside::Boundary;
 use super::known::KnownMaterial;
 use super::light::Emitter;
+use super::material::MaterialTable;
 use super::texture::KnownTextures;
+use crate::normalize::Normalization;
 
 /// See the module.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -64,6 +66,25 @@ impl KnownEmitter {
 }
 
 impl Sketch {
+    /// A sketch without emitters, sky and fillings.
+    pub(super) fn of(
+        frame: &Normalization,
+        materials: &MaterialTable<'_>,
+        counters: Counters,
+    ) -> Self {
+        Self {
+            frame: (frame.center, frame.exponent),
+            materials: materials.known(),
+            textures: materials.textures.known(),
+            emitters: Vec::new(),
+            sky_area: None,
+            sky: KnownSky::default(),
+            boundaries: Vec::new(),
+            counters,
+            n_trees: 0,
+        }
+    }
+
     /// Remembers what is said of the sky.
     pub(crate) fn set_sky(&mut self, text: &str) {
         text.clone_into(&mut self.sky.text);

@@ -173,13 +173,13 @@ impl<'a> TextureTable<'a> {
         }
         if let Source::Files(loaded) = self.source {
             let made = make(loaded);
-            self.push(recipe.wrap(), made);
+            self.push(recipe.wrap(), &made);
         }
         self.recipes.push(Some(recipe));
         self.recipes.len() as u32 - 1
     }
 
-    fn push(&mut self, wrap: [Wrap; 2], made: Made) {
+    fn push(&mut self, wrap: [Wrap; 2], made: &Made) {
         let [wrap_u, wrap_v] = wrap.map(|wrap| match wrap {
             Wrap::Repeat => abi::Wrap::Repeat as u32,
             Wrap::Clamp => abi::Wrap::Clamp as u32,

@@ -40,7 +40,7 @@ impl<'a> Trees<'a> {
 
 /// The nodes in the layout of the pack: wide ones are returned, and `joined` is left with their roots, the
 /// stack that they need, and no nodes. Instance `i` shows mesh `mesh_of[i]`.
-pub(super) fn widened(
+fn widened(
     joined: &mut Joined,
     layout: Layout,
     mesh_of: &[usize],
@@ -99,14 +99,15 @@ fn count_triangles(placement: &Placement, counters: &mut Counters) {
     counters.dropped_triangles += placement.meshes.iter().map(|mesh| mesh.dropped).sum::<u64>();
 }
 
-/// The trees over all triangles and over these spheres; `motions`: how far each thing comes.
+/// The trees over all triangles and over these spheres, and their wide nodes if they are stored in such; `motions`:
+/// how far each thing comes.
 pub(super) fn build_tree(
     placement: &Placement,
     corners: &Corners,
     balls: &[([f32; 3], f32)],
     (motions, frame): (&[[f32; 3]], &Normalization),
     trees: &Trees<'_>,
-) -> Result<(Joined, BuildReport), BvhError> {
+) -> Result<(Joined, Vec<abi::WideNode>, BuildReport), BvhError> {
     let sizes = placement.mesh_sizes();
     let (mesh_motions, sphere_motions) = motions_of(placement, motions);
     let primitives = Primitives {
@@ -122,7 +123,11 @@ pub(super) fn build_tree(
     };
     let instances: Vec<_> = placement.placed.iter().map(boxed).collect();
     let shared = Shared { meshes: &corners.meshes, instances: &instances };
-    bvh::build_instanced(&primitives, &shared, trees.preset, trees.cache)
+    let (mut joined, report) =
+        bvh::build_instanced(&primitives, &shared, trees.preset, trees.cache)?;
+    let mesh_of: Vec<usize> = placement.placed.iter().map(|placed| placed.mesh).collect();
+    let wide_nodes = widened(&mut joined, trees.layout, &mesh_of)?;
+    Ok((joined, wide_nodes, report))
 }
 
 /// How far each mesh and each sphere comes, from the displacements of things; empty where those are.

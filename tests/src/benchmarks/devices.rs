@@ -69,7 +69,7 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
         | scene | device | CPU s | wall s | Mrays | Mrays per CPU s | Mrays/s | Msamples/s | against the first (CPU s) |\n\
         |---|---|---|---|---|---|---|---|---|"
     );
-    let mut others = false;
+    let (mut others, mut short) = (false, Vec::new());
     for name in SCENES {
         let scene = packs.scene(name, Layout::Wide)?;
         let renderers = renderers(&scene);
@@ -81,11 +81,28 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
             }
         }
         rows(name, &runs, text);
+        short.extend(fewer_rays(name, &runs));
+    }
+    for remark in short {
+        let _ = writeln!(text, "{remark}");
     }
     if !others {
         text.push_str("\nNo Vulkan adapter was found, not even a software one.\n");
     }
     Ok(())
+}
+
+/// A remark on renderers that traced other rays than the first: their times are of other work.
+fn fewer_rays(name: &str, runs: &[Vec<Cost>]) -> Option<String> {
+    let rays = |runs: &[Cost]| runs.first().map_or(0, |run| run.rays);
+    let first = rays(runs.first()?);
+    let other = runs.iter().find(|runs| rays(runs) != first)?;
+    Some(format!(
+        "\n{} traced {:.0} % of the rays of `{name}`: llvmpipe ends the loops of an invocation after 65,535 turns, \
+        which `rtr` says. Its times there are of less work.",
+        other[0].device,
+        100.0 * rays(other) as f64 / first as f64,
+    ))
 }
 
 fn rows(name: &str, runs: &[Vec<Cost>], text: &mut String) {
