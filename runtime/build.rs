@@ -22,6 +22,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let lines = pack::manifest::KernelSize::lines_of(&kernel.text);
     println!("cargo::rustc-env=FULL_KERNEL_LINES={lines}");
+    let (module, info) = shaders::validate(&kernel)?;
+    let words = shaders::spirv_words(&module, &info)?;
+    println!("cargo::rustc-env=FULL_KERNEL_WORDS={words}");
     // The modules themselves are compiled into `shaders`: cargo runs this again when they change.
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=build");

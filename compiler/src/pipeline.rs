@@ -22,9 +22,9 @@ use shaders::{FeatureSet, LayoutError, Linked, ShaderError};
 use crate::import::Limits;
 use crate::lower::{self, LowerError, Lowered, Rows, Trees};
 use crate::reuse::{Reuse, Reused, Share};
-use essence::Essence;
 
 pub use again::{Memory, compile_again};
+pub use essence::Essence;
 pub use load::FileRead;
 
 /// What a compilation is given besides the scene.
@@ -122,7 +122,7 @@ pub fn compile_reusing(
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(CompileError::Scene);
     }
-    let lowered = lower::lower(scene, &loaded, &options.trees, diagnostics)?;
+    let mut lowered = lower::lower(scene, &loaded, &options.trees, diagnostics)?;
     drop(loaded);
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(CompileError::Scene);
@@ -136,7 +136,7 @@ pub fn compile_reusing(
     let trees = Share { reused: lowered.trees.loaded, all: lowered.trees.groups };
     let reused = Reused { texts: sources.ids().count(), trees, ..reuse.counts() };
     let essence = Essence::new(scene, sources);
-    let memory = lowered.sketch.clone().map(|sketch| Memory::new(&essence, &files, sketch));
+    let memory = lowered.sketch.take().map(|sketch| Memory::new(&essence, &files, sketch));
     let phases = clock.phases;
     Ok(Compiled { lowered, features, kernel, manifest, recipe_id, files, memory, reused, phases })
 }

@@ -386,11 +386,6 @@ fn median(mut values: Vec<f64>) -> f64 {
     if n == 0 { f64::NAN } else { f64::midpoint(values[(n - 1) / 2], values[n / 2]) }
 }
 
-/// Words of the kernel with all features.
-pub(crate) fn full_words() -> Option<u32> {
-    words(FULL)
-}
-
 /// Words of a kernel in SPIR-V, as `rtc` counts them.
 #[cfg(not(target_vendor = "apple"))]
 fn words(kernel: &str) -> Option<u32> {

@@ -22,8 +22,8 @@ pub struct LeftOut {
     pub spirv_words: Option<u32>,
     /// Lines of the kernel with all features.
     pub full_wgsl_lines: u32,
-    /// Its words; `None` where this build cannot write SPIR-V.
-    pub full_spirv_words: Option<u32>,
+    /// Its words.
+    pub full_spirv_words: u32,
 }
 
 /// A feature and why it is in, or not.
@@ -73,7 +73,7 @@ impl LeftOut {
             wgsl_lines: KernelSize::lines_of(pack.kernel()),
             spirv_words: (words > 0).then_some(words),
             full_wgsl_lines: env!("FULL_KERNEL_LINES").parse().unwrap_or_default(),
-            full_spirv_words: full_words(),
+            full_spirv_words: env!("FULL_KERNEL_WORDS").parse().unwrap_or_default(),
         }
     }
 }
@@ -88,14 +88,4 @@ impl Reason {
             at: by.and_then(|by| manifest.place(by)),
         }
     }
-}
-
-#[cfg(feature = "gpu")]
-fn full_words() -> Option<u32> {
-    crate::ablation::full_words()
-}
-
-#[cfg(not(feature = "gpu"))]
-fn full_words() -> Option<u32> {
-    None
 }

@@ -66,10 +66,11 @@ pub fn join(groups: &[Group]) -> Result<Joined, BvhError> {
     join_groups(groups, &[]).map(|(joined, _)| joined)
 }
 
-/// The joined tree, and sets of groups that could not be separated.
-type Tangled = (Joined, Vec<Vec<usize>>);
+/// The joined tree; and where some groups overlap in more places than could be separated, what they were taken apart
+/// into.
+type Tangled = (Joined, Option<Vec<Piece>>);
 
-/// Joins groups and instances; also tells which groups of triangles overlap in more places than could be separated.
+/// Joins groups and instances.
 pub(super) fn join_groups(groups: &[Group], doors: &[Door]) -> Result<Tangled, BvhError> {
     let count = |kind| {
         let of_kind = groups.iter().filter(|g| g.kind == kind);
@@ -80,11 +81,7 @@ pub(super) fn join_groups(groups: &[Group], doors: &[Door]) -> Result<Tangled, B
         return Err(BvhError::TooMany { count });
     }
     let trees: Vec<&Tree> = groups.iter().map(|g| &g.tree).collect();
-    let (mut pieces, mut knots) = top::pieces(&trees, doors);
-    for knot in &mut knots {
-        knot.retain(|group| groups[*group].kind == GroupKind::Triangles);
-    }
-    knots.retain(|knot| knot.len() > 1);
+    let (mut pieces, tangled) = top::pieces(&trees, doors);
     let n_nodes: usize = trees.iter().map(|t| t.nodes.len()).sum();
     let mut out = Joined {
         nodes: Vec::with_capacity(n_nodes + groups.len()),
@@ -98,13 +95,13 @@ pub(super) fn join_groups(groups: &[Group], doors: &[Door]) -> Result<Tangled, B
             .fold(Bounds::EMPTY, Bounds::union),
     };
     if pieces.is_empty() {
-        return Ok((out, knots));
+        return Ok((out, None));
     }
     let members: Vec<Vec<u32>> = groups.iter().map(scene_order).collect();
     out.root = write(&top::build(&mut pieces, MAX_TOP_LEVELS), groups, &members, &mut out);
     out.stack_need = pack::bvh::stack_need(&out.nodes, &[], out.root);
     debug_assert_eq!([out.triangle_order.len(), out.sphere_order.len()], counts);
-    Ok((out, knots))
+    Ok((out, tangled.then_some(pieces)))
 }
 
 impl Joined {

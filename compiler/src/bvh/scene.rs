@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 use super::join::{Group, GroupKind, Joined, join_groups};
 use super::probe::visits;
-use super::top::Door;
+use super::top::{Door, Piece, knots};
 use super::{Bounds, BvhError, Fragment, Input, MAX_PRIMITIVES, Preset};
 use crate::cache::{Cache, CacheWarning, Cached, Source};
 
@@ -125,7 +125,8 @@ pub fn build_instanced(
     let mut report = BuildReport { preset, ..BuildReport::default() };
     let by_mesh = plan(primitives.mesh_sizes);
     let groups = build_groups(primitives, by_mesh, preset, cache, &mut report)?;
-    let (mut joined, knots) = join_groups(&groups, &doors)?;
+    let (mut joined, tangled) = join_groups(&groups, &doors)?;
+    let knots = tangled.map_or_else(Vec::new, |pieces| knots_of_triangles(&groups, pieces));
     if !knots.is_empty() {
         let groups = untie(primitives, groups, &knots, preset, cache, &mut report)?;
         let (merged, _) = join_groups(&groups, &doors)?;
@@ -145,6 +146,13 @@ pub fn build_instanced(
         let _ = cache.prune();
     }
     Ok((joined, report))
+}
+
+/// The groups of triangles that fill the same space, see [`knots`].
+fn knots_of_triangles(groups: &[Group], mut pieces: Vec<Piece>) -> Vec<Vec<usize>> {
+    let of_triangles = |group: &Group| group.kind == GroupKind::Triangles;
+    pieces.retain(|piece| groups.get(piece.group).is_some_and(of_triangles));
+    knots(groups.len(), &pieces)
 }
 
 /// The same groups with one for each knot, which has a tree of its own.

@@ -119,9 +119,9 @@ pub(super) fn children(node: &Node) -> [(Bounds, u32); 2] {
     ]
 }
 
-/// Whole groups and instances first, then opened while that separates them. Empty groups give no piece. Where the
-/// budget ended that, also tells which groups are still tangled, see [`knots`].
-pub(super) fn pieces(trees: &[&Tree], doors: &[Door]) -> (Vec<Piece>, Vec<Vec<usize>>) {
+/// Whole groups and instances first, then opened while that separates them. Empty groups give no piece. Also
+/// tells whether the budget ended that, so that groups are still tangled.
+pub(super) fn pieces(trees: &[&Tree], doors: &[Door]) -> (Vec<Piece>, bool) {
     let roots = (0..trees.len()).filter(|group| trees[*group].root != NONE);
     let mut pieces: Vec<Piece> = roots.map(|group| Piece::whole(trees, group)).collect();
     let n_groups = pieces.len();
@@ -151,26 +151,24 @@ pub(super) fn pieces(trees: &[&Tree], doors: &[Door]) -> (Vec<Piece>, Vec<Vec<us
         pieces.push(right);
     }
     let tangled = n_groups > 1 && !queue.is_empty();
-    let knots = if tangled { knots(trees, &pieces) } else { Vec::new() };
-    (pieces, knots)
+    (pieces, tangled)
 }
 
-/// Sets of groups, each of two or more in ascending order, that fill the same space: of one of any two that hang
-/// together, a share of [`TANGLED`] or more of the primitives is in pieces that meet pieces of the other.
-fn knots(trees: &[&Tree], pieces: &[Piece]) -> Vec<Vec<usize>> {
-    let mut weights = vec![0.0_f32; trees.len()];
+/// Sets of groups, each of two or more in ascending order, that fill the same space: groups that are tied to each
+/// other, and to which others are tied. Two are tied where of each of them a share of [`TANGLED`] or more of the
+/// primitives is in pieces that meet pieces of the other. All groups are below `n_groups`.
+pub(super) fn knots(n_groups: usize, pieces: &[Piece]) -> Vec<Vec<usize>> {
+    let mut weights = vec![0.0_f32; n_groups];
     let mut shared = BTreeMap::<(usize, usize), f32>::new();
-    let of_groups = || pieces.iter().filter(|piece| piece.group < trees.len());
-    for a in of_groups() {
+    for a in pieces {
         weights[a.group] += a.weight;
-        let mut met = BTreeSet::new();
-        met.extend(of_groups().filter(|b| overlap(&a.bounds, &b.bounds)).map(|b| b.group));
-        met.remove(&a.group);
+        let meets = |b: &&Piece| b.group != a.group && overlap(&a.bounds, &b.bounds);
+        let met: BTreeSet<usize> = pieces.iter().filter(meets).map(|b| b.group).collect();
         for other in met {
             *shared.entry((a.group, other)).or_default() += a.weight;
         }
     }
-    let mut knot_of: Vec<usize> = (0..trees.len()).collect();
+    let mut knot_of: Vec<usize> = (0..n_groups).collect();
     let share = |a: usize, b: usize| shared.get(&(a, b)).map_or(0.0, |weight| weight / weights[a]);
     for &(a, b) in shared.keys() {
         if share(a, b).min(share(b, a)) >= TANGLED {
@@ -178,8 +176,8 @@ fn knots(trees: &[&Tree], pieces: &[Piece]) -> Vec<Vec<usize>> {
             knot_of.iter_mut().filter(|knot| **knot == from).for_each(|knot| *knot = to);
         }
     }
-    let members = |knot| (0..trees.len()).filter(|group| knot_of[*group] == knot).collect();
-    let all = (0..trees.len()).map(members);
+    let members = |knot| (0..n_groups).filter(|group| knot_of[*group] == knot).collect();
+    let all = (0..n_groups).map(members);
     all.filter(|members: &Vec<usize>| members.len() > 1).collect()
 }
 

@@ -113,7 +113,7 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
         Before::UpToDate(_) | Before::Nothing => None,
     };
     let Compilation { compiled, mut phases, texts, silent, whole } =
-        match compile(&args.scene, &job, edited.as_ref(), reuse, reporter) {
+        match compile(&args.scene, trees, edited.as_ref().map(|e| (&job, e)), reuse, reporter) {
             Ok(done) => done,
             Err(code) => return code,
         };
@@ -223,13 +223,7 @@ fn write_depfile(path: &Path, output: &Path, reuse: &Reuse, reporter: &Reporter)
 pub(super) fn check(args: &CheckArgs) -> u8 {
     let reporter = args.report.reporter();
     let cache = Cache::from_env();
-    let job = Job {
-        scene: &args.scene.scene,
-        output: Path::new(""),
-        defines: &args.scene.define,
-        trees: Trees::usual(&cache),
-    };
-    match compile(&args.scene, &job, None, &Reuse::once(), &reporter) {
+    match compile(&args.scene, Trees::usual(&cache), None, &Reuse::once(), &reporter) {
         Ok(_) => OK,
         Err(code) => code,
     }

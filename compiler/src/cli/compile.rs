@@ -11,7 +11,8 @@ use super::files::{DiskLoader, TextError, read_text};
 use super::record::{Edited, Job};
 use super::{BUG, IO, SCENE, SceneArgs};
 use crate::import::Limits;
-use crate::pipeline::{self, CompileError, Compiled, Memory, Options, Phase};
+use crate::lower::Trees;
+use crate::pipeline::{self, CompileError, Compiled, Essence, Memory, Options, Phase};
 use crate::report::Reporter;
 use crate::reuse::Reuse;
 
@@ -50,11 +51,11 @@ pub(super) struct Compilation {
     pub(super) whole: bool,
 }
 
-/// Compiles the scene of a job; `edited`: what is there of the last time.
+/// Compiles a scene; `before`: which job it is, and what is there of its last compilation.
 pub(super) fn compile(
     args: &SceneArgs,
-    job: &Job<'_>,
-    edited: Option<&Edited>,
+    trees: Trees<'_>,
+    before: Option<(&Job<'_>, &Edited)>,
     reuse: &Reuse,
     reporter: &Reporter,
 ) -> Result<Compilation, u8> {
@@ -68,23 +69,22 @@ pub(super) fn compile(
     let mut phases = vec![Phase { name: "read and check the text", time: start.elapsed() }];
     let options = Options {
         root: args.scene.parent().unwrap_or(Path::new("")),
-        trees: job.trees,
+        trees,
         limits: Limits::default(),
         defines: &args.define,
     };
     let mut again = || -> Result<Option<Compiled>, CompileError> {
-        let Some(edited) = edited else { return Ok(None) };
-        let fits = |memory: &Memory| memory.fits(&scene, &sources);
-        let Some((pack, memory)) = job.earlier(job.trees.cache, edited, fits) else {
-            return Ok(None);
-        };
-        let known = (&Arc::new(pack), memory);
-        pipeline::compile_again(&scene, &sources, &options, known, reuse, &mut diagnostics)
+        let Some((job, edited)) = before else { return Ok(None) };
+        let essence = Essence::new(&scene, &sources);
+        let found = job.earlier(trees.cache, edited, |memory: &Memory| memory.fits(&essence));
+        let Some((pack, memory)) = found else { return Ok(None) };
+        let (what, known) = ((&scene, &essence), (&Arc::new(pack), memory));
+        pipeline::compile_again(what, &sources, &options, known, reuse, &mut diagnostics)
     };
     let taken_over = again();
     let result = match taken_over {
         Ok(Some(compiled)) => {
-            edited.iter().flat_map(|edited| edited.data()).for_each(|path| reuse.read(path));
+            before.iter().flat_map(|(_, edited)| edited.data()).for_each(|path| reuse.read(path));
             Ok(compiled)
         }
         Ok(None) => pipeline::compile_reusing(&scene, &sources, &options, reuse, &mut diagnostics),

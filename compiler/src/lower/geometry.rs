@@ -461,17 +461,7 @@ impl Placement {
 
 /// Whether any texture belongs to the material.
 fn reads_textures(material: &abi::Material) -> bool {
-    let textures = [
-        material.color_texture,
-        material.emission_texture,
-        material.metallic_roughness_texture,
-        material.alpha_texture,
-        material.normal_texture,
-        material.specular_texture,
-        material.coat_texture,
-        material.transmission_texture,
-    ];
-    textures.iter().any(|texture| *texture != NONE)
+    material.textures().iter().any(|texture| *texture != NONE)
 }
 
 /// A direction as two 16-bit signed normalised integers, x in the low half (Cigolle et al. 2014,

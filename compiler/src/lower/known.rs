@@ -76,21 +76,9 @@ impl<'a> MaterialTable<'a> {
 
 /// Whether geometry, and what is checked of it, is the same with both.
 fn is_alike(a: &abi::Material, b: &abi::Material) -> bool {
-    let textures = |material: &abi::Material| {
-        [
-            material.color_texture,
-            material.emission_texture,
-            material.metallic_roughness_texture,
-            material.alpha_texture,
-            material.normal_texture,
-            material.specular_texture,
-            material.coat_texture,
-            material.transmission_texture,
-        ]
-    };
     let inside = |material: &abi::Material| (material.medium, material.priority);
     a.flags == b.flags
-        && textures(a) == textures(b)
+        && a.textures() == b.textures()
         && inside(a) == inside(b)
         && has_inside(a) == has_inside(b)
 }

@@ -35,7 +35,7 @@ impl Memory {
         Self { geometry: essence.geometry, files, sketch }
     }
 
-    /// As bytes; `None` if they would be too many to be worth it.
+    /// As bytes; `None` for numbers that cannot be written.
     #[must_use]
     pub fn encode(&self) -> Option<Vec<u8>> {
         bincode::serde::encode_to_vec(self, bincode::config::standard()).ok()
@@ -49,20 +49,20 @@ impl Memory {
         (used == bytes.len()).then_some(memory)
     }
 
-    /// Whether the geometry of this scene is the one that is remembered, if its files are what they were.
+    /// Whether the geometry of a scene is the one that is remembered, if its files are what they were.
     #[must_use]
-    pub fn fits(&self, scene: &Scene, sources: &SourceSet) -> bool {
-        Essence::new(scene, sources).geometry == self.geometry
+    pub fn fits(&self, essence: &Essence) -> bool {
+        essence.geometry == self.geometry
     }
 }
 
-/// Compiles a scene that `memory` fits; `earlier` is the pack that was made with it. `None` if everything must be
-/// made; then `diagnostics` is as it was.
+/// Compiles a scene with an `essence` that `memory` fits; `earlier` is the pack that was made with it. `None` if
+/// everything must be made; then `diagnostics` is as it was.
 ///
 /// # Errors
 /// When the kernel cannot be linked or proven, or the scene has errors.
 pub fn compile_again(
-    scene: &Scene,
+    (scene, essence): (&Scene, &Essence),
     sources: &SourceSet,
     options: &Options<'_>,
     (earlier, memory): (&Arc<Pack>, Memory),
@@ -70,10 +70,10 @@ pub fn compile_again(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Option<Compiled>, CompileError> {
     let mut clock = Clock::start();
-    let essence = Essence::new(scene, sources);
     let mut found = Vec::new();
     let known = (earlier, &memory.sketch);
-    let Some(lowered) = lower_again(scene, &essence.sky, known, &options.trees, &mut found) else {
+    let Some(mut lowered) = lower_again(scene, &essence.sky, known, &options.trees, &mut found)
+    else {
         return Ok(None);
     };
     let failed = found.iter().any(Diagnostic::is_error);
@@ -93,7 +93,7 @@ pub fn compile_again(
     let n_trees = lowered.trees.groups;
     let trees = Share { reused: n_trees, all: n_trees };
     let reused = Reused { texts: sources.ids().count(), geometry: true, trees, ..reuse.counts() };
-    let memory = lowered.sketch.clone().map(|sketch| Memory::new(&essence, &files, sketch));
+    let memory = lowered.sketch.take().map(|sketch| Memory::new(essence, &files, sketch));
     let phases = clock.phases;
     let compiled =
         Compiled { lowered, features, kernel, manifest, recipe_id, files, memory, reused, phases };

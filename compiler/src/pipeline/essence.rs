@@ -14,7 +14,7 @@ use super::load::beside;
 
 /// See the module.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Essence {
+pub struct Essence {
     /// Name of everything that geometry and what is checked of it depend on.
     pub(super) geometry: [u8; 32],
     /// All that is said of the sky.
@@ -22,7 +22,9 @@ pub(super) struct Essence {
 }
 
 impl Essence {
-    pub(super) fn new(scene: &Scene, sources: &SourceSet) -> Self {
+    /// Of a scene; `sources` tell where its paths begin.
+    #[must_use]
+    pub fn new(scene: &Scene, sources: &SourceSet) -> Self {
         let mut scene = scene.clone();
         for (path, span) in paths(&mut scene) {
             let full = beside(sources, *span, path);

@@ -3,6 +3,8 @@
 //! `features` decides, from the records; this finds words and a place in the text for the decision. A
 //! feature that is left out although something of the scene could have needed it names that declaration.
 
+use std::collections::BTreeMap;
+
 use lang::scene::{Instance, MediumModel, Name, Scene, Shape, SkyModel};
 use lang::source::Span;
 use pack::abi::{
@@ -114,15 +116,14 @@ impl Explain<'_> {
 
     /// The first instance of the mesh that has most of them.
     fn most_shown(&self) -> Option<&Instance> {
-        let mesh = |instance: &Instance| match &instance.shape {
-            Shape::Mesh { asset, part } => Some((*asset, part.clone())),
-            _ => None,
-        };
-        let all = &self.scene.instances;
-        let count = |wanted: &Instance| all.iter().filter(|one| mesh(one) == mesh(wanted)).count();
-        let meshes = all.iter().filter(|instance| mesh(instance).is_some());
+        let mut shown: BTreeMap<(usize, Option<&str>), (usize, &Instance)> = BTreeMap::new();
+        for instance in &self.scene.instances {
+            if let Shape::Mesh { asset, part } = &instance.shape {
+                shown.entry((*asset, part.as_deref())).or_insert((0, instance)).0 += 1;
+            }
+        }
         // The last of the greatest in reverse order is the first.
-        meshes.rev().max_by_key(|instance| count(instance))
+        shown.into_values().rev().max_by_key(|(count, _)| *count).map(|(_, first)| first)
     }
 
     fn material_name(&self, index: u32) -> Option<Declared> {
@@ -277,12 +278,7 @@ impl Explain<'_> {
         };
         let count = textures.iter().filter(|texture| texture.format == format as u32).count();
         let text = format!("{count} images, the first of");
-        let reads = |m: &Material| {
-            let own = [m.color_texture, m.emission_texture, m.metallic_roughness_texture];
-            let more = [m.alpha_texture, m.normal_texture, m.specular_texture];
-            let last = [m.coat_texture, m.transmission_texture];
-            own.iter().chain(&more).chain(&last).any(of_format)
-        };
+        let reads = |material: &Material| material.textures().iter().any(of_format);
         let sky = self.scene.sky.as_ref().zip(self.lowered.sky.as_ref());
         let sky = sky.filter(|(_, record)| of_format(&record.texture));
         let sky = sky.map(|(sky, _)| by(text.clone(), &sky.name));

@@ -187,6 +187,21 @@ abi_struct! {
 }
 
 impl Material {
+    /// Every texture that it may read, each an index or `NONE`.
+    #[must_use]
+    pub fn textures(&self) -> [u32; 8] {
+        [
+            self.color_texture,
+            self.emission_texture,
+            self.metallic_roughness_texture,
+            self.alpha_texture,
+            self.normal_texture,
+            self.specular_texture,
+            self.coat_texture,
+            self.transmission_texture,
+        ]
+    }
+
     /// A principled surface whose dielectric part does not reflect as its refractive index says.
     #[must_use]
     pub fn has_specular(&self) -> bool {

@@ -35,16 +35,7 @@ pub(crate) fn assert_sound(pack: &Pack) {
         assert!((light.primitive as usize) < count && (light.material as usize) < n_materials);
     }
     for material in pack.records::<Material>() {
-        for id in [
-            material.color_texture,
-            material.emission_texture,
-            material.metallic_roughness_texture,
-            material.alpha_texture,
-            material.normal_texture,
-            material.specular_texture,
-            material.coat_texture,
-            material.transmission_texture,
-        ] {
+        for id in material.textures() {
             assert!(or_none(id, n_textures));
         }
     }
