@@ -13,6 +13,8 @@ use pack::abi::{FilmPixel, Frame};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use thiserror::Error;
+#[cfg(feature = "gpu")]
+use {crate::region::Rect, crate::schedule::WorkItem, rayon::prelude::*};
 
 /// Pixels of a block: 32 × 32.
 const BLOCK: u64 = 32 * 32;
@@ -101,15 +103,46 @@ fn render_with(
     job: &Job,
     run: &Run<'_>,
 ) -> Result<(), CpuError> {
-    let (need, available) = (setup.stack_need(), kernel::f32::STACK_SIZE);
-    if need > available {
-        return Err(CpuError::Stack { need, available });
-    }
+    check_stack(setup)?;
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(job.threads.unwrap_or(0))
         .thread_name(|i| format!("rtr-{i}"))
         .build()?;
     pool.broadcast(|_| worker(tile, setup, run));
+    Ok(())
+}
+
+fn check_stack(setup: &Setup<'_>) -> Result<(), CpuError> {
+    let (need, available) = (setup.stack_need(), kernel::f32::STACK_SIZE);
+    if need > available { Err(CpuError::Stack { need, available }) } else { Ok(()) }
+}
+
+/// Renders one item of the run in place of a device, on every core and in `f32`: the same pixels, bit for bit where
+/// the device rounds as we do.
+///
+/// # Errors
+/// When the scene's tree is too deep; then the item is still the caller's.
+#[cfg(feature = "gpu")]
+pub(crate) fn render_item(
+    setup: &Setup<'_>,
+    run: &Run<'_>,
+    item: &WorkItem,
+) -> Result<(), CpuError> {
+    check_stack(setup)?;
+    let Rect { y, w, h, .. } = item.tile;
+    let mut pixels = vec![FilmPixel::default(); w as usize * h as usize];
+    let render = || {
+        pixels.par_chunks_mut(w as usize).zip(y..y + h).for_each(|(row, y)| {
+            let tile = Rect { y, h: 1, ..item.tile };
+            let frame = setup.frame(&WorkItem { tile, ..*item });
+            render_f32(Inputs::new(setup, &frame), [w, 1], bytemuck::cast_slice_mut(row));
+        });
+    };
+    // As in `worker`.
+    match catch_unwind(AssertUnwindSafe(render)) {
+        Ok(()) => run.deposit(item, &pixels),
+        Err(panic) => run.fail(item, panic_text(panic.as_ref())),
+    }
     Ok(())
 }
 

@@ -7,6 +7,7 @@ mod adapter;
 mod device;
 mod pace;
 mod queue;
+mod slot;
 mod stopwatch;
 mod upload;
 
@@ -99,13 +100,6 @@ pub(crate) fn render(
             Module::Checked
         }
     };
-    if adapter.matches("llvmpipe") {
-        // LP_MAX_TGSI_LOOP_ITERATIONS of Mesa's lp_bld_limits.h: all loops of an invocation share it.
-        run.note(
-            "llvmpipe ends the loops of an invocation after 65,535 turns: samples through dense foliage may lose \
-             their light, which `--device cpu` does not",
-        );
-    }
     let mut pace = Pace::new(job.submission);
     let mut losses = 0;
     loop {

@@ -45,7 +45,7 @@ pub fn tables(text: &mut String, effort: Effort, names: &[&str]) -> Result<(), B
         "\n## What is left out: {width} x {height}, {} samples a pixel\n\n\
         The kernel of each scene (examples with reduced assets) against the one with all features, \
         `rtr --ablate=full`: medians of {} rounds in turns. The CPU kernel is one for all scenes and has \
-        all features, so it has no second column. Build: the pipeline and its first workgroup; a driver \
+        all features, so it has no second column, and its time is of one run. Build: the pipeline and its first workgroup; a driver \
         that keeps compiled kernels on disk is quick from the second scene on, because the full kernel is \
         the same for all.\n\n\
         | scene | device | features | WGSL lines | SPIR-V words | build s | full | ms a sample | full | full / own | same picture |\n\

@@ -14,5 +14,6 @@ pub mod kernel;
 pub mod layers;
 pub mod picture;
 pub mod scene;
+pub mod software;
 pub mod stability;
 pub mod statistics;

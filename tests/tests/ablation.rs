@@ -6,9 +6,10 @@ use std::collections::BTreeSet;
 use pack::abi::{MaterialKind, SkyKind, TextureFormat};
 use rayon::prelude::*;
 use runtime::ablation::{Ablation, Event, Measured, Plan, Row, ablate, kernel_texts, relinked};
-use runtime::{Control, DeviceChoice, Job, SampleRange, Scene};
+use runtime::{Control, Job, SampleRange, Scene};
 use shaders::FeatureSet;
 use tests::features::{CASES, Case, case_pack, compiled, named};
+use tests::software;
 
 /// The declarations of a kernel, in no order.
 fn declarations(kernel: &str) -> BTreeSet<String> {
@@ -139,32 +140,15 @@ fn every_kernel_with_a_feature_more_is_valid() {
     assert_eq!(wrong, Vec::<String>::new());
 }
 
-/// Part of the name of Mesa's software adapter, and what switches off its optimiser, see `contract.rs`.
-const SOFTWARE: &str = "llvmpipe";
-const NO_OPTIMISER: (&str, &str) = ("GALLIVM_PERF", "nopt");
-
 #[test]
 fn on_a_software_adapter_every_kernel_gives_the_bits_of_the_cpu() {
-    if !runtime::gpu::adapters().iter().any(|adapter| adapter.matches(SOFTWARE)) {
-        tests::console::line("skipped: no adapter");
-        return;
-    }
-    if std::env::var_os(NO_OPTIMISER.0).is_none() {
-        let this = "on_a_software_adapter_every_kernel_gives_the_bits_of_the_cpu";
-        let program = std::env::current_exe().expect("a test has a program");
-        let mut again = std::process::Command::new(program);
-        again.args([this, "--exact", "--nocapture"]).env(NO_OPTIMISER.0, NO_OPTIMISER.1);
-        let output = again.output().expect("a test can be started");
-        let text = String::from_utf8_lossy(&output.stdout);
-        assert!(text.contains("1 passed"), "{text}{}", String::from_utf8_lossy(&output.stderr));
-        return;
-    }
+    let this = "on_a_software_adapter_every_kernel_gives_the_bits_of_the_cpu";
+    let Some(device) = software::device_without_optimiser(this) else { return };
     for (name, each) in [("sky alone", true), ("triangles alone", false)] {
         let scene = scene_of(named(name));
         let mut job = Job::of_scene(&scene);
         job.resize([16, 12]);
         job.samples = SampleRange { start: 0, end: 2 };
-        let device = DeviceChoice::Named(SOFTWARE.to_owned());
         let (mut begun, mut ended) = (Vec::new(), Vec::new());
         let mut tell = |event: Event<'_>| match event {
             Event::Begin(name) => begun.push(name.to_owned()),

@@ -10,20 +10,10 @@ use compiler::pipeline::Compiled;
 use pack::abi::{Texture, TextureFormat};
 use pack::{Checked, Pack};
 use rayon::prelude::*;
-use runtime::{DeviceChoice, Film};
+use runtime::{Control, DeviceChoice, Film, Job, Scene};
+use std::sync::mpsc;
 use tests::features::{CASES, case_pack, compiled, named};
-use tests::{picture, scene};
-
-/// Part of the name of Mesa's software adapter.
-const SOFTWARE: &str = "llvmpipe";
-
-fn software() -> Option<DeviceChoice> {
-    let found = runtime::gpu::adapters().iter().any(|a| a.describe().contains(SOFTWARE));
-    if !found {
-        tests::console::line("skipped: no adapter");
-    }
-    found.then(|| DeviceChoice::Named(SOFTWARE.to_owned()))
-}
+use tests::{picture, scene, software};
 
 /// Cases in which the estimators differ, one or more for each thing that they weigh. The kernel with everything
 /// takes so long to compile that it is compared for the estimator of every picture only.
@@ -66,23 +56,10 @@ fn pixels(ours: &Film, theirs: &Film) -> Option<String> {
     (differ > 0).then(|| format!("{differ} of {n} pixels differ, by up to {worst:.3e}"))
 }
 
-/// Switches off the optimiser of Mesa's llvmpipe, which takes most of the time for large kernels and changes no
-/// bit. It is read when the driver is loaded: hence a process of its own.
-const NO_OPTIMISER: (&str, &str) = ("GALLIVM_PERF", "nopt");
-
 #[test]
 fn cpu_and_software_adapter_give_the_same_bits_for_every_feature() {
-    let Some(device) = software() else { return };
-    if std::env::var_os(NO_OPTIMISER.0).is_none() {
-        let this = "cpu_and_software_adapter_give_the_same_bits_for_every_feature";
-        let program = std::env::current_exe().expect("a test has a program");
-        let mut again = std::process::Command::new(program);
-        again.args([this, "--exact", "--nocapture"]).env(NO_OPTIMISER.0, NO_OPTIMISER.1);
-        let output = again.output().expect("a test can be started");
-        let text = String::from_utf8_lossy(&output.stdout);
-        assert!(text.contains("1 passed"), "{text}{}", String::from_utf8_lossy(&output.stderr));
-        return;
-    }
+    let this = "cpu_and_software_adapter_give_the_same_bits_for_every_feature";
+    let Some(device) = software::device_without_optimiser(this) else { return };
     let estimated = ESTIMATED.into_iter().flat_map(|name| [1, 2, 3].map(|way| (name, way)));
     let mut jobs: Vec<(&str, u32)> = estimated.collect();
     jobs.extend(CASES.iter().map(|case| (case.name, 0)));
@@ -92,6 +69,34 @@ fn cpu_and_software_adapter_give_the_same_bits_for_every_feature() {
         |&(name, way): &(&str, u32)| differences(&device, name, || case_pack(named(name)), way);
     let found: Vec<String> = jobs.par_iter().with_max_len(1).flat_map_iter(check).collect();
     assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+/// A white room whose paths end after 1024 segments: a dispatch of 16 samples takes more turns of loops than
+/// llvmpipe gives to all loops of an invocation.
+const LONG_PATHS: &str = "rts 1
+material white: diffuse { color = linear(0.9) }
+material lamp: emissive { color = linear(1), strength = 1 }
+instance room { shape = box(size: (4, 4, 4)m), material = white }
+instance light { shape = sphere(radius: 200mm), material = lamp, at = (0, 1, 0)m }
+camera main: perspective { from = (0m, 0m, 1.5m), to = (0m, 0m, 0m), fov.vertical = 60deg }
+film small { size = (8, 8)px }
+render long: path { samples = 16, depth = 1024, roulette = 1024 }
+";
+
+#[test]
+fn pixels_whose_loops_a_driver_cuts_short_are_rendered_by_the_cpu() {
+    let Some(device) = software::device() else { return };
+    let (tell, heard) = mpsc::channel();
+    let control = Control::new(move |line| tell.send(line.to_owned()).unwrap());
+    let scene = Scene::new(scene::pack(LONG_PATHS));
+    let film = runtime::render(&scene, &Job::of_scene(&scene), &device, &control);
+    let film = film.expect("a small room").picture.film;
+    let own = picture::cpu(scene::pack(LONG_PATHS), |_| {});
+    assert_eq!((pixels(own.film(), &film), &own.film().counters), (None, &film.counters));
+    // Or the test would see nothing.
+    let notes: Vec<String> = heard.try_iter().collect();
+    let told = "the driver cut loops short in 1 of 1 tiles; the CPU kernel rendered these";
+    assert!(notes.iter().any(|note| note == told), "{notes:?}");
 }
 
 #[test]
@@ -123,7 +128,7 @@ const LARGE: [u32; 2] = [4096, 9216];
 
 #[test]
 fn texels_beyond_one_binding_are_read_through_windows() {
-    let Some(device) = software() else { return };
+    let Some(device) = software::device() else { return };
     let scene = large_texture();
     assert!(scene.kernel.text.contains("texel_words_1"));
     let pack_of = |scene: &Compiled| {

@@ -1,6 +1,6 @@
 //! Adapter + scene → a device with everything uploaded and the kernel compiled.
 
-use super::queue::{Slot, Slots};
+use super::slot::{Slot, Slots};
 use super::stopwatch;
 use super::upload::{Uploader, wait_at_most};
 use super::{Adapter, GpuError};

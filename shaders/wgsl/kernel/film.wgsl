@@ -2,6 +2,9 @@
 
 #import "abi/film.wgsl"
 
+// Rays of a pixel whose loops were cut short; `FilmPixel::CUT` of the host.
+const FILM_CUT: u32 = 0xffffffffu;
+
 // No sample yet.
 fn film_empty() -> FilmPixel {
     return FilmPixel(vec3f(0.0), 0u, 0u, 0u, 0u, 0u);
@@ -19,6 +22,20 @@ fn film_add(film: ptr<function, FilmPixel>, radiance: vec3f, sample: u32, segmen
         (*film).bad += 1u;
     }
     (*film).depth = max((*film).depth, segments);
+}
+
+// Says that nothing of the pixel is true where the driver has stopped running its loops. Mesa's llvmpipe gives all
+// loops of an invocation 65,535 turns together (LP_MAX_TGSI_LOOP_ITERATIONS); from then on each loop takes one turn,
+// whatever its condition says, and so does this one, which should take `turns`, more than one.
+fn film_watch(film: ptr<function, FilmPixel>, turns: u32) {
+    var taken = 0u;
+    loop {
+        if (taken >= turns) { break; }
+        taken += 1u;
+    }
+    if (taken < turns) {
+        (*film).rays = FILM_CUT;
+    }
 }
 
 // By the bits: a compiler may assume that no number is infinite and fold a comparison away.

@@ -31,5 +31,6 @@ fn render(@builtin(global_invocation_id) gid: vec3<u32>) {
             path = path_begin(sample_key(pixel, sample + 1u, frame.seed), pixel);
         }
     }
+    film_watch(&film, frame.sample_count + 1u);
     film_store(gid.y * frame.tile_size.x + gid.x, film);
 }

@@ -1,6 +1,7 @@
 //! Path tracing: rays and samples a second, on the CPU with one thread and with all, and on every adapter.
 
 use std::fmt::Write as _;
+use std::sync::mpsc;
 use std::time::Instant;
 
 use compiler::bvh::Layout;
@@ -20,6 +21,8 @@ pub(super) struct Cost {
     pub(super) wall: f64,
     pub(super) rays: u64,
     device: String,
+    /// What the run said of loops that a driver cut short.
+    cut: Option<String>,
 }
 
 /// What rendering `samples` of every pixel costs.
@@ -33,7 +36,11 @@ pub(super) fn cost(
     job.resize(SIZE);
     job.samples = SampleRange { start: 0, end: samples };
     change(&mut job);
-    let control = Control::default();
+    let (tell, heard) = mpsc::channel();
+    let control = Control::new(move |line| {
+        // Nobody listens any more once the run has ended.
+        let _ = tell.send(line.to_owned());
+    });
     let (cpu, wall) = (ProcessTime::now(), Instant::now());
     let outcome = render(scene, &job, device, &control).map_err(|error| error.to_string())?;
     Ok(Cost {
@@ -41,6 +48,7 @@ pub(super) fn cost(
         wall: wall.elapsed().as_secs_f64(),
         rays: outcome.film().counters.rays,
         device: outcome.picture.meta.device.clone(),
+        cut: heard.try_iter().find(|note| note.contains("cut loops short")),
     })
 }
 
@@ -51,9 +59,8 @@ type Renderer = (DeviceChoice, Option<usize>);
 fn renderers(scene: &Scene) -> Vec<Renderer> {
     let mut all = vec![(DeviceChoice::Cpu, Some(1)), (DeviceChoice::Cpu, None)];
     for choice in [DeviceChoice::Named("llvmpipe".to_owned()), DeviceChoice::Gpu] {
-        let name = |cost: &Cost| cost.device.clone();
         // The first run compiles the kernel for the device; it is not counted.
-        if cost(scene, &choice, 1, |_| {}).is_ok_and(|first| !name(&first).is_empty()) {
+        if cost(scene, &choice, 1, |_| {}).is_ok() {
             all.push((choice, None));
         }
     }
@@ -69,7 +76,7 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
         | scene | device | CPU s | wall s | Mrays | Mrays per CPU s | Mrays/s | Msamples/s | against the first (CPU s) |\n\
         |---|---|---|---|---|---|---|---|---|"
     );
-    let (mut others, mut short) = (false, Vec::new());
+    let (mut others, mut remarks) = (false, Vec::new());
     for name in SCENES {
         let scene = packs.scene(name, Layout::Wide)?;
         let renderers = renderers(&scene);
@@ -81,9 +88,9 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
             }
         }
         rows(name, &runs, text);
-        short.extend(fewer_rays(name, &runs));
+        remarks.extend(shared_work(name, &runs));
     }
-    for remark in short {
+    for remark in remarks {
         let _ = writeln!(text, "{remark}");
     }
     if !others {
@@ -92,17 +99,12 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
     Ok(())
 }
 
-/// A remark on renderers that traced other rays than the first: their times are of other work.
-fn fewer_rays(name: &str, runs: &[Vec<Cost>]) -> Option<String> {
-    let rays = |runs: &[Cost]| runs.first().map_or(0, |run| run.rays);
-    let first = rays(runs.first()?);
-    let other = runs.iter().find(|runs| rays(runs) != first)?;
-    Some(format!(
-        "\n{} traced {:.0} % of the rays of `{name}`: llvmpipe ends the loops of an invocation after 65,535 turns, \
-        which `rtr` says. Its times there are of less work.",
-        other[0].device,
-        100.0 * rays(other) as f64 / first as f64,
-    ))
+/// Remarks on renderers whose work others did in part: their times are of both.
+fn shared_work<'a>(name: &'a str, runs: &'a [Vec<Cost>]) -> impl Iterator<Item = String> + 'a {
+    let last = runs.iter().filter_map(|runs| runs.last());
+    last.filter_map(move |run| {
+        Some(format!("\n{} on `{name}`: {}.", run.device, run.cut.as_ref()?))
+    })
 }
 
 fn rows(name: &str, runs: &[Vec<Cost>], text: &mut String) {

@@ -7,7 +7,7 @@ abi_struct! {
     pub struct FilmPixel {
         /// Sum of radiance over the samples of this dispatch; bad samples add 0.
         pub sum: [f32; 3],
-        /// Rays traced: camera, bounce and shadow.
+        /// Rays traced: camera, bounce and shadow; [`FilmPixel::CUT`] where nothing of the pixel is true.
         pub rays: u32,
         /// Samples whose radiance was not finite.
         pub bad: u32,
@@ -19,4 +19,10 @@ abi_struct! {
         /// bits 16-31 those that left a thing which the path had never entered.
         pub strays: u32,
     }
+}
+
+impl FilmPixel {
+    /// Rays of a pixel whose loops the driver has cut short. No pixel traces so many: a dispatch has 16 samples
+    /// of a pixel.
+    pub const CUT: u32 = u32::MAX;
 }
