@@ -5,11 +5,13 @@
 
 use std::error::Error;
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
 use cpu_time::ProcessTime;
+
+use crate::benchmarks::median;
 
 /// First argument of the process that compiles.
 pub const CHILD: &str = "rtc";
@@ -62,25 +64,41 @@ pub(crate) struct Cost {
     said: String,
 }
 
-/// The table, and where the pack of the shrine is; it lives as long as the folder.
+/// The table, medians of `rounds`; what has to be written is written into `folder`.
 ///
 /// # Errors
 /// When a file cannot be written, an edit finds nothing to change, or `rtc` fails.
-pub fn table(scenes: &Path, folder: &Path, text: &mut String) -> Outcome<PathBuf> {
+pub fn table(scenes: &Path, folder: &Path, rounds: usize, text: &mut String) -> Outcome<()> {
     let example = scenes::catalog::find("shrine").ok_or("the shrine exists")?;
     example.generate(scenes, scenes::generate::Extent::Full)?;
     let source = example.source(scenes);
     let from = source.parent().ok_or("a scene lies in a folder")?;
-    let dir = folder.join("shrine");
-    copy(from, &dir)?;
     let pack = folder.join("shrine.pack");
-    let mut costs = Vec::new();
-    for (name, edit) in EDITS {
-        edit(&dir)?;
-        costs.push((name, compile(&dir.join("shrine.rts"), &pack, folder)?));
+    let mut costs: [Vec<Cost>; EDITS.len()] = Default::default();
+    for _ in 0..rounds {
+        for (of_edit, cost) in costs.iter_mut().zip(round(from, folder, &pack)?) {
+            of_edit.push(cost);
+        }
     }
-    let size = std::fs::metadata(&pack)?.len() as f64;
-    let cold = costs[0].1.cpu;
+    rows(&costs, std::fs::metadata(&pack)?.len() as f64, text);
+    Ok(())
+}
+
+/// One edit after the other, in a new copy of the scene in `from` and with an empty cache.
+fn round(from: &Path, folder: &Path, pack: &Path) -> Outcome<Vec<Cost>> {
+    let folder = tempfile::tempdir_in(folder)?;
+    let dir = folder.path().join("shrine");
+    copy(from, &dir)?;
+    // What an earlier round has left would be taken over.
+    let _ = std::fs::remove_file(pack);
+    let compile_edited = |(_, edit): &(&str, Edit)| {
+        edit(&dir)?;
+        compile(&dir.join("shrine.rts"), pack, folder.path())
+    };
+    EDITS.iter().map(compile_edited).collect()
+}
+
+fn rows(costs: &[Vec<Cost>], size: f64, text: &mut String) {
     let _ = writeln!(
         text,
         "\n## Compiling again: `shrine`, a pack of {:.0} MB\n\n\
@@ -89,14 +107,17 @@ pub fn table(scenes: &Path, folder: &Path, text: &mut String) -> Outcome<PathBuf
         |---|---|---|---|---|---|",
         size / 1e6
     );
-    for (name, Cost { cpu, wall, peak, said }) in &costs {
-        let (share, packs) = (100.0 * cpu / cold, *peak as f64 / size);
+    let middle = |runs: &[Cost], of: fn(&Cost) -> f64| median(runs.iter().map(of));
+    let cold = middle(&costs[0], |run| run.cpu);
+    for ((name, _), runs) in EDITS.iter().zip(costs) {
+        let [cpu, wall] = [|run: &Cost| run.cpu, |run: &Cost| run.wall].map(|of| middle(runs, of));
+        let packs = middle(runs, |run| run.peak as f64) / size;
+        let (share, said) = (100.0 * cpu / cold, runs.last().map_or("", |run| run.said.as_str()));
         let _ = writeln!(
             text,
             "| {name} | {cpu:.2} | {share:.1} % | {wall:.2} | {packs:.2} | {said} |"
         );
     }
-    Ok(pack)
 }
 
 /// One compilation in a process of its own, with the cache in `folder`.

@@ -1,14 +1,36 @@
 //! From text to pack: with nothing in the cache, with everything, and after edits.
 
+use std::error::Error;
 use std::fmt::Write as _;
 use std::path::Path;
 
 use super::packs::Packs;
-use super::{Outcome, SCENES};
-use crate::edits;
+use super::{Outcome, ROUNDS, SCENES, median};
+use crate::edits::{self, Cost};
 
 fn folder() -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes")
+}
+
+/// Three compilations of a scene with a cache of their own.
+struct Round {
+    /// Of the pack, bytes.
+    size: f64,
+    cold: Cost,
+    warm: Cost,
+    unchanged: Cost,
+}
+
+impl Round {
+    fn new(source: &Path) -> Result<Self, Box<dyn Error>> {
+        let temporary = tempfile::tempdir()?;
+        let pack = temporary.path().join("scene.pack");
+        let run = || edits::compile(source, &pack, temporary.path());
+        let cold = run()?;
+        let size = std::fs::metadata(&pack)?.len() as f64;
+        std::fs::remove_file(&pack)?;
+        Ok(Self { size, cold, warm: run()?, unchanged: run()? })
+    }
 }
 
 /// Scenes, cold and warm.
@@ -25,23 +47,20 @@ pub(super) fn table(_: &mut Packs, text: &mut String) -> Outcome {
         let example = scenes::catalog::find(name).ok_or("there is no such example")?;
         example.generate(&folder(), scenes::generate::Extent::Full)?;
         let source = example.source(&folder());
-        let temporary = tempfile::tempdir()?;
-        let pack = temporary.path().join("scene.pack");
-        let run = || edits::compile(&source, &pack, temporary.path());
-        let cold = run()?;
-        let size = std::fs::metadata(&pack)?.len() as f64;
-        std::fs::remove_file(&pack)?;
-        let warm = run()?;
-        let unchanged = run()?;
+        let mut rounds = Vec::new();
+        for _ in 0..ROUNDS {
+            rounds.push(Round::new(&source)?);
+        }
+        let middle = |of: fn(&Round) -> f64| median(rounds.iter().map(of));
         let _ = writeln!(
             text,
             "| `{name}` | {:.1} | {:.2} | {:.2} | {:.2} | {:.2} | {:.3} |",
-            size / 1e6,
-            cold.cpu,
-            cold.wall,
-            warm.cpu,
-            warm.wall,
-            unchanged.wall,
+            middle(|round| round.size) / 1e6,
+            middle(|round| round.cold.cpu),
+            middle(|round| round.cold.wall),
+            middle(|round| round.warm.cpu),
+            middle(|round| round.warm.wall),
+            middle(|round| round.unchanged.wall),
         );
     }
     Ok(())
@@ -50,6 +69,5 @@ pub(super) fn table(_: &mut Packs, text: &mut String) -> Outcome {
 /// The shrine after edits.
 pub(super) fn edits(_: &mut Packs, text: &mut String) -> Outcome {
     let temporary = tempfile::tempdir()?;
-    edits::table(&folder(), temporary.path(), text)?;
-    Ok(())
+    edits::table(&folder(), temporary.path(), ROUNDS, text)
 }
