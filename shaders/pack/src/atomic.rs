@@ -31,7 +31,7 @@ pub fn write_atomic(
     };
     let prefix = prefix(path);
     remove_leftovers(dir, &prefix);
-    let file = create(dir, &prefix).map_err(io("create"))?;
+    let file = create(dir, &prefix).map_err(|error| io("create")(plain(error, dir)))?;
     let mut out = BufWriter::with_capacity(1 << 20, file);
     content(&mut out).map_err(io("write"))?;
     let file = out.into_inner().map_err(|error| io("write")(error.into_error()))?;
@@ -42,6 +42,14 @@ pub fn write_atomic(
         drop(dir.sync_all());
     }
     Ok(())
+}
+
+/// The error without the temporary name, which says nothing to whoever asked for another.
+fn plain(error: io::Error, dir: &Path) -> io::Error {
+    if error.kind() == io::ErrorKind::NotFound {
+        return io::Error::other(format!("there is no folder {}", dir.display()));
+    }
+    error.raw_os_error().map_or(error, io::Error::from_raw_os_error)
 }
 
 /// How temporary names of `path` begin. A hash, because names have a greatest length.
@@ -159,5 +167,16 @@ mod tests {
         assert!(failed.is_err());
         assert_eq!(std::fs::read(&path).unwrap(), b"good");
         assert_eq!(names(dir.path()), ["a.pack"]);
+    }
+
+    #[test]
+    fn a_folder_that_is_not_there_is_named_and_no_temporary_name() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("none").join("a.pack");
+        let error = write_atomic(&path, |_| Ok(())).unwrap_err().to_string();
+        let none = dir.path().join("none");
+        let expected =
+            format!("cannot create {}: there is no folder {}", path.display(), none.display());
+        assert_eq!(error, expected);
     }
 }
