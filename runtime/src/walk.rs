@@ -57,7 +57,7 @@ fn walk(kernel: &mut Kernel<'_>, ray: Ray, uncut: bool) -> Hit {
     let mut hit = kernel.ray_miss(ray.t_max);
     let mut child = kernel.load_frame_root();
     let mut walk = kernel.walk_begin(ray);
-    let mut walker = Walker::new(kernel.node_words, &walk.ray, walk.inverse);
+    let mut walker = Walker::new((kernel.node_words, kernel.tri_words), &walk.ray, walk.inverse);
     let mut sheared = Sheared::new(walk.ray.origin, &walk.leaf);
     let mut stack = Stack::new();
     // Such a ray can be hit by every triangle.
@@ -73,7 +73,7 @@ fn walk(kernel: &mut Kernel<'_>, ray: Ray, uncut: bool) -> Hit {
             }
         } else if child & CHILD_SPHERES != 0 && kernel.dispatch_is_door(child) {
             child = kernel.dispatch_door(child, ray, &mut walk);
-            walker = Walker::new(kernel.node_words, &walk.ray, walk.inverse);
+            walker = Walker::new((kernel.node_words, kernel.tri_words), &walk.ray, walk.inverse);
             sheared = Sheared::new(walk.ray.origin, &walk.leaf);
             if child != NONE {
                 // Nothing lies before it: it is never left out.

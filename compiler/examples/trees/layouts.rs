@@ -59,11 +59,32 @@ pub(crate) struct Groups {
 /// Distances that differ by less, relative, are of the same hit.
 pub(crate) const OTHER_HIT: f32 = 1e-3;
 
+/// Words that begin with a page, as those of a pack do: nodes lie in one line of the cache each.
+struct Section {
+    words: Vec<UVec4>,
+    start: usize,
+}
+
+impl Section {
+    const PAGE: usize = 4096;
+
+    fn new(bytes: &[u8]) -> Self {
+        let mut words = vec![UVec4::ZERO; (bytes.len() + Self::PAGE) / size_of::<UVec4>()];
+        let start = words.as_ptr().align_offset(Self::PAGE);
+        bytemuck::cast_slice_mut(&mut words[start..])[..bytes.len()].copy_from_slice(bytes);
+        Self { words, start }
+    }
+
+    fn words(&self) -> &[UVec4] {
+        &self.words[self.start..]
+    }
+}
+
 /// What a kernel reads of one layout.
 struct Words {
     frame: Vec<UVec4>,
-    nodes: Vec<UVec4>,
-    triangles: Vec<UVec4>,
+    nodes: Section,
+    triangles: Section,
     shades: Vec<UVec4>,
 }
 
@@ -208,8 +229,8 @@ impl Words {
         let shades = vec![TriShade { light: NONE, ..TriShade::default() }; records.len()];
         Self {
             frame: bytemuck::pod_collect_to_vec(&[frame]),
-            nodes: bytemuck::pod_collect_to_vec(nodes),
-            triangles: bytemuck::pod_collect_to_vec(&records),
+            nodes: Section::new(nodes),
+            triangles: Section::new(bytemuck::cast_slice(&records)),
             shades: bytemuck::pod_collect_to_vec(&shades),
         }
     }
@@ -222,8 +243,8 @@ impl Words {
             frame_words: &self.frame,
             film_words: &mut [],
             heap_words: &heap,
-            node_words: &self.nodes,
-            tri_words: &self.triangles,
+            node_words: self.nodes.words(),
+            tri_words: self.triangles.words(),
             shade_words: &self.shades,
             sphere_words: &[],
             texel_words: &[],

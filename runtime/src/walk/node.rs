@@ -5,7 +5,7 @@
 //! depends on it. Children are sorted without branches: which of them a ray meets cannot be foreseen.
 
 use super::stack::{Stack, Waiting};
-use crate::kernel::f32::{CHILD_INDEX, Ray};
+use crate::kernel::f32::{CHILD_FIRST, CHILD_INDEX, CHILD_INNER, Ray};
 use bytemuck::cast;
 use glam::{UVec4, Vec3};
 use wide::{f32x4, i32x4};
@@ -16,12 +16,15 @@ pub(super) const FAR_END: f32 = 1.000_001;
 const SLACK: f32 = 4.768_371_6e-7;
 /// Bits of a distance that are kept in a key; the others are the place of the child in its node.
 const DISTANCE: u32 = 0x7fff_fffc;
+/// Rows of a line of the cache.
+const LINE: usize = 4;
 /// Four words: three floats or three times four bytes, and the reference of a child.
 type Row = [u32; 4];
 
 /// What is worked out once a ray, in each frame that it enters.
 pub(super) struct Walker<'a> {
     nodes: &'a [Row],
+    triangles: &'a [Row],
     origin: f32x4,
     inverse: f32x4,
     /// For each axis 1 if the ray runs against it, so that it meets upper ends first.
@@ -38,11 +41,16 @@ struct Met {
 
 impl<'a> Walker<'a> {
     #[inline(always)]
-    pub(super) fn new(nodes: &'a [UVec4], ray: &Ray, inverse: Vec3) -> Self {
+    pub(super) fn new(
+        (nodes, triangles): (&'a [UVec4], &'a [UVec4]),
+        ray: &Ray,
+        inverse: Vec3,
+    ) -> Self {
         let lanes = |v: Vec3| f32x4::new([v.x, v.y, v.z, 0.0]);
         let against = |x: f32| usize::from(x < 0.0);
         Self {
             nodes: bytemuck::cast_slice(nodes),
+            triangles: bytemuck::cast_slice(triangles),
             origin: lanes(ray.origin),
             inverse: lanes(inverse),
             back: [against(inverse.x), against(inverse.y), against(inverse.z)],
@@ -63,13 +71,22 @@ impl<'a> Walker<'a> {
         Some(child(node, met.nearest()))
     }
 
-    /// Most nodes are far away in memory, and the ray is likely to go on to one of these: what is worked out
-    /// meanwhile hides some of the way.
+    /// Most nodes and triangles are far away in memory, and the ray is likely to go on to one of these: what is
+    /// worked out meanwhile hides some of the way.
     #[inline(always)]
     fn ask_for_children(&self, node: &[Row; 4]) {
         for row in node {
-            if let Some(child) = self.nodes.get(4 * (row[3] & CHILD_INDEX) as usize) {
-                prefetch(child);
+            let child = row[3];
+            let (rows, first) = if child & CHILD_INNER != 0 {
+                (self.nodes, 4 * (child & CHILD_INDEX))
+            } else {
+                (self.triangles, 3 * (child & CHILD_FIRST))
+            };
+            // Two lines of the cache: triangles of a leaf are several, and what follows a node is often its sibling.
+            for line in 0..2 {
+                if let Some(row) = rows.get(first as usize + line * LINE) {
+                    prefetch(row);
+                }
             }
         }
     }
