@@ -13,17 +13,19 @@ use crate::scene::{bytes, example};
 
 /// How much is measured.
 #[derive(Clone, Copy, Debug)]
-pub struct Effort {
+struct Effort {
     /// Pixels.
-    pub size: [u32; 2],
+    size: [u32; 2],
     /// Samples a pixel in each round.
-    pub samples: u32,
+    samples: u32,
     /// Timed rounds of each kernel.
-    pub rounds: u32,
+    rounds: u32,
 }
 
-/// A page's effort: small enough for a software adapter.
-pub const PAGE: Effort = Effort { size: [240, 135], samples: 16, rounds: 3 };
+/// The effort where devices are quick.
+const PAGE: Effort = Effort { size: [240, 135], samples: 16, rounds: 3 };
+/// The effort where software adapters count, whose full kernel is slow.
+const ON_SOFTWARE: Effort = Effort { size: [120, 68], samples: 4, rounds: 3 };
 
 /// The scene whose absent features are measured one by one: it has few.
 const EACH: &str = "cornell";
@@ -34,11 +36,17 @@ const SOFTWARE: &str = "ABLATION_SOFTWARE";
 /// Below this share of the time a difference is not told from chance.
 const MARGIN: f64 = 0.02;
 
+/// Whether software adapters count.
+fn software() -> bool {
+    std::env::var_os(SOFTWARE).is_some()
+}
+
 /// Adds the tables to `text`; `names`: the scenes.
 ///
 /// # Errors
 /// When a device fails.
-pub fn tables(text: &mut String, effort: Effort, names: &[&str]) -> Result<(), Box<dyn Error>> {
+pub fn tables(text: &mut String, names: &[&str]) -> Result<(), Box<dyn Error>> {
+    let effort = if software() { ON_SOFTWARE } else { PAGE };
     let [width, height] = effort.size;
     let _ = writeln!(
         text,
@@ -88,7 +96,7 @@ fn scene_of(name: &str) -> Result<Scene, Box<dyn Error>> {
 /// Every adapter; without any, the CPU. Software adapters translate the full kernel for many minutes: they count
 /// only where [`SOFTWARE`] is set.
 fn devices() -> Vec<DeviceChoice> {
-    let software = std::env::var_os(SOFTWARE).is_some();
+    let software = software();
     let mut adapters = runtime::gpu::adapters();
     adapters.retain(|adapter| software || !adapter.is_software());
     let named = adapters.iter().map(|adapter| DeviceChoice::Named(adapter.name().to_owned()));

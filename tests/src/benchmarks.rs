@@ -49,7 +49,7 @@ pub(crate) const SCENES: [&str; 3] = ["mesh", "materials", "shrine"];
 pub(crate) const ROUNDS: usize = 3;
 
 fn ablated(_: &mut Packs, text: &mut String) -> Outcome {
-    ablation::tables(text, ablation::PAGE, &ablation::all_scenes())
+    ablation::tables(text, &ablation::all_scenes())
 }
 
 /// What a child of this program does, if `name` is one's first argument: its exit code.
