@@ -26,6 +26,8 @@ pub(super) struct Ordered {
     pub(super) lights: Vec<abi::Light>,
     /// Of each emitter, whether it is a light.
     pub(super) selected: Vec<bool>,
+    /// Where each triangle went; the first of several places.
+    pub(super) triangle_at: Vec<u32>,
 }
 
 /// Renumbers everything to the leaf order of `joined`; `powers`: those of the emitters.
@@ -53,6 +55,7 @@ pub(super) fn order(
         spheres: joined.sphere_order.iter().map(sphere).collect(),
         lights: Vec::new(),
         selected: Vec::new(),
+        triangle_at: Vec::new(),
     };
     drop(declared);
     ordered.connect_lights(placement, powers, joined);
@@ -92,6 +95,7 @@ impl Ordered {
         for (shade, &primitive) in self.shades.iter_mut().zip(&joined.triangle_order) {
             shade.light = light_of[primitive as usize];
         }
+        self.triangle_at = triangle_at;
     }
 }
 
