@@ -124,8 +124,7 @@ pub fn compile_reusing(
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(CompileError::Scene);
     }
-    let mut lowered = lower::lower(scene, &loaded, &options.trees, diagnostics)?;
-    drop(loaded);
+    let mut lowered = lower::lower(scene, loaded, &options.trees, diagnostics)?;
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(CompileError::Scene);
     }

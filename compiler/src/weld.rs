@@ -134,8 +134,8 @@ mod tests {
         let before = weld(&all);
         for step in 2..9 {
             let (mut moved, mut ids) = (all.clone(), before.ids.clone());
-            for i in (0..all.len()).step_by(step) {
-                moved[i] = tri(0.25 * f32::from(i as u16), all[i][0][0], -0.0);
+            for (i, k) in (0..all.len()).zip(0_u16..).step_by(step) {
+                moved[i] = tri(0.25 * f32::from(k), all[i][0][0], -0.0);
                 ids[i] = [u32::MAX; 3];
             }
             let again = weld_again(&moved, ids, before.n_ids.into());

@@ -9,9 +9,9 @@ use std::ops::Range;
 use super::fragment::Bounds;
 use glam::Vec4;
 
-/// Meshes of fewer triangles share a group: the cache would not keep their trees anyway.
-pub const SMALL_MESH: usize = crate::cache::MIN_PRIMITIVES;
-/// Small meshes of more triangles than this are divided, where that leaves groups which the cache keeps.
+/// Meshes of fewer triangles share a group.
+pub const SMALL_MESH: usize = 20_000;
+/// Small meshes of more triangles than this are divided, where that leaves groups of [`SMALL_MESH`] or more.
 const MANY: usize = 4 * SMALL_MESH;
 /// Most halvings of space.
 const MAX_LEVELS: u32 = 24;

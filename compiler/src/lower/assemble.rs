@@ -27,6 +27,7 @@ use super::share::{MeshFacts, Plan};
 use super::sketch::{KnownEmitter, KnownSky, Sketch};
 use super::sky_source::SkySource;
 use super::stored::Stored;
+use super::texture::TextureTable;
 use super::trees::{Corners, Trees, add_meshes, build_tree};
 use super::{Loaded, camera, closed, medium, motion, power, thick};
 use crate::bvh::{self, Joined};
@@ -43,6 +44,8 @@ pub(super) struct Front<'a> {
     pub(super) counters: Counters,
     pub(super) frame: Normalization,
     pub(super) materials: MaterialTable<'a>,
+    /// What is remembered of materials and textures.
+    pub(super) sketch: Sketch,
     /// What the camera is inside of, and the surfaces that tell.
     pub(super) inside: ([u32; 4], Vec<Boundary>),
     pub(super) sky: SkySource,
@@ -58,28 +61,32 @@ pub(super) struct Front<'a> {
 /// When the scene is too large for the format.
 pub fn lower(
     scene: &Scene,
-    loaded: &Loaded,
+    loaded: Loaded,
     trees: &Trees<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Lowered, LowerError> {
     let start = Instant::now();
-    let mut materials = MaterialTable::new(scene, loaded);
-    let facts = MeshFacts::of(scene, loaded);
+    let mut materials = MaterialTable::new(scene, &loaded);
+    let facts = MeshFacts::of(scene, &loaded);
     let plan = Plan::new(scene, &facts, trees.instancing, Shutter::of(&scene.camera));
-    let stage = Stage { scene, loaded, plan: &plan, known: &[] };
+    let stage = Stage { scene, loaded: &loaded, plan: &plan, known: &[] };
     let mut placement = place(&stage, Vec::new(), &mut materials, diagnostics);
     check_count(&placement)?;
-    let inside = inside(scene, loaded, &materials, &placement, diagnostics);
+    let inside = inside(scene, &loaded, &materials, &placement, diagnostics);
     let environment = loaded.environment.as_ref();
     let sky = SkySource::new(scene, environment, &mut materials.textures);
     let extents = extents(&placement);
     let ball = extent::receivers(&extents);
     let sky_area = power::weigh(&mut placement, ball);
     let frame = extent::frame(&extents, motion::ends(&placement));
+    let sketch = Sketch::of(&frame, &materials, Counters::default());
+    // What was read is copied: from here on it would only take room.
+    let materials = materials.without_files(scene);
+    drop(loaded);
     let meshes = placement.meshes.iter().map(Stored::known).collect();
     let before: Vec<(Ends, Ends)> = placement.spans().collect();
     let (corners, welded, counters) = weld_all(&mut placement, &frame);
-    let things = KnownThing::all(scene, &placement, &before, extents, facts);
+    let things = KnownThing::all(scene, &placement, &before, extents, &facts);
     let emitters = roster::emitters(&things, &placement);
     let roster = Roster { things, plan, meshes, emitters, ball, at: Vec::new() };
     let times = Times { geometry: start.elapsed(), ..Times::default() };
@@ -91,6 +98,7 @@ pub fn lower(
         counters,
         frame,
         materials,
+        sketch,
         inside,
         sky,
         sky_area,
@@ -106,7 +114,7 @@ impl Front<'_> {
     pub(super) fn finish(
         self,
         trees: &Trees<'_>,
-        earlier: Option<(&Arc<Pack>, &Sketch)>,
+        earlier: Option<&Arc<Pack>>,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Result<Lowered, LowerError> {
         let Self { scene, mut placement, corners, welded, mut counters, frame, materials, .. } =
@@ -126,7 +134,7 @@ impl Front<'_> {
         let instances = instances(&placement, &joined, &motions, &frame);
         let powers = power::powers(&placement.emitters, &materials, flux);
         let declared = Declared { corners: corners.all, welded, balls };
-        let mut ordered = order(&placement, &powers, declared, &joined);
+        let mut ordered = order(&mut placement, &powers, declared, &joined);
         ordered.count(&mut counters);
         roster.at = std::mem::take(&mut ordered.triangle_at);
         times.order = start.elapsed();
@@ -140,12 +148,8 @@ impl Front<'_> {
             boundaries,
             n_trees: report.groups,
             counters,
-            ..match earlier {
-                Some((_, sketch)) => sketch.clone(),
-                None => Sketch::of(&frame, &materials, counters),
-            }
+            ..self.sketch
         };
-        let earlier = earlier.map(|(pack, _)| pack);
         let light_nodes = light_tree(&mut ordered, materials.records(), &motions, earlier);
         let (sky, sky_table) = self.sky.records(&ordered.lights);
         diagnostics.extend(finish::darkness(scene, &ordered.lights, sky.as_ref()));
@@ -157,13 +161,7 @@ impl Front<'_> {
         let objects = finish::objects(&placement.things, &materials, &frame, !still);
         let instances = forget_objects(&objects, &mut ordered, instances);
         motion::mark(&objects, &mut ordered);
-        let (textures, texels) = match earlier {
-            None => {
-                let (textures, texels) = textures.into_records();
-                (textures, texels.into())
-            }
-            Some(pack) => (pack.records().to_vec(), Rows::kept(pack, Kind::TEXEL, Pack::texels)),
-        };
+        let (textures, texels) = images(textures, earlier);
         Ok(Lowered {
             render: settings(scene, &frame, joined.entry(), (inside, around), ordered.lights.len()),
             camera: camera::camera(&scene.camera, &frame),
@@ -190,6 +188,18 @@ impl Front<'_> {
             roster: still.then_some(roster),
         })
     }
+}
+
+/// Textures and texels, those of an `earlier` pack if there is one.
+fn images(
+    made: TextureTable<'_>,
+    earlier: Option<&Arc<Pack>>,
+) -> (Vec<abi::Texture>, Rows<[u32; 4]>) {
+    let Some(pack) = earlier else {
+        let (textures, texels) = made.into_records();
+        return (textures, texels.into());
+    };
+    (pack.records().to_vec(), Rows::kept(pack, Kind::TEXEL, Pack::texels))
 }
 
 /// Triangles in the normalised frame, those of the world and those of meshes that are stored once, and their

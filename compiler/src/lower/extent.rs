@@ -74,7 +74,9 @@ fn extent(placement: &Placement, (from, to): (Ends, Ends)) -> Extent {
     }
     let corners = &placement.corners[from.triangles as usize..to.triangles as usize];
     for (corners, glows) in corners.iter().zip(triangles) {
-        corners.iter().for_each(|p| extent.add(*p, glows));
+        for p in corners {
+            extent.add(*p, glows);
+        }
     }
     for (center, radius) in &placement.spheres[from.spheres as usize..to.spheres as usize] {
         extent.add(*center - *radius, sphere_glows);

@@ -13,12 +13,13 @@ use glam::DVec3;
 use lang::diagnostic::Diagnostic;
 use lang::scene::{Scene, Shape};
 use pack::Pack;
-use pack::abi::{NONE, TRI_SMOOTH};
+use pack::abi::{LightKind, NONE, TRI_SMOOTH, TriShade};
 
 use super::assemble::{Front, check_count, normalised};
-use super::extent::{self, extents};
+use super::extent::{self, Extent, extents};
 use super::geometry::{Ends, Placement, Stage, place};
 use super::inside::{Boundary, Solids, boundaries};
+use super::light::Emitter;
 use super::lowered::{Counters, LowerError, Lowered, Times};
 use super::material::MaterialTable;
 use super::motion::Shutter;
@@ -26,9 +27,10 @@ use super::roster::{self, Earlier, KnownThing, Roster};
 use super::share::Plan;
 use super::sketch::Sketch;
 use super::sky_source::SkySource;
-use super::trees::{Trees, add_meshes};
+use super::trees::{Corners, Trees, add_meshes};
 use super::{Loaded, medium, power, thick};
-use crate::weld::weld_again;
+use crate::normalize::Normalization;
+use crate::weld::{Welded, weld_again};
 
 /// What an earlier compilation left.
 #[derive(Clone, Copy, Debug)]
@@ -43,6 +45,7 @@ pub struct Left<'a> {
 
 /// Which mesh files must be loaded before a scene can be lowered after things moved, by their index in the scene.
 /// `None` if everything must be done.
+#[must_use]
 pub fn files_of_moved(scene: &Scene, roster: &Roster, trees: &Trees<'_>) -> Option<Vec<bool>> {
     let plan = plan(scene, roster, trees)?;
     let mut needed = vec![false; scene.assets.len()];
@@ -94,45 +97,27 @@ pub fn lower_moved(
     let boundaries = boundaries_again(&placed, &materials, sketch, &known);
     thick::check(scene, loaded, diagnostics);
     let inside = inside(scene, &materials, &placed, &boundaries, diagnostics);
-
-    let mut boxes = extents(&placed);
-    for (index, extent) in boxes.iter_mut().enumerate().filter(|(index, _)| is(&known, *index)) {
-        *extent = roster.things[index].extent;
-    }
-    let frame = extent::frame(&boxes, Vec::new());
-    let bits = |center: [f64; 3]| center.map(f64::to_bits);
-    let same_frame = (bits(frame.center), frame.exponent) == (bits(sketch.frame.0), sketch.frame.1);
-    if !same_frame || extent::receivers(&boxes) != roster.ball {
-        return None;
-    }
+    let boxes = boxes(&placed, left, &known)?;
     let sky_area = power::weigh(&mut placed, roster.ball);
 
     let mut counters = Counters::default();
     let before: Vec<(Ends, Ends)> = placed.spans().collect();
+    let frame = Normalization { center: sketch.frame.0, exponent: sketch.frame.1 };
     let corners = normalised(&mut placed, &frame, &mut counters);
-    let facts = roster.things.iter().map(|thing| thing.facts).collect();
-    let mut things = KnownThing::all(scene, &placed, &before, boxes, facts);
-    for (index, thing) in things.iter_mut().enumerate().filter(|(index, _)| is(&known, *index)) {
-        *thing = roster.things[index];
-        counters.dropped_triangles += u64::from(thing.dropped);
+    let facts: Vec<_> = roster.things.iter().map(|thing| thing.facts).collect();
+    let mut things = KnownThing::all(scene, &placed, &before, boxes, &facts);
+    for (thing, from) in kept(&mut things, &roster.things, &known) {
+        *thing = *from;
+        counters.dropped_triangles += u64::from(from.dropped);
     }
-    let World { mut placement, corners, mut ids } = World::of(placed, &corners, &known, &earlier);
-    if let Err(error) = check_count(&placement) {
+    let world = World::of(placed, &corners, &known, &earlier);
+    if let Err(error) = check_count(&world.placement) {
         return Some(Err(error));
     }
-    let emitters = roster::emitters(&things, &placement);
-    let corners = add_meshes(&mut placement, corners, &mut counters);
-    ids.extend(mesh_ids);
-    let welded = weld_again(&corners.all, ids, sketch.counters.vertices)?;
-    counters.vertices = u64::from(welded.n_ids);
-    let roster = Roster {
-        things,
-        plan,
-        meshes: roster.meshes.clone(),
-        emitters,
-        ball: roster.ball,
-        at: Vec::new(),
-    };
+    let emitters = roster::emitters(&things, &world.placement);
+    let (meshes, ball, at) = (roster.meshes.clone(), roster.ball, Vec::new());
+    let roster = Roster { things, plan, meshes, emitters, ball, at };
+    let (placement, corners, welded) = world.weld(mesh_ids, sketch, &mut counters)?;
     let times = Times { geometry: start.elapsed(), ..Times::default() };
     let front = Front {
         scene,
@@ -142,13 +127,37 @@ pub fn lower_moved(
         counters,
         frame,
         materials,
+        sketch: sketch.clone(),
         inside: (inside, boundaries),
         sky,
         sky_area,
         roster,
         times,
     };
-    Some(front.finish(trees, Some((pack, sketch)), diagnostics))
+    Some(front.finish(trees, Some(pack), diagnostics))
+}
+
+/// The boxes of all things; `None` if the frame of the scene or the ball of what receives light is another.
+fn boxes(placed: &Placement, left: Left<'_>, known: &[bool]) -> Option<Vec<Extent>> {
+    let mut boxes = extents(placed);
+    for (extent, from) in kept(&mut boxes, &left.roster.things, known) {
+        *extent = from.extent;
+    }
+    let frame = extent::frame(&boxes, Vec::new());
+    let bits = |center: [f64; 3]| center.map(f64::to_bits);
+    let (center, exponent) = left.sketch.frame;
+    let same_frame = (bits(frame.center), frame.exponent) == (bits(center), exponent);
+    (same_frame && extent::receivers(&boxes) == left.roster.ball).then_some(boxes)
+}
+
+/// What there is of each known thing, beside what the roster says of it.
+fn kept<'a, T>(
+    all: &'a mut [T],
+    things: &'a [KnownThing],
+    known: &'a [bool],
+) -> impl Iterator<Item = (&'a mut T, &'a KnownThing)> {
+    let pairs = all.iter_mut().zip(things).enumerate();
+    pairs.filter(|(index, _)| is(known, *index)).map(|(_, pair)| pair)
 }
 
 fn is(known: &[bool], index: usize) -> bool {
@@ -231,18 +240,36 @@ impl World {
                 world.corners.extend_from_slice(&corners[triangles.clone()]);
                 world.placement.shades.extend_from_slice(&shades[triangles]);
                 let own = &emitters[from.emitters as usize..to.emitters as usize];
-                world.placement.emitters.extend(own.iter().map(|emitter| {
-                    let is_sphere = emitter.kind == pack::abi::LightKind::Sphere;
-                    let moved = emitter.primitive + first;
-                    let primitive =
-                        if is_sphere { emitter.primitive } else { moved - from.triangles };
-                    super::light::Emitter { primitive, ..*emitter }
-                }));
+                // Spheres are all placed now: their numbers stay.
+                let shift = |emitter: &Emitter| match emitter.kind {
+                    LightKind::Sphere => *emitter,
+                    _ => Emitter {
+                        primitive: emitter.primitive - from.triangles + first,
+                        ..*emitter
+                    },
+                };
+                world.placement.emitters.extend(own.iter().map(shift));
             }
             spheres += to.spheres - from.spheres;
             world.placement.close_with(spheres);
         }
         world
+    }
+
+    /// With what is stored once, whose corners were called `mesh_ids`, and every corner called anew. `None` if what
+    /// they were called cannot be.
+    fn weld(
+        self,
+        mesh_ids: Vec<[u32; 3]>,
+        sketch: &Sketch,
+        counters: &mut Counters,
+    ) -> Option<(Placement, Corners, Welded)> {
+        let Self { mut placement, corners, mut ids } = self;
+        let corners = add_meshes(&mut placement, corners, counters);
+        ids.extend(mesh_ids);
+        let welded = weld_again(&corners.all, ids, sketch.counters.vertices)?;
+        counters.vertices = u64::from(welded.n_ids);
+        Some((placement, corners, welded))
     }
 
     /// Adds a thing whose triangles the pack has.
@@ -253,7 +280,7 @@ impl World {
             self.corners.push([triangle.v0, triangle.v1, triangle.v2]);
             self.ids.push([triangle.id0, triangle.id1, triangle.id2]);
             let object = thing as u32 | shade.object & TRI_SMOOTH;
-            self.placement.shades.push(pack::abi::TriShade { object, ..shade });
+            self.placement.shades.push(TriShade { object, ..shade });
         }
         self.placement.emitters.extend(earlier.emitters_of(thing, first));
     }

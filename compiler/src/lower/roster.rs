@@ -66,7 +66,7 @@ impl KnownThing {
         placement: &Placement,
         before: &[(Ends, Ends)],
         extents: Vec<Extent>,
-        facts: Vec<Option<MeshFacts>>,
+        facts: &[Option<MeshFacts>],
     ) -> Vec<Self> {
         let n_triangles = |(from, to): &(Ends, Ends)| to.triangles - from.triangles;
         let spans: Vec<(Ends, Ends)> = placement.spans().collect();

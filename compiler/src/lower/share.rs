@@ -87,7 +87,7 @@ impl Plan {
             return plan;
         }
         let least = MIN_SIZE * extent(scene, shutter);
-        let mut meshes: BTreeMap<(usize, Option<&str>), (usize, Vec<usize>)> = BTreeMap::new();
+        let mut meshes = BTreeMap::<MeshName<'_>, (usize, Vec<usize>)>::new();
         for (index, (instance, facts)) in scene.instances.iter().zip(facts).enumerate() {
             let (Shape::Mesh { asset, part }, Some(facts)) = (&instance.shape, facts) else {
                 continue;
@@ -121,6 +121,9 @@ impl Plan {
     }
 }
 
+/// Asset and part.
+type MeshName<'a> = (usize, Option<&'a str>);
+
 /// What the plan knows of the mesh of an instance.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct MeshFacts {
@@ -134,7 +137,7 @@ pub(super) struct MeshFacts {
 impl MeshFacts {
     /// Of all instances; `None` for what is no mesh, or has no file.
     pub(super) fn of(scene: &Scene, loaded: &Loaded) -> Vec<Option<Self>> {
-        let mut meshes: BTreeMap<(usize, Option<&str>), Mesh<'_>> = BTreeMap::new();
+        let mut meshes: BTreeMap<MeshName<'_>, Mesh<'_>> = BTreeMap::new();
         let mut facts = Vec::with_capacity(scene.instances.len());
         for instance in &scene.instances {
             let Shape::Mesh { asset, part } = &instance.shape else {

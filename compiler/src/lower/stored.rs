@@ -110,7 +110,7 @@ impl Stored {
     ) -> Self {
         let KnownMesh { center, exponent, dropped, .. } = *known;
         let center = DVec3::from(center);
-        let mut mesh = Self { center, exponent, dropped, corners, shades, ..Self::default() };
+        let mut mesh = Self { corners, shades, dropped, center, exponent, ..Self::default() };
         mesh.measure();
         mesh
     }

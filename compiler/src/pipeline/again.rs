@@ -130,7 +130,7 @@ pub fn compile_again(
         let known = (earlier, &memory.sketch);
         lower_again(scene, &essence.sky, known, &options.trees, &mut found)
     } else {
-        moved((scene, essence), sources, options, (earlier, &memory), reuse, &mut found)
+        moved((scene, essence), sources, options, (earlier, memory), reuse, &mut found)
     };
     let Some(mut lowered) = lowered else { return Ok(None) };
     let failed = found.iter().any(Diagnostic::is_error);
