@@ -17,6 +17,7 @@ mod cut;
 mod fragment;
 mod join;
 mod pieces;
+mod plan;
 mod preset;
 mod probe;
 mod quantize;
@@ -38,8 +39,9 @@ pub use check::TreeFault;
 pub use fragment::{Bounds, COORD_MAX, Fragment, MAX_PRIMITIVES};
 pub use join::{Group, GroupKind, Joined, join, stack_need};
 pub use pieces::Split;
+pub use plan::{SMALL_MESH, plan};
 pub use preset::{Preset, UnknownPreset};
-pub use scene::{BuildReport, Primitives, SMALL_MESH, Shared, build_instanced, build_scene, plan};
+pub use scene::{BuildReport, Primitives, Shared, build_instanced, build_scene};
 pub use wide::{Layout, UnknownLayout, widen, widen_all};
 
 /// The tree of one group of primitives, with indices local to the group. Leaves are written as

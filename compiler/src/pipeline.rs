@@ -23,7 +23,7 @@ use crate::import::Limits;
 use crate::lower::{self, LowerError, Lowered, Rows, Trees};
 use crate::reuse::{Reuse, Reused, Share};
 
-pub use again::{Memory, compile_again};
+pub use again::{EncodedRoster, Memory, compile_again};
 pub use essence::Essence;
 pub use load::FileRead;
 
@@ -66,6 +66,8 @@ pub struct Compiled {
     pub files: Vec<FileRead>,
     /// What is left for the next compilation; `None` where it could not use it.
     pub memory: Option<Memory>,
+    /// What is left of each thing; `None` also where that is in the cache.
+    pub roster: Option<EncodedRoster>,
     /// What was taken over from earlier compilations.
     pub reused: Reused,
     /// What took how long.
@@ -122,8 +124,7 @@ pub fn compile_reusing(
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(CompileError::Scene);
     }
-    let mut lowered = lower::lower(scene, &loaded, &options.trees, diagnostics)?;
-    drop(loaded);
+    let mut lowered = lower::lower(scene, loaded, &options.trees, diagnostics)?;
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(CompileError::Scene);
     }
@@ -136,9 +137,19 @@ pub fn compile_reusing(
     let trees = Share { reused: lowered.trees.loaded, all: lowered.trees.groups };
     let reused = Reused { texts: sources.ids().count(), trees, ..reuse.counts() };
     let essence = Essence::new(scene, sources);
-    let memory = lowered.sketch.take().map(|sketch| Memory::new(&essence, &files, sketch));
-    let phases = clock.phases;
-    Ok(Compiled { lowered, features, kernel, manifest, recipe_id, files, memory, reused, phases })
+    let (memory, roster) = Memory::of(&essence, &files, &mut lowered, None);
+    Ok(Compiled {
+        lowered,
+        features,
+        kernel,
+        manifest,
+        recipe_id,
+        files,
+        memory,
+        roster,
+        reused,
+        phases: clock.phases,
+    })
 }
 
 /// The kernel of a scene and its size. It is proven to read the bytes that the pack has; that of a pack which this

@@ -36,6 +36,18 @@ pub struct Share {
     pub all: usize,
 }
 
+/// What of the geometry and the textures was taken over from an earlier pack.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Geometry {
+    /// Nothing: all files were read.
+    #[default]
+    Nothing,
+    /// Textures, and all meshes but those that stand elsewhere: only their files were read.
+    OfOthers,
+    /// Everything: no file was read.
+    All,
+}
+
 /// What a compilation took over and what it did anew.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Reused {
@@ -45,8 +57,8 @@ pub struct Reused {
     pub meshes: Share,
     /// Image files that textures name; those of mesh files belong to these.
     pub images: Share,
-    /// Everything that is made of files is that of an earlier pack: none was read.
-    pub geometry: bool,
+    /// What is made of files and is that of an earlier pack.
+    pub geometry: Geometry,
     /// Trees.
     pub trees: Share,
     /// The proof of the kernel.

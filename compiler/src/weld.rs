@@ -44,6 +44,58 @@ pub fn weld(triangles: &[[[f32; 3]; 3]]) -> Welded {
     Welded { ids, n_ids }
 }
 
+/// As [`weld`], where most triangles were welded before: `before` has the ids of their corners then, below `n_before`,
+/// and `u32::MAX` three times for the others. `None` if these cannot be such ids.
+#[must_use]
+pub fn weld_again(
+    triangles: &[[[f32; 3]; 3]],
+    before: Vec<[u32; 3]>,
+    n_before: u64,
+) -> Option<Welded> {
+    const NEW: u32 = u32::MAX;
+    let n_before = usize::try_from(n_before).ok().filter(|_| before.len() == triangles.len())?;
+    let (mut ids, corners) = (before, triangles.as_flattened());
+    let mut known: Vec<Option<u128>> = vec![None; n_before];
+    let mut new: Vec<u128> = Vec::new();
+    for (id, p) in ids.as_flattened().iter().zip(corners) {
+        if *id == NEW {
+            new.push(position_bits(p));
+        } else {
+            *known.get_mut(*id as usize)? = Some(position_bits(p));
+        }
+    }
+    new.sort_unstable();
+    new.dedup();
+    // Both lists ascend: one walk through both gives every position its rank.
+    let (mut id_of_known, mut id_of_new) = (vec![NEW; n_before], vec![NEW; new.len()]);
+    let (mut n_ids, mut next, mut last) = (0_u32, 0, None);
+    for (id, position) in id_of_known.iter_mut().zip(&known) {
+        let Some(position) = *position else { continue };
+        if last >= Some(position) {
+            return None;
+        }
+        last = Some(position);
+        while next < new.len() && new[next] < position {
+            (id_of_new[next], n_ids, next) = (n_ids, n_ids + 1, next + 1);
+        }
+        if new.get(next) == Some(&position) {
+            (id_of_new[next], next) = (n_ids, next + 1);
+        }
+        (*id, n_ids) = (n_ids, n_ids + 1);
+    }
+    for id in &mut id_of_new[next..] {
+        (*id, n_ids) = (n_ids, n_ids + 1);
+    }
+    for (id, p) in ids.as_flattened_mut().iter_mut().zip(corners) {
+        *id = if *id == NEW {
+            id_of_new[new.binary_search(&position_bits(p)).ok()?]
+        } else {
+            id_of_known[*id as usize]
+        };
+    }
+    Some(Welded { ids, n_ids })
+}
+
 /// The bits of x, y, z from high to low; both zeros are the same.
 fn position_bits(p: &[f32; 3]) -> u128 {
     p.iter().fold(0, |bits, x| bits << 32 | u128::from((x + 0.0).to_bits()))
@@ -69,6 +121,30 @@ mod tests {
         assert_eq!(w.ids[0], [0, 1, 2]);
         assert_eq!(w.ids[1], [2, 0, 1]);
         assert_eq!(w.ids[2], [3, 3, 3]);
+    }
+
+    #[test]
+    fn welding_again_gives_what_welding_gives() {
+        let all: Vec<_> = (0..60_u16)
+            .map(|i| {
+                let at = |k: u16| f32::from(i * k % 17) - 8.0;
+                tri(at(1), at(3), at(5))
+            })
+            .collect();
+        let before = weld(&all);
+        for step in 2..9 {
+            let (mut moved, mut ids) = (all.clone(), before.ids.clone());
+            for (i, k) in (0..all.len()).zip(0_u16..).step_by(step) {
+                moved[i] = tri(0.25 * f32::from(k), all[i][0][0], -0.0);
+                ids[i] = [u32::MAX; 3];
+            }
+            let again = weld_again(&moved, ids, before.n_ids.into());
+            assert_eq!(again, Some(weld(&moved)));
+        }
+        assert_eq!(weld_again(&all, before.ids.clone(), 1), None);
+        let mut wrong = before.ids;
+        wrong.reverse();
+        assert_eq!(weld_again(&all, wrong, before.n_ids.into()), None);
     }
 
     #[test]

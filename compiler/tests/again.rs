@@ -21,6 +21,9 @@ instance near[i in 0..4] { shape = land, material = brass, at = (3 * i, 0.5, -4)
 instance beam { shape = box(size: (2, 0.2, 0.2)m), material = oak, at = (0, 2, 0)m }
 instance ball { shape = sphere(radius: 20cm), material = glass, at = (1, 1, 2)m }
 instance panel { shape = rectangle(size: (1, 1)m), material = glow, at = (0, 4, 0)m }
+instance sign { shape = land, material = glow, at = (0, 3.5, -2)m, scale = 0.1 }
+instance floor { shape = rectangle(size: (40, 40)m), material = clay, at = (0, -1, 0)m }
+instance moon { shape = sphere(radius: 10cm), material = clay, at = (0, 9, 0)m }
 instance pond { shape = box(size: (2, 1, 2)m), material = sea, at = (6, 0, 0)m }
 light lamp: sphere { center = (0, 3, 0)m, radius = 10cm, strength = 5 }
 sky dusk: gradient {
@@ -31,6 +34,14 @@ camera eye: perspective { from = (0, 1, 6)m, to = (0, 1, 0)m }
 film wide { size = (64, 36)px }
 render main: path { samples = 1, sky = dusk, atmosphere = haze, film = wide }
 ";
+
+/// What of the geometry was taken over.
+#[derive(Debug, PartialEq, Eq)]
+enum Reuse {
+    Nothing,
+    OfOthers,
+    All,
+}
 
 struct Folder(tempfile::TempDir);
 
@@ -104,10 +115,21 @@ impl Folder {
 
     /// Compiles; says whether geometry was taken over. The pack is that of compiling everything.
     fn takes_over(&self, what: &str) -> bool {
+        self.reuse(what) == Reuse::All
+    }
+
+    /// Compiles; says what of the geometry was taken over. The pack is that of compiling everything.
+    fn reuse(&self, what: &str) -> Reuse {
         let log = self.rtc("cache", "a.pack", &[]);
         self.rtc("none", "b.pack", &["--no-cache"]);
         assert!(self.read("a.pack") == self.read("b.pack"), "{what}: other bytes; {log}");
-        log.contains("reused the geometry and the textures of the last pack")
+        if log.contains("reused the geometry and the textures of the last pack") {
+            Reuse::All
+        } else if log.contains("the geometry of what has not moved") {
+            Reuse::OfOthers
+        } else {
+            Reuse::Nothing
+        }
     }
 }
 
@@ -145,11 +167,84 @@ fn what_is_taken_over_is_what_would_be_made() {
 }
 
 #[test]
+fn what_does_not_move_is_taken_over() {
+    let folder = Folder::new();
+    assert_eq!(folder.reuse("at first"), Reuse::Nothing);
+    for (from, to) in [
+        // A mesh with triangles of its own, and away from the others.
+        ("shape = land, material = clay", "shape = land, material = clay, at = (0.1, 0, 0)m"),
+        ("at = (0.1, 0, 0)m", "at = (0.5, 0, 0)m, rotate = (0, 30, 5)deg, scale = (0.9, -1, 0.5)"),
+        ("at = (0.5, 0, 0)m, rotate", "at = (0.5, 0.5, 0.5)m, rotate"),
+        // One that gives light.
+        ("at = (0, 3.5, -2)m", "at = (0.5, 3, -1)m"),
+        // Places of a mesh that is stored once.
+        ("turn: number = 20", "turn: number = 21"),
+        ("at = (3 * i, 0.5, -4)m", "at = (3 * i, 0.5 + 0.1 * i, -4)m"),
+        // A box of wood, a ball that is filled, a panel that gives light, and a light.
+        ("at = (0, 2, 0)m", "at = (0.25, 2, 0)m, rotate = (0, 10, 0)deg"),
+        ("at = (1, 1, 2)m", "at = (1, 1.2, 2)m"),
+        ("at = (0, 4, 0)m", "at = (0, 4, 1)m, scale = 2"),
+        ("center = (0, 3, 0)m", "center = (1, 3, 0)m"),
+        // The camera comes to be inside of the ball, with which everything else changes, too.
+        ("from = (0, 1, 6)m", "from = (1, 1.2, 2)m"),
+        ("at = (1, 1.2, 2)m", "at = (1, 1, 2)m, scale = 2"),
+        ("fuzz = 0.2", "fuzz = 0.3"),
+        ("turn: number = 21", "turn: number = 22"),
+        ("at = (0.5, 0.5, 0.5)m, rotate = (0, 30, 5)deg, scale = (0.9, -1, 0.5)", "scale = 0.5"),
+        // Another sky, while something moves.
+        ("disc.color = linear(9, 9, 8), disc.power = 60\n}", "disc.color = linear(0, 0, 0)\n}"),
+        ("scale = 0.5 }\ninstance near", "scale = 0.25 }\ninstance near"),
+    ] {
+        folder.edit(from, to);
+        let reuse = folder.reuse(to);
+        assert_ne!(reuse, Reuse::Nothing, "{to}");
+    }
+    folder.edit("at = (0.5, 3, -1)m", "at = (0.5, 3, -0.5)m");
+    folder.edit("fuzz = 0.3", "fuzz = 0.1");
+    assert_eq!(folder.reuse("a move and a number"), Reuse::OfOthers);
+}
+
+#[test]
+fn moves_that_change_more_are_made_anew() {
+    let folder = Folder::new();
+    assert_eq!(folder.reuse("at first"), Reuse::Nothing);
+    for (from, to) in [
+        // The frame of the scene.
+        ("at = (6, 0, 0)m", "at = (60, 0, 0)m"),
+        // Other triangles have no area.
+        ("at = (60, 0, 0)m", "at = (600000000, 0, 0)m"),
+        ("at = (600000000, 0, 0)m", "at = (6, 0, 0)m"),
+        // Another name is another thing.
+        ("instance beam", "instance balk"),
+    ] {
+        folder.edit(from, to);
+        assert_eq!(folder.reuse(to), Reuse::Nothing, "{to}");
+    }
+    folder.edit("at = (0, 2, 0)m", "at = (0, 2, 0.1)m");
+    assert_eq!(folder.reuse("a beam within"), Reuse::OfOthers);
+}
+
+#[test]
+fn warnings_of_moves_are_those_of_compiling_everything() {
+    let folder = Folder::new();
+    assert_eq!(folder.reuse("at first"), Reuse::Nothing);
+    // The ball, filled with milk, and the pond overlap.
+    folder.edit("at = (1, 1, 2)m", "at = (5.1, 0.5, 0)m, scale = 3");
+    let log = folder.rtc("cache", "a.pack", &[]);
+    let whole = folder.rtc("none", "b.pack", &["--no-cache"]);
+    let warnings = |log: &str| log.lines().filter(|line| line.contains("warning")).count();
+    assert!(warnings(&whole) > 0 && warnings(&log) == warnings(&whole), "{log}\n{whole}");
+    assert!(folder.read("a.pack") == folder.read("b.pack"));
+    // What warned is not remembered.
+    folder.edit("at = (0, 2, 0)m", "at = (0, 2, 0.1)m");
+    assert_eq!(folder.reuse("after warnings"), Reuse::Nothing);
+}
+
+#[test]
 fn what_geometry_depends_on_is_made_anew() {
     let folder = Folder::new();
     assert!(!folder.takes_over("at first"));
     for (from, to) in [
-        ("turn: number = 20", "turn: number = 21"),
         ("radius: 20cm", "radius: 21cm"),
         ("material = oak", "material = brass"),
         ("material = brass, at = (0, 2, 0)m", "material = oak, at = (0, 2, 0)m"),

@@ -59,7 +59,8 @@ fn peak() -> u64 {
 pub(crate) struct Cost {
     pub(crate) cpu: f64,
     pub(crate) wall: f64,
-    peak: u64,
+    /// Most memory, bytes.
+    pub(crate) peak: u64,
     /// The last line that `rtc` said.
     said: String,
 }

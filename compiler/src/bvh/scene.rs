@@ -13,13 +13,11 @@ use glam::Vec4;
 use rayon::prelude::*;
 
 use super::join::{Group, GroupKind, Joined, join_groups};
+use super::plan::{SMALL_MESH, plan};
 use super::probe::visits;
 use super::top::{Door, Piece, knots};
 use super::{Bounds, BvhError, Fragment, Input, MAX_PRIMITIVES, Preset};
 use crate::cache::{Cache, CacheWarning, Cached, Source};
-
-/// Meshes of fewer triangles share a group: the cache would not keep their trees anyway.
-pub const SMALL_MESH: usize = crate::cache::MIN_PRIMITIVES;
 
 /// The primitives of a scene when the shutter opens, in the frame in which the kernel sees them.
 #[derive(Clone, Copy, Debug)]
@@ -69,29 +67,6 @@ pub struct BuildReport {
     pub warnings: Vec<CacheWarning>,
 }
 
-/// Which meshes share a tree, as ranges of triangles of the scene. A mesh of at least [`SMALL_MESH`]
-/// triangles has its own tree, so that it is found in the cache whatever else the scene holds. All
-/// smaller ones are one group, the last: a tree over their triangles is better than a tree over
-/// their trees, and takes no longer to build.
-#[must_use]
-pub fn plan(mesh_sizes: &[usize]) -> Vec<Vec<Range<u32>>> {
-    let mut groups = Vec::new();
-    let mut small = Vec::new();
-    let mut first = 0;
-    for &size in mesh_sizes {
-        let end = first + size;
-        let bound = |x: usize| u32::try_from(x).expect("checked by the caller");
-        match size {
-            0 => {}
-            _ if size < SMALL_MESH => small.push(bound(first)..bound(end)),
-            _ => groups.push(std::iter::once(bound(first)..bound(end)).collect()),
-        }
-        first = end;
-    }
-    groups.extend((!small.is_empty()).then_some(small));
-    groups
-}
-
 /// Builds the tree of a scene.
 ///
 /// Meshes that fill the same space all over (leaves and twigs, halves of one shell) remain tangled
@@ -123,7 +98,7 @@ pub fn build_instanced(
     check_counts(primitives, shared)?;
     let doors: Vec<Door> = shared.instances.iter().map(|instance| door(shared, instance)).collect();
     let mut report = BuildReport { preset, ..BuildReport::default() };
-    let by_mesh = plan(primitives.mesh_sizes);
+    let by_mesh = plan(primitives.triangles, primitives.mesh_sizes);
     let groups = build_groups(primitives, by_mesh, preset, cache, &mut report)?;
     let (mut joined, tangled) = join_groups(&groups, &doors)?;
     let knots = tangled.map_or_else(Vec::new, |pieces| knots_of_triangles(&groups, pieces));
@@ -150,8 +125,11 @@ pub fn build_instanced(
 
 /// The groups of triangles that fill the same space, see [`knots`].
 fn knots_of_triangles(groups: &[Group], mut pieces: Vec<Piece>) -> Vec<Vec<usize>> {
-    let of_triangles = |group: &Group| group.kind == GroupKind::Triangles;
-    pieces.retain(|piece| groups.get(piece.group).is_some_and(of_triangles));
+    let is_large = |group: &Group| {
+        let is_mesh = group.kind == GroupKind::Triangles && group.members.len() == 1;
+        is_mesh && group.tree.n_primitives() >= SMALL_MESH
+    };
+    pieces.retain(|piece| groups.get(piece.group).is_some_and(is_large));
     knots(groups.len(), &pieces)
 }
 

@@ -138,9 +138,10 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
     let silent = silent && compiled.lowered.trees.warnings.is_empty();
     let pack = [render_id, compiled.recipe_id];
     let memory = compiled.memory.as_ref().filter(|_| whole);
+    let roster = compiled.roster.as_ref().filter(|_| memory.is_some());
     if silent || memory.is_some() {
         let now = edited.map(Edited::now).unwrap_or_default();
-        job.keep(&cache, reuse, &Done { texts, pack, silent, memory, now });
+        job.keep(&cache, reuse, &Done { texts, pack, silent, memory, roster, now });
     }
     explained(args, &output, reporter)
 }

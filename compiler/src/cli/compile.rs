@@ -78,7 +78,7 @@ pub(super) fn compile(
         let essence = Essence::new(&scene, &sources);
         let found = job.earlier(trees.cache, edited, |memory: &Memory| memory.fits(&essence));
         let Some((pack, memory)) = found else { return Ok(None) };
-        let (what, known) = ((&scene, &essence), (&Arc::new(pack), memory));
+        let (what, known) = ((&scene, &essence), (&Arc::new(pack), &memory));
         pipeline::compile_again(what, &sources, &options, known, reuse, &mut diagnostics)
     };
     let taken_over = again();

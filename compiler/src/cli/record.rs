@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 
 use crate::cache::Cache;
 use crate::lower::Trees;
-use crate::pipeline::Memory;
+use crate::pipeline::{EncodedRoster, Memory};
 use crate::reuse::{Reuse, Stamp};
 
 /// Which compilation it is.
@@ -75,6 +75,8 @@ pub(super) struct Done<'a> {
     pub(super) silent: bool,
     /// What is left for the next one.
     pub(super) memory: Option<&'a Memory>,
+    /// What is left of each thing, if that is new.
+    pub(super) roster: Option<&'a EncodedRoster>,
     /// What is known of files already.
     pub(super) now: FilesNow,
 }
@@ -169,6 +171,9 @@ impl Job<'_> {
         };
         if cache.root().is_none() {
             return;
+        }
+        if let Some(roster) = done.roster {
+            roster.store(cache);
         }
         let memory = done.memory.and_then(Memory::encode).and_then(|bytes| {
             let name = blake3::hash(&bytes);

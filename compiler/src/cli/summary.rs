@@ -8,7 +8,7 @@ use shaders::{FeatureSet, PORTABLE_STORAGE};
 
 use crate::lower::Counters;
 use crate::pipeline::{Compiled, Phase};
-use crate::reuse::{Reused, Share};
+use crate::reuse::{Geometry, Reused, Share};
 
 /// The pack and what is in it.
 pub(super) fn done(output: &Path, compiled: &Compiled, time: Duration) -> String {
@@ -122,9 +122,19 @@ fn phase_reuse(name: &str, reused: &Reused) -> String {
 /// One line about everything that was taken over, if anything was.
 pub(super) fn reused_text(reused: &Reused) -> Option<String> {
     let Reused { texts: _, meshes, images, geometry, trees, kernel } = reused;
-    if *geometry {
-        let proof = if kernel.reused > 0 { ", the proof of the kernel" } else { "" };
-        return Some(format!("reused the geometry and the textures of the last pack{proof}"));
+    let proof = if kernel.reused > 0 { ", the proof of the kernel" } else { "" };
+    match geometry {
+        Geometry::Nothing => {}
+        Geometry::OfOthers => {
+            let Share { reused, all } = trees;
+            return Some(format!(
+                "reused the textures of the last pack and the geometry of what has not moved, {reused} of {all} trees\
+                {proof}"
+            ));
+        }
+        Geometry::All => {
+            return Some(format!("reused the geometry and the textures of the last pack{proof}"));
+        }
     }
     let shares = [(meshes, "meshes"), (images, "images"), (trees, "trees")];
     let some = shares.into_iter().filter(|(share, _)| share.reused > 0);

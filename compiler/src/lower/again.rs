@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use lang::diagnostic::Diagnostic;
-use lang::scene::{Instance, Light, Scene, SkyModel};
+use lang::scene::{Instance, Light, Scene};
 use pack::abi::{self, LightKind, NONE};
 use pack::{Kind, Pack};
 
@@ -22,9 +22,9 @@ use super::motion::Shutter;
 use super::object::Thing;
 use super::rows::Rows;
 use super::sketch::{KnownEmitter, KnownSky, Sketch};
-use super::texture::TextureTable;
+use super::sky_source::SkySource;
 use super::trees::Trees;
-use super::{camera, medium, power, sky};
+use super::{camera, medium, power};
 use crate::bvh::BuildReport;
 use crate::normalize::Normalization;
 
@@ -40,17 +40,18 @@ pub fn lower_again(
     let (center, exponent) = sketch.frame;
     let frame = Normalization { center, exponent };
     let mut table = MaterialTable::again(scene, &sketch.materials, &sketch.textures)?;
-    let sky = sky_again(scene, sky_text, (pack, sketch), &mut table.textures)?;
+    let sky = SkySource::again(scene, sky_text, (pack, &sketch.sky), &mut table.textures)?;
     if !table.textures.is_as_known() {
         return None;
     }
     let mut lights = lights(pack, sketch, &table, sky.flux)?;
-    let light_nodes = light_tree(pack, &mut lights, table.records());
+    let light_nodes = finish::light_tree_again(pack, &mut lights)
+        .unwrap_or_else(|| finish::light_tree(&mut lights, table.records(), |_| DVec3::ZERO));
     let flux = sky.flux;
     let (sky_record, sky_table) = sky.records(&lights);
     diagnostics.extend(finish::darkness(scene, &lights, sky_record.as_ref()));
     let inside = inside(scene, sketch, table.records(), diagnostics);
-    let own_name = |index: usize| sketch.materials[index].own_name.as_deref().unwrap_or_default();
+    let own_name = |index: usize| sketch.own_name(index);
     let material_names = finish::names(scene, table.refs(), own_name);
     let declared = medium::records(scene, table.waters(), &frame);
     let (mut materials, _) = table.into_records();
@@ -88,6 +89,7 @@ pub fn lower_again(
             sky: KnownSky { text: sky_text.to_owned(), flux },
             ..sketch.clone()
         }),
+        roster: None,
     })
 }
 
@@ -116,24 +118,6 @@ fn lights(
     light::table_again(&emitters, &powers, &earlier[..n_geometry], &selected)
 }
 
-/// The tree of lights; that of the pack, if it has these very lights.
-fn light_tree(
-    pack: &Pack,
-    lights: &mut Vec<abi::Light>,
-    materials: &[abi::Material],
-) -> Vec<abi::LightNode> {
-    let earlier: &[abi::Light] = pack.records();
-    let without_trail = |light: &abi::Light| abi::Light { trail: 0, ..*light };
-    // As bytes: two numbers that are equal may differ in sign.
-    let same =
-        |(a, b)| bytemuck::bytes_of(&without_trail(a)) == bytemuck::bytes_of::<abi::Light>(b);
-    if earlier.len() == lights.len() && earlier.iter().zip(&*lights).all(same) {
-        *lights = earlier.to_vec();
-        return pack.records().to_vec();
-    }
-    finish::light_tree(lights, materials, |_| DVec3::ZERO)
-}
-
 /// What the camera is inside of.
 fn inside(
     scene: &Scene,
@@ -146,53 +130,4 @@ fn inside(
     }
     let solids = Solids::new(&sketch.boundaries, DVec3::from(scene.camera.from));
     solids.around_camera(scene, materials, diagnostics)
-}
-
-/// The sky, made now or taken over.
-struct Sky {
-    flux: Option<f64>,
-    form: Form,
-}
-
-enum Form {
-    Made(Option<sky::LoweredSky>),
-    Kept(Option<abi::Sky>, Vec<[f32; 4]>),
-}
-
-/// `None` if an image would have to be read.
-fn sky_again(
-    scene: &Scene,
-    text: &str,
-    (pack, sketch): (&Pack, &Sketch),
-    textures: &mut TextureTable<'_>,
-) -> Option<Sky> {
-    let is_image = scene.sky.as_ref().is_some_and(|s| matches!(s.model, SkyModel::Image { .. }));
-    if text == sketch.sky.text {
-        if is_image && pack.sky().is_some() {
-            textures.environment(None);
-        }
-        let table = pack.section_bytes(Kind::SKYTABLE).map_or(&[][..], bytemuck::cast_slice);
-        let form = Form::Kept(pack.sky().copied(), table.to_vec());
-        return Some(Sky { flux: sketch.sky.flux, form });
-    }
-    if is_image {
-        return None;
-    }
-    let made = scene.sky.as_ref().and_then(|s| sky::sky(s, None, textures));
-    Some(Sky { flux: made.as_ref().and_then(sky::LoweredSky::flux), form: Form::Made(made) })
-}
-
-impl Sky {
-    /// The record and the table, with the place of the sky among `lights`.
-    fn records(self, lights: &[abi::Light]) -> (Option<abi::Sky>, Vec<[f32; 4]>) {
-        match self.form {
-            Form::Made(made) => finish::sky_records(made, lights),
-            Form::Kept(record, table) if table.is_empty() => (record, table),
-            Form::Kept(record, table) => {
-                let light = lights.iter().position(|light| light.kind == LightKind::Sky as u32);
-                let light = light.map_or(NONE, |light| light as u32);
-                (record.map(|record| abi::Sky { light, ..record }), table)
-            }
-        }
-    }
 }

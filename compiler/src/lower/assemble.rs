@@ -4,27 +4,56 @@
 //! each mesh gets its tree, the trees are joined, and primitives and lights are renumbered to leaf
 //! order.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use glam::DVec3;
 use lang::diagnostic::Diagnostic;
 use lang::scene::Scene;
-use lang::source::Span;
 use pack::abi::{self, NONE, OBJECT_OF_INSTANCE, TRI_SMOOTH};
+use pack::{Kind, Pack};
 
+use super::extent::{self, extents};
 use super::finish::{self, settings};
-use super::geometry::{Placement, place};
+use super::geometry::{Ends, Placement, Stage, place};
 use super::inside::{Boundary, Solids, boundaries};
 use super::lowered::{Counters, LowerError, Lowered, Times};
 use super::material::MaterialTable;
+use super::motion::Shutter;
 use super::order::{Declared, Ordered, order};
+use super::roster::{self, KnownThing, Roster};
+use super::rows::Rows;
+use super::share::{MeshFacts, Plan};
 use super::sketch::{KnownEmitter, KnownSky, Sketch};
-use super::sky::LoweredSky;
+use super::sky_source::SkySource;
+use super::stored::Stored;
+use super::texture::TextureTable;
 use super::trees::{Corners, Trees, add_meshes, build_tree};
-use super::{Loaded, camera, closed, medium, motion, power, sky, thick};
+use super::{Loaded, camera, closed, medium, motion, power, thick};
 use crate::bvh::{self, Joined};
 use crate::normalize::Normalization;
 use crate::weld::{Welded, weld};
+
+/// Everything of a scene in the normalised frame, before there are trees.
+pub(super) struct Front<'a> {
+    pub(super) scene: &'a Scene,
+    /// Without the corners, which are in `corners`.
+    pub(super) placement: Placement,
+    pub(super) corners: Corners,
+    pub(super) welded: Welded,
+    pub(super) counters: Counters,
+    pub(super) frame: Normalization,
+    pub(super) materials: MaterialTable<'a>,
+    /// What is remembered of materials and textures.
+    pub(super) sketch: Sketch,
+    /// What the camera is inside of, and the surfaces that tell.
+    pub(super) inside: ([u32; 4], Vec<Boundary>),
+    pub(super) sky: SkySource,
+    pub(super) sky_area: Option<f64>,
+    /// What else is remembered for the next time.
+    pub(super) roster: Roster,
+    pub(super) times: Times,
+}
 
 /// Lowers a scene whose files are loaded. Faults of single instances are added to `diagnostics`.
 ///
@@ -32,83 +61,145 @@ use crate::weld::{Welded, weld};
 /// When the scene is too large for the format.
 pub fn lower(
     scene: &Scene,
-    loaded: &Loaded,
+    loaded: Loaded,
     trees: &Trees<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Lowered, LowerError> {
     let start = Instant::now();
-    let mut materials = MaterialTable::new(scene, loaded);
-    let mut placement = place(scene, loaded, trees.instancing, &mut materials, diagnostics);
+    let mut materials = MaterialTable::new(scene, &loaded);
+    let facts = MeshFacts::of(scene, &loaded);
+    let plan = Plan::new(scene, &facts, trees.instancing, Shutter::of(&scene.camera));
+    let stage = Stage { scene, loaded: &loaded, plan: &plan, known: &[] };
+    let mut placement = place(&stage, Vec::new(), &mut materials, diagnostics);
     check_count(&placement)?;
-    let (inside, boundaries) = inside(scene, loaded, &materials, &placement, diagnostics);
+    let inside = inside(scene, &loaded, &materials, &placement, diagnostics);
     let environment = loaded.environment.as_ref();
-    let sky = scene.sky.as_ref().and_then(|s| sky::sky(s, environment, &mut materials.textures));
-    let flux = sky.as_ref().and_then(LoweredSky::flux);
-    let sky_area = power::weigh(&mut placement);
-    placement.emitters.extend(flux.and(sky_area).map(power::sky));
-    let frame = normalization(&placement);
-    let (shared, welded, mut counters) = weld_all(&mut placement, &frame);
-    let mut times = Times { geometry: start.elapsed(), ..Times::default() };
-
-    let start = Instant::now();
-    let balls = normalised_spheres(&placement, &frame);
-    let motions = motion::displacements(&placement.things, &frame);
-    let (joined, wide_nodes, report) =
-        build_tree(&placement, &shared, &balls, (&motions, &frame), trees)?;
-    times.bvh = start.elapsed();
-
-    let start = Instant::now();
-    let instances = instances(&placement, &joined, &motions, &frame);
-    let powers = power::powers(&placement.emitters, &materials, flux);
-    let declared = Declared { corners: shared.all, welded, balls };
-    let mut ordered = order(&placement, &powers, declared, &joined);
-    ordered.count(&mut counters);
-    times.order = start.elapsed();
-
-    let still = motions.is_empty();
-    let sketch = Sketch {
-        emitters: known_emitters(&placement, &ordered),
-        sky_area,
-        sky: KnownSky { flux, ..KnownSky::default() },
-        boundaries,
-        n_trees: report.groups,
-        ..Sketch::of(&frame, &materials, counters)
-    };
-    let light_nodes = light_tree(&mut ordered, materials.records(), &motions);
-    let (sky, sky_table) = finish::sky_records(sky, &ordered.lights);
-    diagnostics.extend(finish::darkness(scene, &ordered.lights, sky.as_ref()));
-    let material_names = names(scene, &materials);
-    let declared = medium::records(scene, materials.waters(), &frame);
-    let (mut materials, textures) = materials.into_records();
-    let (media, around) = medium::used(scene, &declared, &mut materials);
-    let objects = finish::objects(&placement.things, &materials, &frame, !still);
-    let instances = forget_objects(&objects, &mut ordered, instances);
-    motion::mark(&objects, &mut ordered);
-    let (textures, texels) = textures.into_records();
-    Ok(Lowered {
-        render: settings(scene, &frame, joined.entry(), (inside, around), ordered.lights.len()),
-        camera: camera::camera(&scene.camera, &frame),
-        sky,
-        sky_table,
-        nodes: joined.nodes.into(),
-        wide_nodes: wide_nodes.into(),
-        triangles: ordered.triangles.into(),
-        shades: ordered.shades.into(),
-        spheres: ordered.spheres,
-        objects,
-        instances,
-        materials,
-        media,
-        material_names,
-        lights: ordered.lights,
-        light_nodes,
-        textures,
-        texels: texels.into(),
+    let sky = SkySource::new(scene, environment, &mut materials.textures);
+    let extents = extents(&placement);
+    let ball = extent::receivers(&extents);
+    let sky_area = power::weigh(&mut placement, ball);
+    let frame = extent::frame(&extents, motion::ends(&placement));
+    let sketch = Sketch::of(&frame, &materials, Counters::default());
+    // What was read is copied: from here on it would only take room.
+    let materials = materials.without_files(scene);
+    drop(loaded);
+    let meshes = placement.meshes.iter().map(Stored::known).collect();
+    let before: Vec<(Ends, Ends)> = placement.spans().collect();
+    let (corners, welded, counters) = weld_all(&mut placement, &frame);
+    let things = KnownThing::all(scene, &placement, &before, extents, &facts);
+    let emitters = roster::emitters(&things, &placement);
+    let roster = Roster { things, plan, meshes, emitters, ball, at: Vec::new() };
+    let times = Times { geometry: start.elapsed(), ..Times::default() };
+    let front = Front {
+        scene,
+        placement,
+        corners,
+        welded,
         counters,
+        frame,
+        materials,
+        sketch,
+        inside,
+        sky,
+        sky_area,
+        roster,
         times,
-        trees: report,
-        sketch: still.then_some(sketch),
-    })
+    };
+    front.finish(trees, None, diagnostics)
+}
+
+impl Front<'_> {
+    /// Makes the trees and all records. With an `earlier` pack and what is remembered of it, whose materials and
+    /// frame are the same, textures are its own, and the tree of lights, if it has these very lights.
+    pub(super) fn finish(
+        self,
+        trees: &Trees<'_>,
+        earlier: Option<&Arc<Pack>>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Result<Lowered, LowerError> {
+        let Self { scene, mut placement, corners, welded, mut counters, frame, materials, .. } =
+            self;
+        let (mut times, mut roster) = (self.times, self.roster);
+        let flux = self.sky.flux;
+        placement.emitters.extend(flux.and(self.sky_area).map(power::sky));
+
+        let start = Instant::now();
+        let balls = normalised_spheres(&placement, &frame);
+        let motions = motion::displacements(&placement.things, &frame);
+        let (joined, wide_nodes, report) =
+            build_tree(&placement, &corners, &balls, (&motions, &frame), trees)?;
+        times.bvh = start.elapsed();
+
+        let start = Instant::now();
+        let instances = instances(&placement, &joined, &motions, &frame);
+        let powers = power::powers(&placement.emitters, &materials, flux);
+        let declared = Declared { corners: corners.all, welded, balls };
+        let mut ordered = order(&mut placement, &powers, declared, &joined);
+        ordered.count(&mut counters);
+        roster.at = std::mem::take(&mut ordered.triangle_at);
+        times.order = start.elapsed();
+
+        let still = motions.is_empty();
+        let (inside, boundaries) = self.inside;
+        let sketch = Sketch {
+            emitters: known_emitters(&placement, &ordered),
+            sky_area: self.sky_area,
+            sky: KnownSky { flux, ..KnownSky::default() },
+            boundaries,
+            n_trees: report.groups,
+            counters,
+            ..self.sketch
+        };
+        let light_nodes = light_tree(&mut ordered, materials.records(), &motions, earlier);
+        let (sky, sky_table) = self.sky.records(&ordered.lights);
+        diagnostics.extend(finish::darkness(scene, &ordered.lights, sky.as_ref()));
+        let own_name = |index: usize| sketch.own_name(index);
+        let material_names = finish::names(scene, materials.refs(), own_name);
+        let declared = medium::records(scene, materials.waters(), &frame);
+        let (mut materials, textures) = materials.into_records();
+        let (media, around) = medium::used(scene, &declared, &mut materials);
+        let objects = finish::objects(&placement.things, &materials, &frame, !still);
+        let instances = forget_objects(&objects, &mut ordered, instances);
+        motion::mark(&objects, &mut ordered);
+        let (textures, texels) = images(textures, earlier);
+        Ok(Lowered {
+            render: settings(scene, &frame, joined.entry(), (inside, around), ordered.lights.len()),
+            camera: camera::camera(&scene.camera, &frame),
+            sky,
+            sky_table,
+            nodes: joined.nodes.into(),
+            wide_nodes: wide_nodes.into(),
+            triangles: ordered.triangles.into(),
+            shades: ordered.shades.into(),
+            spheres: ordered.spheres,
+            objects,
+            instances,
+            materials,
+            media,
+            material_names,
+            lights: ordered.lights,
+            light_nodes,
+            textures,
+            texels,
+            counters,
+            times,
+            trees: report,
+            sketch: still.then_some(sketch),
+            roster: still.then_some(roster),
+        })
+    }
+}
+
+/// Textures and texels, those of an `earlier` pack if there is one.
+fn images(
+    made: TextureTable<'_>,
+    earlier: Option<&Arc<Pack>>,
+) -> (Vec<abi::Texture>, Rows<[u32; 4]>) {
+    let Some(pack) = earlier else {
+        let (textures, texels) = made.into_records();
+        return (textures, texels.into());
+    };
+    (pack.records().to_vec(), Rows::kept(pack, Kind::TEXEL, Pack::texels))
 }
 
 /// Triangles in the normalised frame, those of the world and those of meshes that are stored once, and their
@@ -120,12 +211,6 @@ fn weld_all(placement: &mut Placement, frame: &Normalization) -> (Corners, Welde
     let welded = weld(&shared.all);
     counters.vertices = u64::from(welded.n_ids);
     (shared, welded, counters)
-}
-
-/// Name and place of declaration of each material in use.
-fn names(scene: &Scene, materials: &MaterialTable<'_>) -> Vec<(String, Option<Span>)> {
-    let own_name = |index: usize| materials.own_name(materials.refs()[index]).unwrap_or_default();
-    finish::names(scene, materials.refs(), own_name)
 }
 
 /// What the camera is inside of, as `RenderSettings` holds it, and the surfaces that tell.
@@ -161,8 +246,12 @@ fn light_tree(
     ordered: &mut Ordered,
     materials: &[abi::Material],
     motions: &[[f32; 3]],
+    earlier: Option<&Arc<Pack>>,
 ) -> Vec<abi::LightNode> {
     let Ordered { lights, shades, spheres, .. } = ordered;
+    if let Some(nodes) = earlier.and_then(|pack| finish::light_tree_again(pack, lights)) {
+        return nodes;
+    }
     finish::light_tree(lights, materials, |light| {
         let primitive = light.primitive as usize;
         let object = if light.kind == abi::LightKind::Sphere as u32 {
@@ -203,7 +292,7 @@ fn normalised_spheres(placement: &Placement, frame: &Normalization) -> Vec<([f32
 }
 
 /// Refuses more triangles than the pack can number.
-fn check_count(placement: &Placement) -> Result<(), LowerError> {
+pub(super) fn check_count(placement: &Placement) -> Result<(), LowerError> {
     let stored = placement.meshes.iter().map(|mesh| mesh.corners.len()).sum::<usize>();
     let count = placement.corners.len() + stored;
     if count > bvh::MAX_PRIMITIVES {
@@ -228,17 +317,8 @@ fn instances(
     placement.placed.iter().map(record).collect()
 }
 
-fn normalization(placement: &Placement) -> Normalization {
-    let corners = placement.corners.iter().flatten().map(DVec3::to_array);
-    let balls = placement.spheres.iter().flat_map(|(center, radius)| {
-        [(*center - *radius).to_array(), (*center + *radius).to_array()]
-    });
-    let placed = placement.placed.iter().flat_map(|placed| placed.bounds.map(|p| p.to_array()));
-    Normalization::of_points(corners.chain(balls).chain(placed).chain(motion::ends(placement)))
-}
-
 /// Corners in the normalised frame; triangles that have no area there are taken out of `placement`.
-fn normalised(
+pub(super) fn normalised(
     placement: &mut Placement,
     frame: &Normalization,
     counters: &mut Counters,

@@ -4,6 +4,7 @@ use glam::DVec3;
 use lang::diagnostic::{Code, Diagnostic};
 use lang::scene::{Name, Sampler, Scene, ToneMap};
 use lang::source::Span;
+use pack::Pack;
 use pack::abi::{self, material_flag};
 
 use super::light_tree;
@@ -44,6 +45,28 @@ pub(super) fn light_tree(
         light.trail = trail;
     }
     nodes
+}
+
+/// The tree of lights of a pack, if it has these very lights; each is told its trail. Where their primitives are is
+/// nothing to the tree.
+pub(super) fn light_tree_again(
+    pack: &Pack,
+    lights: &mut [abi::Light],
+) -> Option<Vec<abi::LightNode>> {
+    let earlier: &[abi::Light] = pack.records();
+    // As bytes: two numbers that are equal may differ in sign.
+    let bytes = |light: &abi::Light| {
+        let light = abi::Light { trail: 0, primitive: 0, ..*light };
+        <[u8; size_of::<abi::Light>()]>::try_from(bytemuck::bytes_of(&light)).ok()
+    };
+    let same = |(a, b): (&abi::Light, &abi::Light)| bytes(a) == bytes(b);
+    if earlier.len() != lights.len() || !earlier.iter().zip(&*lights).all(same) {
+        return None;
+    }
+    for (light, earlier) in lights.iter_mut().zip(earlier) {
+        light.trail = earlier.trail;
+    }
+    Some(pack.records().to_vec())
 }
 
 /// The sky, told which light it is and how large its table; and the table, in words.

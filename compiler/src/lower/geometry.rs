@@ -11,14 +11,14 @@ use lang::diagnostic::{Code, Diagnostic};
 use lang::scene::{Instance, Scene, Shape};
 use pack::abi::{self, LightKind, NONE, TRI_SMOOTH};
 
-use super::Loaded;
 use super::light::{self, Emitter};
 use super::material::{MaterialRef, MaterialTable};
 use super::motion::Shutter;
 use super::object::Thing;
-use super::share::{Instancing, Plan, chosen};
+use super::share::{Plan, chosen};
 use super::sheet::{Sheets, pieces_of};
 use super::stored::{Placed, Stored};
+use super::{Loaded, grain};
 use crate::import::{Attribute, MeshFile, Part};
 
 /// Geometry of the whole scene when the shutter opens, before normalisation, in order of declaration.
@@ -44,54 +44,58 @@ pub struct Placement {
     pub things: Vec<Thing>,
     /// What emits, in order of declaration.
     pub(super) emitters: Vec<Emitter>,
+    /// Where what each of the things brought ends in the lists above.
+    pub(super) ends: Vec<Ends>,
 }
 
-/// Places everything; complaints about single instances go to `diagnostics`.
+/// How many triangles, spheres and emitters there are with those of a thing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Ends {
+    /// Triangles.
+    pub(super) triangles: u32,
+    /// Spheres.
+    pub(super) spheres: u32,
+    /// Emitters.
+    pub(super) emitters: u32,
+}
+
+/// What is placed, and what need not be.
+pub(super) struct Stage<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) loaded: &'a Loaded,
+    pub(super) plan: &'a Plan,
+    /// Of each instance, whether its triangles are known already: it is a thing and leaves nothing else. Beyond the
+    /// end none are known.
+    pub(super) known: &'a [bool],
+}
+
+/// Places everything; complaints about single instances go to `diagnostics`. What is stored once may be there
+/// already.
 pub(super) fn place(
-    scene: &Scene,
-    loaded: &Loaded,
-    how: Instancing,
+    stage: &Stage<'_>,
+    meshes: Vec<Stored>,
     materials: &mut MaterialTable<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Placement {
-    let mut placement = Placement::default();
-    let shutter = Shutter::of(&scene.camera);
-    let plan = Plan::new(scene, loaded, how, shutter);
-    for (index, instance) in scene.instances.iter().enumerate() {
+    let mut placement = Placement { meshes, ..Placement::default() };
+    let shutter = Shutter::of(&stage.scene.camera);
+    for (index, instance) in stage.scene.instances.iter().enumerate() {
         let object = placement.things.len() as u32;
         placement.things.push(Thing::of(instance, shutter));
-        let mut placer = Placer {
-            object,
-            sheets: Sheets::of(scene, instance),
-            transform: Transform::of(instance, shutter),
-            instance,
-            materials: &mut *materials,
-            placement: &mut placement,
-        };
-        if !matches!(instance.shape, Shape::Mesh { .. }) && !placer.exists(0) {
-            continue;
+        if !stage.known.get(index).is_some_and(|known| *known) {
+            let mut placer = Placer {
+                object,
+                sheets: Sheets::of(stage.scene, instance),
+                transform: Transform::of(instance, shutter),
+                instance,
+                materials: &mut *materials,
+                placement: &mut placement,
+            };
+            placer.instance(stage, index, diagnostics);
         }
-        match &instance.shape {
-            Shape::Sphere { radius } => placer.sphere(*radius, diagnostics),
-            Shape::Rectangle { size } => placer.rectangles(&[rectangle(*size)]),
-            Shape::Box { size } => placer.rectangles(&box_faces(*size)),
-            Shape::Mesh { asset, part } => {
-                let file = loaded.assets[*asset].as_ref().expect("used assets are loaded");
-                placer.mesh(*asset, file, part.as_deref(), plan.mesh_of(index), diagnostics);
-            }
-        }
-        let first = placement.groups.last().map_or(0, |end| *end as usize);
-        let corners = match placement.placed.last() {
-            Some(placed) if placed.object == object && super::grain::matters(scene, instance) => {
-                Cow::Owned(placement.triangles_of(placed))
-            }
-            _ => Cow::Borrowed(&placement.corners[first..]),
-        };
-        let thing = &placement.things[object as usize];
-        diagnostics.extend(super::grain::check(scene, instance, thing, &corners));
-        placement.close_group();
+        placement.close();
     }
-    for (index, light) in scene.lights.iter().enumerate() {
+    for (index, light) in stage.scene.lights.iter().enumerate() {
         let material = materials.index(MaterialRef::Light(index));
         let object = placement.things.len() as u32;
         let thing = Thing::lit(light, shutter);
@@ -106,6 +110,7 @@ pub(super) fn place(
             let [x, y, z] = tint.direction.map(|c| c as f32);
             emitter.tint = [x, y, z, libm::cos(tint.angle) as f32];
         }
+        placement.close();
     }
     placement
 }
@@ -196,6 +201,41 @@ struct Placer<'a, 'b> {
 }
 
 impl Placer<'_, '_> {
+    /// The instance with this index in the scene.
+    fn instance(&mut self, stage: &Stage<'_>, index: usize, diagnostics: &mut Vec<Diagnostic>) {
+        let instance = self.instance;
+        if !matches!(instance.shape, Shape::Mesh { .. }) && !self.exists(0) {
+            return;
+        }
+        let first = self.placement.corners.len();
+        match &instance.shape {
+            Shape::Sphere { radius } => self.sphere(*radius, diagnostics),
+            Shape::Rectangle { size } => self.rectangles(&[rectangle(*size)]),
+            Shape::Box { size } => self.rectangles(&box_faces(*size)),
+            Shape::Mesh { asset, part } => {
+                let stored = stage.plan.mesh_of(index);
+                match (&stage.loaded.assets[*asset], stored) {
+                    (None, Some(stored)) => self.stored_before(stored),
+                    (file, _) => {
+                        let file = file.as_ref().expect("used assets are loaded");
+                        self.mesh(*asset, file, part.as_deref(), stored, diagnostics);
+                    }
+                }
+            }
+        }
+        let placement = &*self.placement;
+        let corners = match placement.placed.last() {
+            Some(placed)
+                if placed.object == self.object && grain::matters(stage.scene, instance) =>
+            {
+                Cow::Owned(placement.triangles_of(placed))
+            }
+            _ => Cow::Borrowed(&placement.corners[first..]),
+        };
+        let thing = &placement.things[self.object as usize];
+        diagnostics.extend(grain::check(stage.scene, instance, thing, &corners));
+    }
+
     /// The instance's own material, else `fallback`.
     fn material(&mut self, fallback: MaterialRef) -> u32 {
         let of = self.instance.material.map_or(fallback, MaterialRef::Scene);
@@ -298,12 +338,22 @@ impl Placer<'_, '_> {
         if index == meshes.len() {
             meshes.push(Stored::new(parts));
         }
-        let mesh = &mut meshes[index];
         let own = self.instance.material.is_none();
-        mesh.set_materials(materials, own);
-        let material = if own { NONE } else { materials[0] };
-        let placed = Placed::new(mesh, index, &self.transform, self.object, material);
+        meshes[index].set_materials(materials, own);
+        self.put(index, if own { NONE } else { materials[0] });
+    }
+
+    /// Notes a place of the stored mesh `index`, which is known with its materials.
+    fn stored_before(&mut self, index: usize) {
+        let own = self.instance.material.is_none();
+        let material = if own { NONE } else { self.material(MaterialRef::Default) };
+        self.put(index, material);
+    }
+
+    fn put(&mut self, index: usize, material: u32) {
+        let mesh = &self.placement.meshes[index];
         if !mesh.corners.is_empty() {
+            let placed = Placed::new(mesh, index, &self.transform, self.object, material);
             self.placement.placed.push(placed);
         }
     }
@@ -410,31 +460,40 @@ impl Placement {
 
     /// Takes triangles out. A rectangle that loses one of its two is no longer a rectangle light.
     pub(super) fn remove_triangles(&mut self, remove: &[bool]) {
-        // `left[i]`: how many of the first `i` triangles stay.
-        let mut left = Vec::with_capacity(remove.len() + 1);
-        left.push(0);
-        for &removed in remove {
-            left.push(left[left.len() - 1] + u32::from(!removed));
-        }
+        let left = counted(remove.iter().map(|removed| !removed));
+        let stays = |emitter: &Emitter| {
+            let (first, end) = (emitter.primitive, emitter.primitive + emitter.count);
+            emitter.kind == LightKind::Sphere
+                || left[end as usize] - left[first as usize] == emitter.count
+        };
+        let emitters_left = counted(self.emitters.iter().map(stays));
         self.emitters.retain_mut(|emitter| {
-            if emitter.kind == LightKind::Sphere {
-                return true;
+            let stays = stays(emitter);
+            if emitter.kind != LightKind::Sphere {
+                emitter.primitive = left[emitter.primitive as usize];
             }
-            let (first, end) =
-                (emitter.primitive as usize, (emitter.primitive + emitter.count) as usize);
-            emitter.primitive = left[first];
-            left[end] - left[first] == emitter.count
+            stays
         });
         for end in &mut self.groups {
             *end = left[*end as usize];
         }
         self.groups.dedup();
         self.groups.retain(|end| *end > 0);
+        for ends in &mut self.ends {
+            ends.triangles = left[ends.triangles as usize];
+            ends.emitters = emitters_left[ends.emitters as usize];
+        }
         let mut index = 0;
         self.shades.retain(|_| {
             index += 1;
             !remove[index - 1]
         });
+    }
+
+    /// What each of the things brought, by its index.
+    pub(super) fn spans(&self) -> impl Iterator<Item = (Ends, Ends)> {
+        let starts = std::iter::once(Ends::default()).chain(self.ends.iter().copied());
+        starts.zip(self.ends.iter().copied())
     }
 
     /// Triangles of each group.
@@ -450,13 +509,31 @@ impl Placement {
         starts.map(|start| of_thing[thing(start) as usize]).collect()
     }
 
-    /// Ends the triangles of one instance; instances without triangles make no group.
-    fn close_group(&mut self) {
-        let end = self.corners.len() as u32;
-        if self.groups.last().copied().unwrap_or(0) < end {
-            self.groups.push(end);
-        }
+    /// Ends what one thing brings.
+    fn close(&mut self) {
+        self.close_with(self.spheres.len() as u32);
     }
+
+    /// As `close`, where there are that many spheres up to here. Things without triangles make no group.
+    pub(super) fn close_with(&mut self, spheres: u32) {
+        let triangles = self.shades.len() as u32;
+        if self.groups.last().copied().unwrap_or(0) < triangles {
+            self.groups.push(triangles);
+        }
+        let emitters = self.emitters.len() as u32;
+        self.ends.push(Ends { triangles, spheres, emitters });
+    }
+}
+
+/// How many of the first `0..=n` are true.
+fn counted(all: impl Iterator<Item = bool>) -> Vec<u32> {
+    let mut so_far = 0;
+    let sum = all.map(|one| {
+        so_far += u32::from(one);
+        so_far
+    });
+    let sum: Vec<u32> = sum.collect();
+    std::iter::once(0).chain(sum).collect()
 }
 
 /// Whether any texture belongs to the material.

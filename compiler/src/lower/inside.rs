@@ -60,6 +60,13 @@ enum Form {
     Sphere { center: [f64; 3], radius: f64 },
 }
 
+impl Boundary {
+    /// Index into `Placement::things`.
+    pub(super) fn object(&self) -> u32 {
+        self.object
+    }
+}
+
 /// All surfaces of things whose materials have an inside.
 pub(super) fn boundaries(placement: &Placement, materials: &[abi::Material]) -> Vec<Boundary> {
     let mut found = Vec::new();

@@ -6,6 +6,7 @@ use lang::source::Span;
 use pack::abi;
 use serde::{Deserialize, Serialize};
 
+use super::roster::Roster;
 use super::rows::Rows;
 use super::sketch::Sketch;
 use crate::bvh::{self, BuildReport, BvhError};
@@ -91,6 +92,8 @@ pub struct Lowered {
     pub trees: BuildReport,
     /// What is remembered for the next edit; `None` for scenes in which things move.
     pub sketch: Option<Sketch>,
+    /// The same for the next edit that moves things; `None` also where the last one is as good.
+    pub roster: Option<Roster>,
 }
 
 /// Why a scene could not be lowered, apart from faults in its text.

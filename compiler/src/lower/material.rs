@@ -73,6 +73,13 @@ impl<'a> MaterialTable<'a> {
         Self { scene, loaded, textures, refs, records, n_textures, waters }
     }
 
+    /// The same without the files: no other material may be asked for.
+    pub(super) fn without_files(self, scene: &Scene) -> MaterialTable<'_> {
+        let Self { scene: _, loaded: _, textures, refs, records, n_textures, waters } = self;
+        let textures = textures.without_images();
+        MaterialTable { scene, loaded: None, textures, refs, records, n_textures, waters }
+    }
+
     pub(super) fn push(&mut self, of: MaterialRef, record: abi::Material) {
         self.refs.push(of);
         self.records.push(record);

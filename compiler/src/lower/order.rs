@@ -26,36 +26,46 @@ pub(super) struct Ordered {
     pub(super) lights: Vec<abi::Light>,
     /// Of each emitter, whether it is a light.
     pub(super) selected: Vec<bool>,
+    /// Where each triangle went; the first of several places.
+    pub(super) triangle_at: Vec<u32>,
 }
 
-/// Renumbers everything to the leaf order of `joined`; `powers`: those of the emitters.
+/// Renumbers everything to the leaf order of `joined`, shading data out of `placement`; `powers`: those of the
+/// emitters.
 pub(super) fn order(
-    placement: &Placement,
+    placement: &mut Placement,
     powers: &[f64],
     declared: Declared,
     joined: &Joined,
 ) -> Ordered {
+    let Declared { corners, welded, balls } = declared;
     let triangle = |&i: &u32| {
-        let [v0, v1, v2] = declared.corners[i as usize];
-        let [id0, id1, id2] = declared.welded.ids[i as usize];
+        let [v0, v1, v2] = corners[i as usize];
+        let [id0, id1, id2] = welded.ids[i as usize];
         abi::Triangle { v0, id0, v1, id1, v2, id2 }
     };
     let sphere = |&i: &u32| {
-        let (center, radius) = declared.balls[i as usize];
+        let (center, radius) = balls[i as usize];
         let material = placement.sphere_materials[i as usize];
         let object = placement.sphere_objects[i as usize];
         abi::Sphere { center, radius, material, light: NONE, object, _pad0: 0 }
     };
-    let shade = |&i: &u32| placement.shades[i as usize];
+    let triangles = joined.triangle_order.iter().map(triangle).collect();
+    let spheres = joined.sphere_order.iter().map(sphere).collect();
+    // They are as large as the pack: not all at once.
+    drop((corners, welded));
+    let shades = std::mem::take(&mut placement.shades);
+    let n_triangles = shades.len();
     let mut ordered = Ordered {
-        triangles: joined.triangle_order.iter().map(triangle).collect(),
-        shades: joined.triangle_order.iter().map(shade).collect(),
-        spheres: joined.sphere_order.iter().map(sphere).collect(),
+        triangles,
+        shades: joined.triangle_order.iter().map(|i| shades[*i as usize]).collect(),
+        spheres,
         lights: Vec::new(),
         selected: Vec::new(),
+        triangle_at: Vec::new(),
     };
-    drop(declared);
-    ordered.connect_lights(placement, powers, joined);
+    drop(shades);
+    ordered.connect_lights(placement, n_triangles, powers, joined);
     ordered
 }
 
@@ -67,8 +77,14 @@ impl Ordered {
         counters.lights = self.lights.len() as u64;
     }
 
-    fn connect_lights(&mut self, placement: &Placement, powers: &[f64], joined: &Joined) {
-        let triangle_at = first_places(&joined.triangle_order, placement.shades.len());
+    fn connect_lights(
+        &mut self,
+        placement: &Placement,
+        n_triangles: usize,
+        powers: &[f64],
+        joined: &Joined,
+    ) {
+        let triangle_at = first_places(&joined.triangle_order, n_triangles);
         let sphere_at = first_places(&joined.sphere_order, placement.spheres.len());
         let geometry = Geometry {
             triangles: &self.triangles,
@@ -79,7 +95,7 @@ impl Ordered {
         let (lights, ids) = light::table(&placement.emitters, powers, &geometry);
         self.lights = lights;
         self.selected = ids.iter().map(|id| *id != NONE).collect();
-        let mut light_of = vec![NONE; placement.shades.len()];
+        let mut light_of = vec![NONE; n_triangles];
         for (emitter, id) in placement.emitters.iter().zip(ids) {
             for primitive in emitter.primitive..emitter.primitive + emitter.count {
                 if emitter.kind == LightKind::Sphere {
@@ -92,6 +108,7 @@ impl Ordered {
         for (shade, &primitive) in self.shades.iter_mut().zip(&joined.triangle_order) {
             shade.light = light_of[primitive as usize];
         }
+        self.triangle_at = triangle_at;
     }
 }
 

@@ -12,13 +12,13 @@ use super::geometry::Placement;
 use super::light::Emitter;
 use super::material::MaterialTable;
 
-/// Weighs the areas of the emitters of `placement`. Returns what is the area of the sky in these units; `None` in
-/// a scene without size.
-pub(super) fn weigh(placement: &mut Placement) -> Option<f64> {
-    let (center, radius) = receivers(placement)?;
+/// Weighs the areas of the emitters of `placement`; `ball`: centre and radius of the one around everything that
+/// receives light. Returns what is the area of the sky in these units; `None` in a scene without size.
+pub(super) fn weigh(placement: &mut Placement, ball: Option<([f64; 3], f64)>) -> Option<f64> {
+    let (center, radius) = ball?;
     let mut emitters = std::mem::take(&mut placement.emitters);
     for emitter in &mut emitters {
-        let distance = (middle(placement, emitter) - center).length();
+        let distance = (middle(placement, emitter) - DVec3::from(center)).length();
         if distance > radius {
             let ratio = radius / distance;
             let square = ratio * ratio;
@@ -47,31 +47,6 @@ pub(super) fn powers(
         _ => emitter.area * materials.glow(emitter.material),
     };
     emitters.iter().map(power).collect()
-}
-
-/// Centre and radius of the ball around what does not emit, or around everything if all does.
-fn receivers(placement: &Placement) -> Option<(DVec3, f64)> {
-    let mut triangles = vec![false; placement.corners.len()];
-    let mut spheres = vec![false; placement.spheres.len()];
-    for emitter in &placement.emitters {
-        let glows = if emitter.kind == LightKind::Sphere { &mut spheres } else { &mut triangles };
-        glows[emitter.primitive as usize..][..emitter.count as usize].fill(true);
-    }
-    // Placed meshes do not emit.
-    if placement.placed.is_empty() && triangles.iter().chain(&spheres).all(|glows| *glows) {
-        triangles.fill(false);
-        spheres.fill(false);
-    }
-    let corners = placement.corners.iter().zip(&triangles).filter(|(_, glows)| !**glows);
-    let balls = placement.spheres.iter().zip(&spheres).filter(|(_, glows)| !**glows);
-    let points = corners
-        .flat_map(|(corners, _)| *corners)
-        .chain(balls.flat_map(|((center, r), _)| [*center - *r, *center + *r]))
-        .chain(placement.placed.iter().flat_map(|placed| placed.bounds));
-    let (lo, hi) =
-        points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| (lo.min(p), hi.max(p)));
-    let radius = 0.5 * (hi - lo).length();
-    (radius > 0.0 && radius.is_finite()).then(|| (0.5 * (lo + hi), radius))
 }
 
 fn middle(placement: &Placement, emitter: &Emitter) -> DVec3 {

@@ -14,6 +14,7 @@ use std::str::FromStr;
 
 use glam::DMat3;
 use lang::scene::{Color, Instance, MaterialModel, Scene, Shape};
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::Loaded;
@@ -67,35 +68,41 @@ impl FromStr for Instancing {
 }
 
 /// The meshes of a scene that are stored once.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Plan {
     /// Index of the stored mesh of each of `Scene::instances` that shows one.
     meshes: BTreeMap<usize, usize>,
 }
 
 impl Plan {
-    pub(super) fn new(scene: &Scene, loaded: &Loaded, how: Instancing, shutter: Shutter) -> Self {
+    /// `facts`: of the meshes of the scene's instances.
+    pub(super) fn new(
+        scene: &Scene,
+        facts: &[Option<MeshFacts>],
+        how: Instancing,
+        shutter: Shutter,
+    ) -> Self {
         let mut plan = Self::default();
         if how == Instancing::Never {
             return plan;
         }
         let least = MIN_SIZE * extent(scene, shutter);
-        let mut meshes: BTreeMap<(usize, Option<&str>), Mesh<'_>> = BTreeMap::new();
-        for (index, instance) in scene.instances.iter().enumerate() {
-            let Shape::Mesh { asset, part } = &instance.shape else { continue };
-            let Some(file) = loaded.assets[*asset].as_ref() else { continue };
-            let key = (*asset, part.as_deref());
-            let mesh = meshes.entry(key).or_insert_with(|| Mesh::new(file, part.as_deref()));
+        let mut meshes = BTreeMap::<MeshName<'_>, (usize, Vec<usize>)>::new();
+        for (index, (instance, facts)) in scene.instances.iter().zip(facts).enumerate() {
+            let (Shape::Mesh { asset, part }, Some(facts)) = (&instance.shape, facts) else {
+                continue;
+            };
+            let mesh = meshes.entry((*asset, part.as_deref())).or_default();
+            mesh.0 = facts.n_triangles;
             let linear = Transform::of(instance, shutter).linear;
-            let fits = condition(linear) <= MAX_CONDITION && scale(linear) * mesh.size >= least;
-            let differs = Sheets::of(scene, instance).is_some();
-            if fits && !differs && !glows(scene, file, instance, &mesh.parts) {
-                mesh.places.push(index);
+            let fits = condition(linear) <= MAX_CONDITION && scale(linear) * facts.size >= least;
+            if fits && facts.is_dark_and_equal {
+                mesh.1.push(index);
             }
         }
         let mut shared: Vec<Vec<usize>> = (meshes.into_values())
-            .filter(|mesh| pays(mesh.n_triangles, mesh.places.len()))
-            .map(|mesh| mesh.places)
+            .filter(|(n_triangles, places)| pays(*n_triangles, places.len()))
+            .map(|(_, places)| places)
             .collect();
         // In order of declaration; beyond what a pack can name, places are stored as if there were no instances.
         shared.sort();
@@ -114,14 +121,51 @@ impl Plan {
     }
 }
 
+/// Asset and part.
+type MeshName<'a> = (usize, Option<&'a str>);
+
+/// What the plan knows of the mesh of an instance.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct MeshFacts {
+    n_triangles: usize,
+    /// Largest coordinate, metres.
+    size: f64,
+    /// At this place it gives no light, and it is as at any other.
+    is_dark_and_equal: bool,
+}
+
+impl MeshFacts {
+    /// Of all instances; `None` for what is no mesh, or has no file.
+    pub(super) fn of(scene: &Scene, loaded: &Loaded) -> Vec<Option<Self>> {
+        let mut meshes: BTreeMap<MeshName<'_>, Mesh<'_>> = BTreeMap::new();
+        let mut facts = Vec::with_capacity(scene.instances.len());
+        for instance in &scene.instances {
+            let Shape::Mesh { asset, part } = &instance.shape else {
+                facts.push(None);
+                continue;
+            };
+            let Some(file) = loaded.assets[*asset].as_ref() else {
+                facts.push(None);
+                continue;
+            };
+            let mesh = meshes
+                .entry((*asset, part.as_deref()))
+                .or_insert_with(|| Mesh::new(file, part.as_deref()));
+            let Mesh { parts, n_triangles, size } = mesh;
+            let differs = Sheets::of(scene, instance).is_some();
+            let is_dark_and_equal = !differs && !glows(scene, file, instance, parts);
+            facts.push(Some(Self { n_triangles: *n_triangles, size: *size, is_dark_and_equal }));
+        }
+        facts
+    }
+}
+
 /// A mesh of the scene.
 struct Mesh<'a> {
     parts: Vec<&'a Part>,
     n_triangles: usize,
     /// Largest coordinate, metres.
     size: f64,
-    /// Indices into `Scene::instances`, of places that may be instances.
-    places: Vec<usize>,
 }
 
 impl<'a> Mesh<'a> {
@@ -130,7 +174,7 @@ impl<'a> Mesh<'a> {
         let n_triangles = parts.iter().map(|part| part.triangles.len()).sum();
         let coordinates = parts.iter().flat_map(|part| part.positions.as_flattened());
         let size = coordinates.fold(0.0_f64, |most, x| most.max(f64::from(x.abs())));
-        Self { parts, n_triangles, size, places: Vec::new() }
+        Self { parts, n_triangles, size }
     }
 }
 

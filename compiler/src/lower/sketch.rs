@@ -85,6 +85,11 @@ impl Sketch {
         }
     }
 
+    /// What a material of a mesh file, here by its index in the pack, is called there.
+    pub(super) fn own_name(&self, index: usize) -> &str {
+        self.materials[index].own_name.as_deref().unwrap_or_default()
+    }
+
     /// Remembers what is said of the sky.
     pub(crate) fn set_sky(&mut self, text: &str) {
         text.clone_into(&mut self.sky.text);

@@ -6,6 +6,7 @@
 
 use glam::{DMat3, DVec3};
 use pack::abi::{self, MOVES, NONE, OBJECT_OF_INSTANCE, TRI_SMOOTH};
+use serde::{Deserialize, Serialize};
 
 use super::geometry::{Transform, octahedral};
 use crate::import::Part;
@@ -32,6 +33,15 @@ pub struct Stored {
     center: DVec3,
     /// The frame is the file's times this power of two.
     exponent: i32,
+}
+
+/// What is remembered of a mesh whose triangles an earlier pack has.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct KnownMesh {
+    pub(super) n_triangles: usize,
+    center: [f64; 3],
+    exponent: i32,
+    dropped: u64,
 }
 
 /// A place of a mesh that is stored once.
@@ -82,12 +92,36 @@ impl Stored {
                 mesh.shades.push(shade(part, tri_idx));
             }
         }
-        mesh.points = mesh.corners.as_flattened().to_vec();
-        mesh.points.sort_unstable_by_key(|p| p.map(f32::to_bits));
-        mesh.points.dedup();
-        let grow = |most: DVec3, p: &[f32; 3]| most.max(DVec3::from(p.map(f64::from)).abs());
-        mesh.reach = mesh.points.iter().fold(DVec3::ZERO, grow);
+        mesh.measure();
         mesh
+    }
+
+    /// What is remembered of it besides its triangles.
+    pub(super) fn known(&self) -> KnownMesh {
+        let (center, exponent) = (self.center.to_array(), self.exponent);
+        KnownMesh { n_triangles: self.shades.len(), center, exponent, dropped: self.dropped }
+    }
+
+    /// A mesh that is known, of these triangles.
+    pub(super) fn again(
+        known: &KnownMesh,
+        corners: Vec<[[f32; 3]; 3]>,
+        shades: Vec<abi::TriShade>,
+    ) -> Self {
+        let KnownMesh { center, exponent, dropped, .. } = *known;
+        let center = DVec3::from(center);
+        let mut mesh = Self { corners, shades, dropped, center, exponent, ..Self::default() };
+        mesh.measure();
+        mesh
+    }
+
+    /// Notes the different corners and how far they are from the origin.
+    fn measure(&mut self) {
+        self.points = self.corners.as_flattened().to_vec();
+        self.points.sort_unstable_by_key(|p| p.map(f32::to_bits));
+        self.points.dedup();
+        let grow = |most: DVec3, p: &[f32; 3]| most.max(DVec3::from(p.map(f64::from)).abs());
+        self.reach = self.points.iter().fold(DVec3::ZERO, grow);
     }
 
     /// Corners and material of each triangle.

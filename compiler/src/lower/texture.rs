@@ -57,6 +57,8 @@ enum Source<'a> {
     Files(&'a Loaded),
     /// No image is looked at: the texels are those of an earlier pack.
     Earlier(&'a KnownTextures),
+    /// All textures are there.
+    Gone,
 }
 
 /// Textures in the order in which materials asked for them.
@@ -87,6 +89,12 @@ impl<'a> TextureTable<'a> {
         Self { source, recipes, records, texels, means, least }
     }
 
+    /// The same without the images: no other texture may be asked for.
+    pub(super) fn without_images<'b>(self) -> TextureTable<'b> {
+        let Self { source: _, recipes, records, texels, means, least } = self;
+        TextureTable { source: Source::Gone, recipes, records, texels, means, least }
+    }
+
     /// How many there are.
     pub(super) fn len(&self) -> usize {
         self.recipes.len()
@@ -97,6 +105,7 @@ impl<'a> TextureTable<'a> {
         let loaded = match self.source {
             Source::Files(loaded) => loaded,
             Source::Earlier(known) => return known.clone(),
+            Source::Gone => return KnownTextures::default(),
         };
         let has_alpha = |image: &Option<Arc<Image>>| image.as_ref().is_some_and(|i| i.has_alpha);
         KnownTextures {
@@ -129,7 +138,7 @@ impl<'a> TextureTable<'a> {
     /// Mean of red, green, blue, alpha over the texels of texture `id`, linear.
     pub(super) fn mean(&self, id: u32) -> [f64; 4] {
         match self.source {
-            Source::Files(_) => self.means[id as usize],
+            Source::Files(_) | Source::Gone => self.means[id as usize],
             // Where it is missing, the textures are others, and nothing is taken over.
             Source::Earlier(known) => known.means.get(id as usize).copied().unwrap_or_default(),
         }
@@ -213,7 +222,7 @@ impl<'a> TextureTable<'a> {
                 known.has_alpha.get(texture).copied().unwrap_or(false)
             }
             // Materials of mesh files are taken over as they are.
-            (Source::Earlier(_), ImageRef::Asset { .. }) => false,
+            (Source::Earlier(_), ImageRef::Asset { .. }) | (Source::Gone, _) => false,
         }
     }
 
@@ -231,6 +240,7 @@ impl<'a> TextureTable<'a> {
                 let found = known.least.iter().find(|(of, _)| *of == name);
                 found.map_or(0.0, |(_, least)| *least)
             }
+            Source::Gone => 0.0,
         }
     }
 }

@@ -26,6 +26,18 @@ pub(super) fn check(scene: &Scene, loaded: &Loaded, diagnostics: &mut Vec<Diagno
     }
 }
 
+/// Whether the size of the instance is looked at.
+pub(super) fn matters(scene: &Scene, instance: &Instance) -> bool {
+    let model = instance.material.map(|material| &scene.materials[material].model);
+    model.is_some_and(|model| match model {
+        MaterialModel::Petal(_) | MaterialModel::Leaf(_) => true,
+        MaterialModel::Dielectric { inside, .. } | MaterialModel::Water { inside, .. } => {
+            inside.medium.is_some()
+        }
+        _ => false,
+    })
+}
+
 /// Sizes of the thing along its own axes, metres; `None` where nothing can be said.
 fn size(instance: &Instance, loaded: &Loaded) -> Option<DVec3> {
     let own = match &instance.shape {

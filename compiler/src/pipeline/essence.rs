@@ -17,6 +17,8 @@ use super::load::beside;
 pub struct Essence {
     /// Name of everything that geometry and what is checked of it depend on.
     pub(super) geometry: [u8; 32],
+    /// The same without where instances and lights stand.
+    pub(super) placeless: [u8; 32],
     /// All that is said of the sky.
     pub(super) sky: String,
 }
@@ -50,8 +52,13 @@ impl Essence {
         let assets = scene.assets.iter_mut().map(|asset| &mut asset.name);
         let textures = scene.textures.iter_mut().map(|texture| &mut texture.name);
         assets.chain(textures).for_each(forget_place);
-        let geometry = *blake3::hash(format!("{scene:?}").as_bytes()).as_bytes();
-        Self { geometry, sky }
+        let name = |scene: &Scene| *blake3::hash(format!("{scene:?}").as_bytes()).as_bytes();
+        let geometry = name(&scene);
+        for instance in &mut scene.instances {
+            instance.world_from_object = [[0.0; 4]; 3];
+        }
+        scene.lights.iter_mut().for_each(|light| light.center = [0.0; 3]);
+        Self { geometry, placeless: name(&scene), sky }
     }
 }
 
@@ -218,9 +225,31 @@ render main: path { samples = 1 }
     }
 
     fn edited(from: &str, to: &str) -> [bool; 2] {
+        let [geometry, sky, _] = same(from, to);
+        [geometry, sky]
+    }
+
+    fn same(from: &str, to: &str) -> [bool; 3] {
         assert!(SCENE.contains(from), "{from}");
         let (before, after) = (essence(SCENE), essence(&SCENE.replace(from, to)));
-        [before.geometry == after.geometry, before.sky == after.sky]
+        [
+            before.geometry == after.geometry,
+            before.sky == after.sky,
+            before.placeless == after.placeless,
+        ]
+    }
+
+    #[test]
+    fn a_thing_that_moves_is_the_same_elsewhere() {
+        for (from, to) in [
+            ("(0, 3, 0)m", "(0, 3, 1)m"),
+            ("material = oak }", "material = oak, at = (1, 0, 0)m }"),
+            ("material = clay }", "material = clay, rotate = (0, 10, 0)deg, scale = 2 }"),
+        ] {
+            assert_eq!(same(from, to), [false, true, true], "{from}");
+        }
+        assert_eq!(same("20cm", "21cm"), [false, true, false]);
+        assert_eq!(same("radius = 10cm", "radius = 11cm"), [false, true, false]);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use lang::diagnostic::{Code, Diagnostic, Fix};
 use lang::scene::{Asset, AssetFormat, Scene, Shape, SkyModel};
@@ -25,6 +26,32 @@ pub struct FileRead {
     pub hash: [u8; 32],
 }
 
+/// The mesh files that are `needed`, by their index in the scene; `None` for a file that cannot be read.
+pub(super) fn load_meshes(
+    scene: &Scene,
+    sources: &SourceSet,
+    options: &Options<'_>,
+    reuse: &Reuse,
+    needed: &[bool],
+) -> Option<Loaded> {
+    let asset = |(asset, needed): (&Asset, &bool)| {
+        if *needed { mesh(asset, sources, options, reuse).ok().map(Some) } else { Some(None) }
+    };
+    let assets = scene.assets.par_iter().zip(needed).map(asset).collect::<Option<_>>()?;
+    Some(Loaded { assets, ..Loaded::default() })
+}
+
+fn mesh(
+    asset: &Asset,
+    sources: &SourceSet,
+    options: &Options<'_>,
+    reuse: &Reuse,
+) -> Result<Arc<MeshFile>, ImportError> {
+    let path = beside(sources, asset.path_span, &asset.path);
+    let format = format!("{:?}", asset.format);
+    reuse.mesh(&path, &format, || read_asset(asset, &path, options))
+}
+
 /// Loads every asset and texture, in parallel; results are in declaration order. A `Scene` holds only
 /// those that some instance uses.
 pub(super) fn load(
@@ -34,15 +61,8 @@ pub(super) fn load(
     reuse: &Reuse,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> (Loaded, Vec<FileRead>) {
-    let assets: Vec<_> = scene
-        .assets
-        .par_iter()
-        .map(|asset| {
-            let path = beside(sources, asset.path_span, &asset.path);
-            let format = format!("{:?}", asset.format);
-            reuse.mesh(&path, &format, || read_asset(asset, &path, options))
-        })
-        .collect();
+    let assets: Vec<_> =
+        scene.assets.par_iter().map(|asset| mesh(asset, sources, options, reuse)).collect();
     let textures: Vec<_> = scene
         .textures
         .par_iter()

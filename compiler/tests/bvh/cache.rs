@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use compiler::bvh::{self, Input, Preset, Primitives, Tree, build_scene};
-use compiler::cache::{Cache, CacheStats, CacheWarning, EntryFault, Source};
+use compiler::cache::{Cache, CacheStats, CacheWarning, EntryFault, MIN_PRIMITIVES, Source};
 
 use crate::shapes::{Tri, degenerate};
 
@@ -92,8 +92,8 @@ fn other_corners_are_another_entry_where_triangles_are_split() {
 fn small_trees_and_disabled_caches_write_nothing() {
     let dir = tempfile::tempdir().unwrap();
     let cache = Cache::at(dir.path());
-    let small =
-        cache.tree(Preset::Default, Input::of_triangles(&degenerate("soup", N - 1))).unwrap();
+    let few = u32::try_from(MIN_PRIMITIVES).unwrap() - 1;
+    let small = cache.tree(Preset::Default, Input::of_triangles(&degenerate("soup", few))).unwrap();
     assert!(matches!(small.source, Source::Built { .. }));
     let none = Cache::disabled()
         .tree(Preset::Default, Input::of_triangles(&degenerate("soup", N)))

@@ -1,5 +1,7 @@
 //! Trees of groups joined into one.
 
+use std::ops::Range;
+
 use compiler::bvh::{
     self, BvhError, Fragment, Group, GroupKind, Input, Joined, Preset, Primitives, SMALL_MESH,
     build_scene, join,
@@ -82,12 +84,43 @@ fn degenerate_groups_are_joined() {
 #[test]
 fn small_meshes_share_a_group() {
     let (small, large) = (10, u32::try_from(SMALL_MESH).unwrap());
-    let plan = bvh::plan(&[small, SMALL_MESH + 7, small, 0, SMALL_MESH, SMALL_MESH - 1]);
+    let sizes = [small, SMALL_MESH + 7, small, 0, SMALL_MESH, SMALL_MESH - 1];
+    let plan = bvh::plan(&vec![[[0.0; 3]; 3]; sizes.iter().sum()], &sizes);
     assert_eq!(plan.len(), 3);
     assert_eq!(plan[0].as_slice(), std::slice::from_ref(&(10..17 + large)));
     assert_eq!(plan[1].as_slice(), std::slice::from_ref(&(27 + large..27 + 2 * large)));
     assert_eq!(plan[2], [0..10, 17 + large..27 + large, 27 + 2 * large..26 + 3 * large]);
-    assert!(bvh::plan(&[0, 0]).is_empty());
+    assert!(bvh::plan(&[], &[0, 0]).is_empty());
+}
+
+#[test]
+fn many_small_meshes_share_groups_with_those_near_them() {
+    let size = SMALL_MESH / 2;
+    let mesh = |x: f32, width: f32| vec![[[x, 0.0, 0.0], [x + width, 0.0, 0.0], [x; 3]]; size];
+    let grouped = |places: &[(f32, f32)]| {
+        let triangles: Vec<_> = places.iter().flat_map(|(x, width)| mesh(*x, *width)).collect();
+        let groups = bvh::plan(&triangles, &vec![size; places.len()]);
+        let number = |range: &Range<u32>| range.start as usize / size;
+        let groups = groups.iter().map(|group| group.iter().map(number).collect::<Vec<_>>());
+        let mut groups: Vec<_> = groups.collect();
+        groups.sort();
+        groups
+    };
+    let mut places = vec![(-0.9, 0.01); 4];
+    places.extend([(-0.4, 0.01); 4]);
+    places.extend([(0.2, 0.01); 2]);
+    assert_eq!(grouped(&places[..8]), [(0..8).collect::<Vec<_>>()]);
+    let apart = [vec![0, 1, 2, 3, 4, 5, 6, 7], vec![8, 9]];
+    assert_eq!(grouped(&places), apart);
+    // One that moves changes two groups; one that is wider than any half is with the others that are left over.
+    let mut wide = places.clone();
+    wide.extend([(0.7, 0.01), (-0.7, 1.4)]);
+    assert_eq!(grouped(&wide), [vec![0, 1, 2, 3, 4, 5, 6, 7], vec![8, 9, 10], vec![11]]);
+    // Too few for a group of their own.
+    places.pop();
+    assert_eq!(grouped(&places), [vec![0, 1, 2, 3, 4, 5, 6, 7], vec![8]]);
+    // All in one place cannot be divided.
+    assert_eq!(grouped(&[(0.5, 0.0); 20]).len(), 1);
 }
 
 #[test]

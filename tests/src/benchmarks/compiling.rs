@@ -39,9 +39,10 @@ pub(super) fn table(_: &mut Packs, text: &mut String) -> Outcome {
         text,
         "\n## From text to pack\n\n\
         A process of its own, the program that `rtc` is. Cold: no tree in the cache and no pack. Warm: the cache of the \
-        cold run, and the pack deleted. Unchanged: the pack is there, too.\n\n\
-        | scene | MB | cold CPU s | cold wall s | warm CPU s | warm wall s | unchanged wall s |\n\
-        |---|---|---|---|---|---|---|"
+        cold run, and the pack deleted. Unchanged: the pack is there, too. Memory: the most that the cold run has, in sizes of \
+        the pack.\n\n\
+        | scene | MB | cold CPU s | cold wall s | memory, packs | warm CPU s | warm wall s | unchanged wall s |\n\
+        |---|---|---|---|---|---|---|---|"
     );
     for name in SCENES {
         let example = scenes::catalog::find(name).ok_or("there is no such example")?;
@@ -54,10 +55,11 @@ pub(super) fn table(_: &mut Packs, text: &mut String) -> Outcome {
         let middle = |of: fn(&Round) -> f64| median(rounds.iter().map(of));
         let _ = writeln!(
             text,
-            "| `{name}` | {:.1} | {:.2} | {:.2} | {:.2} | {:.2} | {:.3} |",
+            "| `{name}` | {:.1} | {:.2} | {:.2} | {:.2} | {:.2} | {:.2} | {:.3} |",
             middle(|round| round.size) / 1e6,
             middle(|round| round.cold.cpu),
             middle(|round| round.cold.wall),
+            middle(|round| round.cold.peak as f64 / round.size),
             middle(|round| round.warm.cpu),
             middle(|round| round.warm.wall),
             middle(|round| round.unchanged.wall),
