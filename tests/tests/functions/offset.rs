@@ -133,7 +133,7 @@ fn planes_across_an_axis_do_not_meet_what_falls_away_at_their_edges() {
         let size = 10.0_f64.powf(stream.between(-4.0, -1.0));
         let center = stream.direction() * stream.between(0.0, 0.7);
         let flat = across(axis, center, size, &mut stream);
-        let [a, b, c] = flat.map(|corner| corner.as_dvec3());
+        let [a, b, c] = flat.map(Vec3::as_dvec3);
         let out = (b - a).cross(c - a).normalize();
         let beyond = (b + c - a) - out * (size * 10.0_f64.powf(stream.between(-7.0, 1.0)));
         let triangles =
