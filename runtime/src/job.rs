@@ -8,7 +8,7 @@ use thiserror::Error;
 
 /// Largest side of an image in pixels.
 pub const MAX_SIDE: u32 = 1 << 16;
-/// Most pixels of a film: 2^28 take 11 GB while rendering.
+/// Most pixels of a film: 2^28 take 11 GB while rendering, see `film_bytes`.
 pub const MAX_PIXELS: u64 = 1 << 28;
 
 /// The type that stands for WGSL's `f32`.

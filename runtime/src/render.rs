@@ -5,6 +5,7 @@ use crate::convergence::Convergence;
 use crate::cpu;
 use crate::film::Film;
 use crate::job::{Job, JobError};
+use crate::memory::{self, TooLarge};
 use crate::output::{Meta, Picture};
 use crate::run::{Run, TileFailure};
 use crate::saver::{Saver, Session};
@@ -48,6 +49,9 @@ pub enum RenderError {
     /// The job cannot be run.
     #[error(transparent)]
     Job(#[from] JobError),
+    /// The film does not fit into memory.
+    #[error(transparent)]
+    Memory(#[from] TooLarge),
     /// No adapter is what was asked for.
     #[error("{0}")]
     NoDevice(String),
@@ -110,6 +114,9 @@ pub fn render_session(
     let Session { from, keep } = session;
     // A run that is measured has four pictures to keep, which no checkpoint holds.
     let (from, keep) = if job.measure.is_some() { (None, None) } else { (from, keep) };
+    if let Some(text) = memory::announce(job, keep.is_some(), memory::free())? {
+        control.note(&text);
+    }
     let saver = keep.as_ref().map(|keep| Saver::new(keep, scene, job, from.as_ref()));
     let mut names: Vec<String> = Vec::new();
     let mut before = Duration::ZERO;

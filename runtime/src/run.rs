@@ -46,6 +46,9 @@ struct State {
     last: Duration,
     /// Time that deposits took.
     readback: Duration,
+    /// Time that submissions took by the device's own clock; `None` as soon as it has not timed one.
+    #[cfg(feature = "gpu")]
+    device: Option<Duration>,
     tracker: Option<Tracker>,
 }
 
@@ -84,7 +87,17 @@ impl<'a> Run<'a> {
         }
         let (failures, first) = (Vec::new(), None);
         let (last, readback) = (Duration::ZERO, Duration::ZERO);
-        let state = State { scheduler, sum, failures, first, last, readback, tracker };
+        let state = State {
+            scheduler,
+            sum,
+            failures,
+            first,
+            last,
+            readback,
+            #[cfg(feature = "gpu")]
+            device: Some(Duration::ZERO),
+            tracker,
+        };
         Self {
             state: Mutex::new(state),
             ended: Condvar::new(),
@@ -182,6 +195,13 @@ impl<'a> Run<'a> {
         self.ended.notify_all();
     }
 
+    /// A submission has ended, which took `own` by the device's own clock.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn timed(&self, own: Option<Duration>) {
+        let mut state = self.lock();
+        state.device = state.device.zip(own).map(|(sum, own)| sum + own);
+    }
+
     /// A claimed item cannot be rendered. The pass goes on without it and is the last one.
     pub(crate) fn fail(&self, item: &WorkItem, message: String) {
         let mut state = self.lock();
@@ -223,7 +243,11 @@ impl<'a> Run<'a> {
             let (sums, samples) = state.sum.lumas();
             let compile = state.first.unwrap_or(elapsed).as_secs_f64();
             let readback = state.readback.as_secs_f64();
-            let times = Times { compile, readback, ..Times::default() };
+            #[cfg(feature = "gpu")]
+            let device = state.device.filter(|time| !time.is_zero()).map(|time| time.as_secs_f64());
+            #[cfg(not(feature = "gpu"))]
+            let device = None;
+            let times = Times { compile, readback, device, ..Times::default() };
             tracker.finish(sums, samples, times)
         });
         Finished { film: state.sum.finish(), stop, failures: state.failures, elapsed, convergence }

@@ -58,6 +58,59 @@ fn it_replays_a_sample_ray_by_ray() {
     assert!(short.lines().all(|line| long.contains(line)), "{long}");
 }
 
+/// A red wall that fills the left half of the picture and a green one in the right half, each lit by the sky alone.
+const WALLS: &str = "rts 1
+sky heaven: constant { color = linear(1) }
+material brick: diffuse { color = linear(0.8, 0.1, 0.1) }
+
+material moss: diffuse { color = linear(0.1, 0.8, 0.1) }
+instance left { shape = rectangle(size: (2, 2)m), material = brick, at = (-1, 0, 0)m }
+instance right { shape = rectangle(size: (2, 2)m), material = moss, at = (1, 0, 0)m }
+camera eye: perspective { from = (0, 5, 0)m, to = (0, 0, 0)m, up = (0, 0, -1), fov.vertical = 20deg }
+film f { size = (8, 8)px }
+render main: path { camera = eye, film = f, samples = 16, depth = 4, seed = 1 }
+";
+
+/// Compiles `text` as `walls.rts` and gives the first ray of the pixel in column `x`, in both precisions.
+fn first_ray(text_of_scene: &str, x: u32) -> [String; 2] {
+    let folder = tempfile::tempdir().expect("a folder for tests");
+    let at = |name: &str| folder.path().join(name);
+    std::fs::write(at("walls.rts"), text_of_scene).expect("it can be written");
+    let mut arguments = vec!["rtc".into(), at("walls.rts").into_os_string(), "-o".into()];
+    arguments.extend([at("walls.pack").into_os_string(), "--no-cache".into()]);
+    assert_eq!(compiler::cli::run(arguments), 0);
+    let pixel = format!("{x},4");
+    let args = ["check", "walls.pack", "--pixel", &pixel, "--sample", "2", "--trace"];
+    let output = rtr(folder.path(), &args);
+    let said = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{said}{}", text(&output.stderr));
+    let rays: Vec<&str> = said.lines().skip_while(|line| !line.starts_with("ray 0")).collect();
+    [rays[1].to_owned(), rays[2].to_owned()]
+}
+
+/// The line of `text` that declares `name`, from 1.
+fn line_of(text: &str, name: &str) -> usize {
+    let declares = |line: &str| line.starts_with(&format!("material {name}:"));
+    1 + text.lines().position(declares).expect("it is declared")
+}
+
+#[test]
+fn a_trace_names_materials_and_the_lines_that_declare_them() {
+    // The same scene with the two declarations in each other's place.
+    let lines: Vec<&str> = WALLS.lines().collect();
+    let mut other = lines.clone();
+    other.swap(2, 4);
+    for scene in [WALLS.to_owned(), other.join("\n") + "\n"] {
+        for (x, name, absent) in [(1, "brick", "moss"), (6, "moss", "brick")] {
+            let met = format!("meets {name} (walls.rts:{}), triangle ", line_of(&scene, name));
+            for ray in first_ray(&scene, x) {
+                assert!(ray.contains(&met) && !ray.contains(absent), "{met}: {ray}");
+            }
+        }
+    }
+    assert_eq!((line_of(WALLS, "brick"), line_of(WALLS, "moss")), (3, 5));
+}
+
 #[test]
 fn wrong_arguments_are_usage() {
     let folder = folder();

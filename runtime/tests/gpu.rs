@@ -6,6 +6,7 @@
 mod common;
 
 use common::{assert_same, scene};
+use runtime::convergence::Measure;
 use runtime::{Control, DeviceChoice, Job, Outcome, Rect, SampleRange, Scene, Stop, render};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -78,6 +79,29 @@ fn timestamps_change_the_pace_and_no_bit() {
     assert!(timed.notes.contains("the GPU was busy for "), "{}", timed.notes);
     let says = |text: &str| timed.notes.contains(text);
     assert!(says("submissions, by its timestamps") || says("by wall time"), "{}", timed.notes);
+}
+
+#[test]
+fn a_report_has_the_time_by_timestamps_where_every_pass_has_them() {
+    let Some(device) = device() else { return };
+    let scene = scene();
+    let measure = Some(Measure::default());
+    let samples = SampleRange { start: 0, end: 16 };
+    let job = Job { measure, samples, ..Job::of_scene(&scene) };
+    let times = |outcome: &Outcome| outcome.convergence.as_ref().expect("it was measured").times;
+    let timed = run(&scene, &job, &device);
+    let by_timestamps = timed.notes.contains("submissions, by its timestamps");
+    let found = times(&timed.outcome);
+    assert_eq!(found.device.is_some(), by_timestamps, "{}", timed.notes);
+    // Passes follow each other, so that all of them together take no longer than the run.
+    let run_time = timed.outcome.elapsed.as_secs_f64();
+    assert!(found.device.is_none_or(|time| time > 0.0 && time < run_time), "{found:?}");
+    let control = Control::default();
+    control.ignore_timestamps();
+    let untimed = render(&scene, &job, &device, &control).expect("the device renders");
+    assert_eq!(times(&untimed).device, None);
+    let cpu = run(&scene, &job, &DeviceChoice::Cpu);
+    assert_eq!(times(&cpu.outcome).device, None);
 }
 
 #[test]

@@ -56,6 +56,10 @@ fn a_report_has_every_checkpoint_and_a_plot_is_drawn() {
     assert_eq!(spp, [4, 8, 16, 32, 64]);
     assert_eq!((&json["replicates"], &json["stop"]), (&4.into(), &"complete".into()));
     assert_eq!(json["resolution"]["image"], serde_json::json!([72, 40]));
+    // A release build asks git.
+    let told = serde_json::json!(option_env!("RTR_COMMIT"));
+    assert!(json["commit"] == told || !cfg!(debug_assertions), "{}", json["commit"]);
+    assert_eq!(json["times"]["device"], serde_json::Value::Null, "the CPU has no timestamps");
     // The kernel of the pack: its sections with their bindings, its size against that of all features.
     let kernel = &json["kernel"];
     let sections = kernel["sections"].as_array().expect("a list");

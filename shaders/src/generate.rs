@@ -28,6 +28,7 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/dispatch_choice.wgsl", choice::text(features)),
         ("scene/dispatch_light.wgsl", dispatch::light(features)),
         ("scene/dispatch_pattern.wgsl", dispatch::pattern(features)),
+        ("scene/before.wgsl", media::before(features)),
         ("scene/door.wgsl", traversal::door(features)),
         ("scene/ends.wgsl", media::ends(features)),
         ("scene/fog.wgsl", media::fog(features)),

@@ -11,7 +11,8 @@ const ARROWS: &[(&str, &[&str], &[&str])] = &[
     ("native", &["naga"], &[]),
     ("shaders", &["pack", "naga"], &[]),
     ("compiler", &["lang", "shaders", "pack"], &[]),
-    ("runtime", &["pack", "wgpu"], &["pack", "shaders", "native"]),
+    ("commit", &[], &[]),
+    ("runtime", &["pack", "commit", "wgpu"], &["pack", "shaders", "native"]),
     ("scenes", &["compiler", "runtime"], &[]),
 ];
 

@@ -167,9 +167,11 @@ fn summary(convergence: &Convergence) -> Vec<String> {
 }
 
 fn times_text(times: &Times) -> String {
-    let Times { load, compile, first_frame, render, readback, estimate, write } = *times;
+    let Times { load, compile, first_frame, render, readback, device, estimate, write } = *times;
+    let device =
+        device.map_or(String::new(), |time| format!(", on the device {:.1} ms", 1e3 * time));
     format!(
         "times: load {load:.2} s, compile {compile:.2} s, first frame {first_frame:.2} s, \
-         render {render:.2} s (readback {readback:.2} s), estimate {estimate:.2} s, write {write:.2} s"
+         render {render:.2} s (readback {readback:.2} s{device}), estimate {estimate:.2} s, write {write:.2} s"
     )
 }

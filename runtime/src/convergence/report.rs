@@ -34,8 +34,8 @@ pub struct Report {
     pub scene: String,
     /// What the kernel of the pack was compiled with; all else was left out.
     pub features: Vec<&'static str>,
-    /// The commit that `rtr` was built from, where whoever built it said so with `RTR_COMMIT`.
-    pub commit: &'static str,
+    /// The commit that `rtr` was built from, where that is known.
+    pub commit: Option<&'static str>,
     /// What is in the kernel, why, and what was left out of it.
     pub kernel: LeftOut,
     /// Devices that rendered it.
@@ -189,7 +189,7 @@ impl Report {
             version: env!("CARGO_PKG_VERSION"),
             scene: scene.render_id(),
             features: pack::features::names(scene.pack().features()),
-            commit: option_env!("RTR_COMMIT").unwrap_or("unknown"),
+            commit: commit::COMMIT,
             kernel: LeftOut::of(scene),
             device: outcome.picture.meta.device.clone(),
             seed: job.seed,

@@ -156,6 +156,9 @@ pub struct Times {
     pub render: f64,
     /// Adding finished tiles to the sums, on a GPU out of its mapped memory; part of `render`.
     pub readback: f64,
+    /// What the GPU's own timestamps say that its passes took, all added up; part of `render`. `None` on the CPU and
+    /// where the GPU has not timed every pass.
+    pub device: Option<f64>,
     /// Measuring the points.
     pub estimate: f64,
     /// Writing pictures; known to the command line only.

@@ -128,6 +128,7 @@ impl Device {
         self.fault()?;
         waited?;
         let own = oldest.watch.as_ref().and_then(Stopwatch::read);
+        run.timed(own);
         let time = tally.busy.ended(oldest.submitted, Instant::now(), own);
         pace.measured(oldest.slots.iter().map(|slot| slot.item.cost()).sum(), time);
         free.watches.extend(oldest.watch.take());

@@ -15,6 +15,9 @@ const WIDTH: u32 = 4;
 
 /// A ray, and what turns it into the z axis, in all lanes.
 pub(super) struct Sheared {
+    from: [f32; 3],
+    /// As it is, for one triangle.
+    shear: TriangleShear,
     origin: [f32x4; 3],
     slope: [f32x4; 2],
     inv_depth: f32x4,
@@ -27,11 +30,32 @@ impl Sheared {
     pub(super) fn new(origin: Vec3, shear: &TriangleShear) -> Self {
         let all = f32x4::splat;
         Self {
+            from: origin.to_array(),
+            shear: *shear,
             origin: [all(origin.x), all(origin.y), all(origin.z)],
             slope: [all(shear.slope.x), all(shear.slope.y)],
             inv_depth: all(shear.inv_depth),
             axis: shear.axis,
         }
+    }
+
+    /// The distance of a triangle in a plane across an axis other than that of the ray.
+    #[inline(always)]
+    fn flat<const AXIS: u32>(&self, tri: &[Row; 3]) -> Option<f32> {
+        let (x, y) = match AXIS {
+            0 => (1, 2),
+            1 => (2, 0),
+            _ => (0, 1),
+        };
+        self.flat_across(tri, x, self.shear.slope.x)
+            .or_else(|| self.flat_across(tri, y, self.shear.slope.y))
+    }
+
+    #[inline(always)]
+    fn flat_across(&self, tri: &[Row; 3], axis: usize, slope: f32) -> Option<f32> {
+        let [p0, p1, p2] = tri.map(|corner| f32::from_bits(corner[axis]) - self.from[axis]);
+        let flat = p0 - p1 == 0.0 && p1 - p2 == 0.0 && slope != 0.0;
+        flat.then(|| p0 / slope * self.shear.inv_depth)
     }
 }
 
@@ -77,13 +101,17 @@ fn leaf_along<const AXIS: u32>(
             // One that moves.
             return kernel.triangles_trace(at, first + n - at, walk.ray, walk.leaf, hit);
         }
-        if let Some(met) = Lanes::intersect(&corners, sheared.inv_depth, hit.t) {
+        if let Some(met) = Lanes::intersect(&corners, sheared.inv_depth) {
             let mut left = met.hits & ((1 << group.len()) - 1);
             while left != 0 {
                 let lane = left.trailing_zeros();
                 left &= left - 1;
-                let new = met.hit(lane, at + lane, &walk.ray);
-                if counts(kernel, &new, &hit, &walk.ray, all) {
+                let mut new = met.hit(lane, at + lane, &walk.ray);
+                if let Some(t) = group.get(lane as usize).and_then(|tri| sheared.flat::<AXIS>(tri))
+                {
+                    new.t = t;
+                }
+                if new.t > 0.0 && new.t <= hit.t && counts(kernel, &new, &hit, &walk.ray, all) {
                     hit = new;
                 }
             }
@@ -130,7 +158,7 @@ impl Corner {
 
 /// What a ray and four triangles have in common.
 struct Lanes {
-    /// One bit a lane: it is hit, at a distance above 0 and not behind what is known.
+    /// One bit a lane: the line of the ray meets it, at some distance.
     hits: u32,
     t: [f32; 4],
     b1: [f32; 4],
@@ -204,9 +232,9 @@ impl Edge {
 }
 
 impl Lanes {
-    /// Nothing if no lane is hit before `t_max` or at it.
+    /// Nothing if no lane is hit.
     #[inline(always)]
-    fn intersect(corners: &[Corner; 3], inv_depth: f32x4, t_max: f32) -> Option<Self> {
+    fn intersect(corners: &[Corner; 3], inv_depth: f32x4) -> Option<Self> {
         let Edges { inside, weights: [w0, w1, w2] } = Edges::new(corners);
         if inside.none() {
             return None;
@@ -214,8 +242,7 @@ impl Lanes {
         let [a, b, c] = corners;
         let det = w0 + w1 + w2;
         let t = (w0 * a.z + w1 * b.z + w2 * c.z) / det * inv_depth;
-        let near = t.simd_gt(f32x4::ZERO) & t.simd_le(f32x4::splat(t_max));
-        let hits = (inside & near & det.simd_ne(f32x4::ZERO)).to_bitmask();
+        let hits = (inside & det.simd_ne(f32x4::ZERO)).to_bitmask();
         let (b1, b2) = (w1 / det, w2 / det);
         let met = Self { hits, t: t.to_array(), b1: b1.to_array(), b2: b2.to_array() };
         (hits != 0).then_some(met)

@@ -66,21 +66,40 @@ pub(crate) fn segment(features: &FeatureSet) -> String {
         "kernel/state.wgsl",
         "kernel/vertex.wgsl",
         "scene/fog.wgsl",
+        "trace/ray.wgsl",
     ]);
     let medium = match (features.media, features.scattering) {
-        (true, true) => "    if (segment_scatter(path, t, v)) {\n        return true;\n    }\n",
-        (true, false) => "    segment_absorb(path, t);\n",
+        (true, true) => "    if (segment_scatter(path, hit, v)) {\n        return true;\n    }\n",
+        (true, false) => "    segment_absorb(path, hit.t);\n",
         (false, _) => "",
     };
-    let comment = "The path's segment up to its hit at `t`: true if the path is scattered on the way, in `v`.";
+    let comment =
+        "The path's segment up to `hit`: true if the path is scattered on the way, in `v`.";
     let head =
-        "dispatch_segment(path: ptr<function, Path>, t: f32, v: ptr<function, Vertex>) -> bool";
+        "dispatch_segment(path: ptr<function, Path>, hit: Hit, v: ptr<function, Vertex>) -> bool";
     function(
         &mut text,
         comment,
         head,
-        &format!("{medium}    dispatch_fog(path, t);\n    return false;\n"),
+        &format!("{medium}    dispatch_fog(path, hit.t);\n    return false;\n"),
     );
+    text
+}
+
+/// How near to what ends a segment a point of it can be.
+pub(crate) fn before(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: how near to a surface a point can be.\n\n");
+    text += &imports(["surface/surface.wgsl", "trace/ray.wgsl"]);
+    let mut body = String::new();
+    if features.triangles {
+        text += &imports(["scene/placed.wgsl", "shape/triangle.wgsl", "trace/triangles.wgsl"]);
+        body += "    if ((hit.prim & PRIM_OTHER) == 0u && !dispatch_is_placed(hit)) {\n        \
+                 return triangle_before(hit.prim, dir, hit.t);\n    }\n";
+    }
+    body += "    return surface_before(hit.t);\n";
+    let comment =
+        "How far along a ray in direction `dir` a point can be and still be before `hit`, rounded.";
+    function(&mut text, comment, "dispatch_before(hit: Hit, dir: vec3f) -> f32", &body);
     text
 }
 

@@ -46,7 +46,7 @@ fn path_advance(path: ptr<function, Path>, hit: Hit) {
     }
     (*path).segments += 1u;
     var v: Vertex;
-    if (dispatch_segment(path, hit.t, &v)) {
+    if (dispatch_segment(path, hit, &v)) {
         if (!(*path).open) {
             return;
         }

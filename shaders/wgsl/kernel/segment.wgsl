@@ -7,14 +7,12 @@
 #import "math/vector.wgsl"
 #import "media/homogeneous.wgsl"
 #import "sampler/key.wgsl"
+#import "scene/before.wgsl"
 #import "scene/constants.wgsl"
 #import "scene/fog.wgsl"
 #import "scene/records.wgsl"
 #import "scene/sampler.wgsl"
-
-// A point is kept this far in front of the surface at the end of its segment, normalised units: 16 ulp of the
-// largest coordinate. Beyond the surface it would never leave the medium.
-const SEGMENT_MARGIN: f32 = 9.5367432e-7; // 16 * 2^-24
+#import "trace/ray.wgsl"
 
 // Takes away what the path's medium absorbs along its segment. Where the segment leaves the scene, the
 // medium's colour takes its place.
@@ -32,25 +30,26 @@ fn segment_absorb(path: ptr<function, Path>, t: f32) {
 }
 
 // The same for media that may scatter: true if the path is scattered on its way, in `v` unless it has ended.
-fn segment_scatter(path: ptr<function, Path>, t: f32, v: ptr<function, Vertex>) -> bool {
+fn segment_scatter(path: ptr<function, Path>, hit: Hit, v: ptr<function, Vertex>) -> bool {
     let i = (*path).inside.medium;
     if (i == NONE) {
         return false;
     }
     let m = load_medium(i);
     if (vector_max(m.sigma_s) <= 0.0) {
-        segment_absorb(path, t);
+        segment_absorb(path, hit.t);
         return false;
     }
     let u = sample_2d((*path).key, PURPOSE_DISTANCE);
-    let length = veil_length(path, (*path).dir, t, m.reach);
+    let length = veil_length(path, (*path).dir, hit.t, m.reach);
     let step = homogeneous_sample(m, (*path).throughput, length, u);
     (*path).throughput *= step.weight;
     if (!step.scatters) {
         return false;
     }
     let from_start = max(step.t - veil_start(path, (*path).dir), 0.0);
-    let at = min(from_start, max(0.5 * t, t - SEGMENT_MARGIN));
+    // Beyond the surface at the end of its segment it would never leave the medium.
+    let at = min(from_start, dispatch_before(hit, (*path).dir));
     dispatch_fog(path, at);
     let origin = state_origin((*path).point, (*path).gap, (*path).dir);
     vertex_medium(path, origin + (*path).dir * at, i, v);

@@ -78,8 +78,24 @@ fn triangle_intersect(tri: Triangle, origin: vec3f, shear: TriangleShear) -> vec
     if (det == 0.0) {
         return vec4f(-1.0, 0.0, 0.0, 0.0);
     }
-    let t = dot(w, vec3f(p0.z, p1.z, p2.z)) / det * shear.inv_depth;
+    var t = dot(w, vec3f(p0.z, p1.z, p2.z)) / det * shear.inv_depth;
+    // The weights are off by the roundings of the whole triangle. In a plane across an axis the distance needs none
+    // of them: there it is right but for four roundings of itself, and has the right sign.
+    if (p0.x == p1.x && p1.x == p2.x && shear.slope.x != 0.0) {
+        t = p0.x / shear.slope.x * shear.inv_depth;
+    } else if (p0.y == p1.y && p1.y == p2.y && shear.slope.y != 0.0) {
+        t = p0.y / shear.slope.y * shear.inv_depth;
+    }
     return vec4f(t, w.y / det, w.z / det, 0.0);
+}
+
+// 0 in the coordinate that all corners share, if the triangle stands still in a plane across an axis: rays meet
+// such a plane at distances of the right sign. Otherwise above 0 in all three.
+fn triangle_spread(tri: Triangle) -> vec3f {
+    if ((tri.id0 & MOVES) != 0u) {
+        return vec3f(1.0);
+    }
+    return max(abs(tri.v1 - tri.v0), abs(tri.v2 - tri.v0));
 }
 
 // Unit normal of the front side, from which v0, v1, v2 run counter-clockwise; world frame.
@@ -91,9 +107,16 @@ fn triangle_normal(tri: Triangle) -> vec3f {
 // The surface at barycentric weights `b` = (b1, b2) of triangle `i`, seen along `dir`; not interpolated.
 fn triangle_flat_surface(i: u32, b: vec2f, dir: vec3f) -> Surface {
     let tri = load_triangle(i);
-    let p = tri.v0 * (1.0 - b.x - b.y) + tri.v1 * b.x + tri.v2 * b.y;
+    let flat = triangle_spread(tri) == vec3f(0.0);
+    // What all corners share is not mixed, and stays exact.
+    let p = select(tri.v0 * (1.0 - b.x - b.y) + tri.v1 * b.x + tri.v2 * b.y, tri.v0, flat);
     let reach = max(max(abs(tri.v0), abs(tri.v1)), max(abs(tri.v2), abs(p)));
     var s = surface_new(p, triangle_normal(tri), dir, vector_max(reach));
+    if (any(flat)) {
+        // The point is in the plane, and whatever else is in it is at a distance of 0: one ulp is enough to be on the
+        // right side of it, however thin that side is.
+        s.gap = 1.1920929e-7 * vector_max(select(vec3f(0.0), abs(p), flat)); // 2^-23
+    }
     s.uv = triangle_uv(i, b);
     s.material = load_tri_shade_material(i);
     s.light = load_tri_shade_light(i);
@@ -117,6 +140,20 @@ fn triangle_smooth_normal(normals: vec3u, b: vec2f, fallback: vec3f) -> vec3f {
     let n1 = octahedral_decode(normals.y);
     let n2 = octahedral_decode(normals.z);
     return vector_unit_or(n0 * (1.0 - b.x - b.y) + n1 * b.x + n2 * b.y, fallback);
+}
+
+// How far along a ray in direction `dir`, which hits triangle `i` of the world at `t`, a point can be and still be on
+// this side of it when its coordinates are rounded.
+fn triangle_before(i: u32, dir: vec3f, t: f32) -> f32 {
+    let tri = load_triangle(i);
+    let flat = triangle_spread(tri) == vec3f(0.0);
+    if (!any(flat)) {
+        return surface_before(t);
+    }
+    // Two ulp of the coordinate that the plane has, and eight roundings of the way.
+    let ulps = 2.3841858e-7 * vector_max(select(vec3f(0.0), abs(tri.v0), flat)); // 2^-22
+    let cosine = max(vector_max(select(vec3f(0.0), abs(dir), flat)), 1e-30);
+    return max(t * 0.9999995 - ulps / cosine, 0.0); // 1 - 2^-21
 }
 
 // Texture coordinates at barycentric weights `b` = (b1, b2) of triangle `i`.

@@ -42,6 +42,12 @@ fn surface_new(p: vec3f, out: vec3f, dir: vec3f, reach: f32) -> Surface {
     return Surface(p, p, ng, ng, vec2f(0.0), gap, 0u, NONE, 0u, vec3f(0.0), 1.0, front);
 }
 
+// How far along a ray that hits a surface at `t` a point can be and still be on this side of it, at least, whatever
+// the surface: 16 ulp of the largest coordinate before it, or half way.
+fn surface_before(t: f32) -> f32 {
+    return max(0.5 * t, t - 9.5367432e-7); // 16 * 2^-24
+}
+
 // Moves the surface by `shift`, which it has come since the shutter opened.
 fn surface_carry(s: ptr<function, Surface>, shift: vec3f) {
     (*s).p += shift;

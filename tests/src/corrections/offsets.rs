@@ -163,7 +163,8 @@ pub fn topic() -> Topic {
             weights, not from origin + t direction. The ray starts 16 · 2⁻²⁴ of the largest coordinate that \
             went into it off the surface, on the side to which it goes, and does not test the primitive it \
             starts on. Gaps narrower than a millionth of the distance from the scene's centre are lost to us \
-            too: single precision does not have them."
+            too: single precision does not have them. Between planes across an axis it does: there the ray \
+            starts one ulp off, since the distance to such a plane has the right sign."
             .into(),
     }
 }

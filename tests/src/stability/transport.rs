@@ -5,14 +5,17 @@ use std::path::Path;
 use std::time::Duration;
 
 use pack::abi::{Camera, MaterialKind, SamplerKind, material_flag};
-use runtime::{Control, Counters, DeviceChoice, Job, Rect, SampleRange, Scene, Stop, render};
+use runtime::convergence::{Measure, Point};
+use runtime::{
+    Control, Counters, DeviceChoice, Job, Precision, Rect, SampleRange, Scene, Stop, render,
+};
 
 use super::tools::{
     WHITE_SKY, count, diagnose, endless, estimates, films_of, first_error, open, sized, view,
 };
 use super::{Case, Row};
 use crate::kernel::Bench;
-use crate::picture::{Estimate, channel};
+use crate::picture::{self, Estimate, channel};
 use crate::scene;
 use crate::statistics::{Counts, Mean, index};
 
@@ -198,9 +201,38 @@ light bulb: sphere {{ center = (0, 5, 0)m, radius = 50cm }}
         Row::fact("no light in the text", "an error that says so", &told, told.contains("black")),
         Row::never("pixels that are not 0", 1024, lit),
         Row::never("samples that are not finite", 16_384, bad),
-        Row::fact("`--until-error` ends", "exit 0", "not measured", false)
-            .known("the option is not part of the renderer yet"),
+        until_error(&scene::bytes(&compiled)),
     ]
+}
+
+/// A goal of 1 % in a picture whose error is 0 over 0.
+fn until_error(black: &[u8]) -> Row {
+    let found = [Precision::F32, Precision::F64].map(|precision| {
+        let outcome = picture::cpu(open(black), |job| {
+            sized(32, 1 << 18)(job);
+            job.precision = precision;
+            job.measure = Some(Measure { goal: "0.01".parse().ok(), reference: None });
+        });
+        let points = outcome.convergence.map_or(Vec::new(), |curve| curve.points);
+        let numbers = |point: &Point| {
+            let noise = point.noise;
+            [noise.mean, noise.mse, noise.rel, noise.rel_lo, noise.rel_hi, noise.p95, noise.top]
+        };
+        let exact = points.iter().flat_map(numbers).all(|x| x.to_bits() == 0);
+        // Goals begin at 64 samples, and hold at two points in a row.
+        let soon = points.last().is_some_and(|point| point.spp < 10_000);
+        let text = format!(
+            "{:?}, {}, {}",
+            outcome.stop,
+            if soon { "at once" } else { "late" },
+            if exact { "0" } else { "not 0" }
+        );
+        (text, outcome.stop == Stop::ErrorReached && soon && exact)
+    });
+    let [(single, a), (double, b)] = found;
+    let what = "`--until-error 0.01` ends, its numbers are";
+    let expected = "ErrorReached, at once, 0";
+    Row { double, ..Row::fact(what, expected, &single, a && b) }
 }
 
 fn sizes() -> Vec<Row> {

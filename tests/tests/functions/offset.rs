@@ -62,6 +62,102 @@ fn a_triangle_is_not_hit_by_rays_that_leave_it() {
     assert_eq!(hits, 0, "of {rays} without skipping the source");
 }
 
+/// A triangle around `center` in the plane across `axis` through it, of about this size.
+fn across(axis: usize, center: DVec3, size: f64, stream: &mut Stream) -> [Vec3; 3] {
+    let turn = stream.between(0.0, std::f64::consts::TAU);
+    [0.0, 1.0, 2.0].map(|third| {
+        let (y, x) = (turn + third * std::f64::consts::TAU / 3.0).sin_cos();
+        let mut corner = center;
+        corner[(axis + 1) % 3] += x * size * stream.between(1.0, 3.0);
+        corner[(axis + 2) % 3] += y * size * stream.between(1.0, 3.0);
+        corner.as_vec3()
+    })
+}
+
+/// Planes across an axis, the other side of a slab a few ulp thick, and copies of the one that the ray leaves,
+/// turned over and larger: the copies are not met, the other side is, and at its distance.
+#[test]
+fn planes_across_an_axis_are_left_and_met_however_near_they_are() {
+    let mut stream = Stream::new(97, 0);
+    let (mut copies, mut missed, mut early, mut rays) = (0, 0, 0, 0);
+    for turn in 0..6000 {
+        let axis = turn % 3;
+        let size = 10.0_f64.powf(stream.between(-4.0, -1.0));
+        let place =
+            10.0_f64.powf(stream.between(-8.0, -0.3)) * if turn % 2 == 0 { 1.0 } else { -1.0 };
+        let mut center = stream.direction() * stream.between(0.0, 0.7);
+        center[axis] = if turn % 7 == 0 { 0.0 } else { f64::from(place as f32) };
+        let source = across(axis, center, size, &mut stream);
+        let over = [source[0], source[2], source[1]];
+        let large = across(axis, center, size * 5.0, &mut stream);
+        // From four ulp on.
+        let thin = 10.0_f64.powf(stream.between(-6.3, 0.0));
+        let lid = center[axis] * (1.0 - thin) - if center[axis] == 0.0 { thin * 1e-9 } else { 0.0 };
+        let mut below = center;
+        below[axis] = f64::from(lid as f32);
+        let floor = across(axis, below, 1e6, &mut stream);
+        let triangles = [(source, 0), (over, 0), (large, 3), (floor, 6)]
+            .map(|(corners, id)| record(corners, [id, id + 1, id + 2]));
+        let bench = Bench::new().triangles(&triangles);
+        let mut kernel = bench.single();
+        let mut inwards = DVec3::ZERO;
+        inwards[axis] = below[axis] - center[axis];
+        let inwards = inwards.normalize();
+        for _ in 0..20 {
+            let (x, y) = (stream.unit24(), stream.unit24());
+            let b = if x + y > 1.0 { Vec2::new(1.0 - x, 1.0 - y) } else { Vec2::new(x, y) };
+            let s = kernel.triangle_flat_surface(0, b, stream.direction().as_vec3());
+            let out = leaving(-inwards, &mut stream).as_vec3();
+            let origin = start(&mut kernel, &s, out);
+            copies += usize::from(kernel.trace(ray(origin, out, NONE)).prim != NONE);
+            let dir = leaving(inwards, &mut stream).as_vec3();
+            let origin = start(&mut kernel, &s, dir);
+            let hit = kernel.trace(ray(origin, dir, NONE));
+            missed += usize::from(hit.prim != 3);
+            let truth = (below[axis] - f64::from(origin[axis])) / f64::from(dir[axis]);
+            early += usize::from((f64::from(hit.t) / truth - 1.0).abs() > 1e-6);
+            rays += 1;
+        }
+    }
+    assert_eq!((copies, missed, early), (0, 0, 0), "of {rays}");
+}
+
+/// A triangle across an axis and one that falls away from it at their common edge, by any angle: rays that leave the
+/// one, half of them from next to that edge, do not meet the other.
+#[test]
+fn planes_across_an_axis_do_not_meet_what_falls_away_at_their_edges() {
+    let mut stream = Stream::new(101, 0);
+    let (mut hits, mut rays) = (0, 0);
+    for turn in 0..10_000 {
+        let axis = turn % 3;
+        let size = 10.0_f64.powf(stream.between(-4.0, -1.0));
+        let center = stream.direction() * stream.between(0.0, 0.7);
+        let flat = across(axis, center, size, &mut stream);
+        let [a, b, c] = flat.map(Vec3::as_dvec3);
+        let out = (b - a).cross(c - a).normalize();
+        let beyond = (b + c - a) - out * (size * 10.0_f64.powf(stream.between(-7.0, 1.0)));
+        let triangles =
+            [record(flat, [0, 1, 2]), record([flat[2], flat[1], beyond.as_vec3()], [2, 1, 3])];
+        let bench = Bench::new().triangles(&triangles);
+        let mut kernel = bench.single();
+        for _ in 0..40 {
+            // Next to the edge between b and c: the first weight is nearly nothing.
+            let first = if stream.unit() < 0.5 { 1e-6 } else { stream.unit24() };
+            let second = (1.0 - first) * stream.unit24();
+            let s = kernel.triangle_flat_surface(
+                0,
+                Vec2::new(1.0 - first - second, second),
+                -out.as_vec3(),
+            );
+            let dir = leaving(out, &mut stream).as_vec3();
+            let origin = start(&mut kernel, &s, dir);
+            hits += usize::from(kernel.trace(ray(origin, dir, 0)).prim != NONE);
+            rays += 1;
+        }
+    }
+    assert_eq!(hits, 0, "of {rays}");
+}
+
 /// The faces of an octahedron around `center`: convex, so a ray that leaves it hits nothing.
 fn octahedron(center: DVec3, size: f64) -> Vec<Triangle> {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
