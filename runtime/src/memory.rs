@@ -44,18 +44,20 @@ pub fn film_bytes(job: &Job, saved: bool) -> u64 {
 /// What is to be said of a film before it is made; nothing of one that most machines have room for.
 ///
 /// # Errors
-/// When it is larger than what is `free`.
+/// When it is large, and larger than what is `free`.
 pub(crate) fn announce(
     job: &Job,
     saved: bool,
     free: Option<u64>,
 ) -> Result<Option<String>, TooLarge> {
     let (need, pixels) = (film_bytes(job, saved), job.crop.pixels());
-    if let Some(free) = free.filter(|free| need > *free) {
-        return Err(TooLarge { pixels, need, free });
+    if need < LARGE {
+        return Ok(None);
     }
-    Ok((need >= LARGE)
-        .then(|| format!("the film takes {} of memory while it is rendered", gigabytes(need))))
+    match free {
+        Some(free) if need > free => Err(TooLarge { pixels, need, free }),
+        _ => Ok(Some(format!("the film takes {} of memory while it is rendered", gigabytes(need)))),
+    }
 }
 
 fn gigabytes(bytes: u64) -> String {
@@ -69,8 +71,18 @@ pub(crate) fn free() -> Option<u64> {
     let number = |path: &str| read(path)?.trim().parse::<u64>().ok();
     let limit = number("/sys/fs/cgroup/memory.max");
     let used = number("/sys/fs/cgroup/memory.current");
-    let group = limit.zip(used).map(|(limit, used)| limit.saturating_sub(used));
-    machine.into_iter().chain(group).min()
+    let cache = read("/sys/fs/cgroup/memory.stat").map_or(0, |text| reclaimable(&text));
+    let in_group = |(limit, used): (u64, u64)| limit.saturating_sub(used.saturating_sub(cache));
+    machine.into_iter().chain(limit.zip(used).map(in_group)).min()
+}
+
+/// Bytes of files that `memory.stat` counts as used, though they are given back when memory is short.
+fn reclaimable(stat: &str) -> u64 {
+    let counts = |name: &str| matches!(name, "active_file" | "inactive_file");
+    let pairs = stat.lines().filter_map(|line| line.split_once(' '));
+    let bytes =
+        pairs.filter(|(name, _)| counts(name)).filter_map(|(_, n)| n.trim().parse::<u64>().ok());
+    bytes.fold(0, u64::saturating_add)
 }
 
 /// `MemAvailable` of `/proc/meminfo`, in bytes.
@@ -122,8 +134,8 @@ mod tests {
         assert_eq!(film_bytes(&large, true), 68 << 28, "with its copy");
         // Four more numbers of double precision, their variance, and three more batches.
         assert_eq!(film_bytes(&job(1, Some(Measure::default())), true), 40 + 40 + 36);
-        // Small ones are not worth a word, and a crop counts by its own pixels.
-        assert_eq!(announce(&job(1920, None), true, Some(1 << 30)), Ok(None));
+        // Small ones are not worth a word, and are never refused; a crop counts by its own pixels.
+        assert_eq!(announce(&job(1920, None), true, Some(1 << 20)), Ok(None));
         let part = Job { crop: Rect { x: 0, y: 0, w: 16, h: 16 }, ..large };
         assert_eq!(announce(&part, true, Some(1 << 20)), Ok(None));
     }
@@ -136,6 +148,7 @@ mod tests {
         {
             assert_eq!(available(text), None, "{text}");
         }
+        assert_eq!(reclaimable("anon 5\nfile 9\nactive_file 3\ninactive_file 4\nkernel x\n"), 7);
         if cfg!(target_os = "linux") {
             assert!(free().is_some_and(|bytes| bytes > 0));
         }

@@ -78,13 +78,13 @@ impl<'a> Walker<'a> {
         for row in node {
             let child = row[3];
             let (rows, first) = if child & CHILD_INNER != 0 {
-                (self.nodes, 4 * (child & CHILD_INDEX))
+                (self.nodes, 4 * (child & CHILD_INDEX) as usize)
             } else {
-                (self.triangles, 3 * (child & CHILD_FIRST))
+                (self.triangles, 3 * (child & CHILD_FIRST) as usize)
             };
             // Two lines of the cache: triangles of a leaf are several, and what follows a node is often its sibling.
             for line in 0..2 {
-                if let Some(row) = rows.get(first as usize + line * LINE) {
+                if let Some(row) = rows.get(first + line * LINE) {
                     prefetch(row);
                 }
             }
