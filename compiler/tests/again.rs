@@ -1,8 +1,9 @@
 //! After an edit that leaves geometry as it is, the pack is the one that compiling everything gives, byte for byte;
 //! and geometry is taken over where that is promised.
 
+mod rtc_support;
+
 use std::path::Path;
-use std::process::Command;
 
 const SCENE: &str = "rts 1
 param turn: number = 20
@@ -97,16 +98,7 @@ impl Folder {
     }
 
     fn rtc(&self, cache: &str, pack: &str, args: &[&str]) -> String {
-        let output = Command::new(env!("CARGO_BIN_EXE_rtc"))
-            .current_dir(self.path())
-            .env("RTC_CACHE_DIR", self.path().join(cache))
-            .args(["scene.rts", "-o", pack, "--color", "never"])
-            .args(args)
-            .output()
-            .expect("rtc starts");
-        let log = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(0), "{log}");
-        log
+        rtc_support::rtc(self.path(), cache, pack, args)
     }
 
     fn read(&self, name: &str) -> Vec<u8> {

@@ -1,5 +1,7 @@
 //! `rtc --depfile`: the rule names every file that was read, and `make` understands it.
 
+mod rtc_support;
+
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;
@@ -40,14 +42,7 @@ render main: path { samples = 1 }
 }
 
 fn compile(folder: &Path) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_rtc"))
-        .current_dir(folder)
-        .env("RTC_CACHE_DIR", folder.join("cache"))
-        .args(["scene.rts", "-o", "out #1.pack", "--depfile", "out.d"])
-        .output()
-        .expect("rtc starts");
-    let log = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(0), "{log}");
+    rtc_support::rtc(folder, "cache", "out #1.pack", &["--depfile", "out.d"]);
     std::fs::read_to_string(folder.join("out.d")).expect("the depfile is there")
 }
 

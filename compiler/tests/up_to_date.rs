@@ -1,5 +1,7 @@
 //! A pack that is up to date is not made again; everything that could change it is noticed.
 
+mod rtc_support;
+
 use std::path::Path;
 use std::process::Command;
 
@@ -14,16 +16,7 @@ render main: path { samples = 1 }
 ";
 
 fn rtc(folder: &Path, args: &[&str]) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_rtc"))
-        .current_dir(folder)
-        .env("RTC_CACHE_DIR", folder.join("cache"))
-        .args(["scene.rts", "-o", "a.pack", "--color", "never"])
-        .args(args)
-        .output()
-        .expect("rtc starts");
-    let log = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(0), "{log}");
-    log
+    rtc_support::rtc(folder, "cache", "a.pack", args)
 }
 
 #[test]

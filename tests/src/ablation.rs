@@ -65,9 +65,16 @@ pub fn tables(text: &mut String, names: &[&str]) -> Result<(), Box<dyn Error>> {
     for name in names {
         let scene = scene_of(name)?;
         for device in &devices {
-            let found = compared(&scene, device, effort, false)?;
-            let _ = writeln!(text, "{}", row(name, &scene, &found));
-            verdicts.extend(verdict(name, &found));
+            match compared(&scene, device, effort, false) {
+                Ok(found) => {
+                    let _ = writeln!(text, "{}", row(name, &scene, &found));
+                    verdicts.extend(verdict(name, &found));
+                }
+                // One scene that is too much for a device is no reason to lose the others.
+                Err(error) => {
+                    verdicts.push(format!("`{name}` was not measured on {device:?}: {error}."));
+                }
+            }
         }
     }
     if devices == [DeviceChoice::Cpu] {

@@ -64,7 +64,7 @@ pub fn child(name: &str, arguments: impl Iterator<Item = String>) -> Option<u8> 
 /// The tables with these names, in the order of the page; all of them if no name is given.
 ///
 /// # Errors
-/// When there is no such table, or something cannot be measured.
+/// When there is no such table. What cannot be measured is said in its place.
 pub fn page(names: &[String]) -> Result<String, Box<dyn Error>> {
     let known = |name: &String| TABLES.iter().any(|table| table.name == name);
     if let Some(unknown) = names.iter().find(|name| !known(name)) {
@@ -75,7 +75,10 @@ pub fn page(names: &[String]) -> Result<String, Box<dyn Error>> {
     let mut packs = Packs::new()?;
     let mut text = header();
     for table in TABLES.iter().filter(wanted) {
-        (table.write)(&mut packs, &mut text)?;
+        // What others took minutes to measure is not lost.
+        if let Err(error) = (table.write)(&mut packs, &mut text) {
+            let _ = writeln!(text, "\nThe table `{}` is not whole: {error}.", table.name);
+        }
     }
     Ok(text)
 }

@@ -12,13 +12,13 @@ use wgpu::{
     BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry, BindingType, Buffer,
     BufferBindingType, ComputePipeline, ComputePipelineDescriptor, DeviceDescriptor, ErrorFilter,
     ErrorScopeGuard, Features, Limits, PipelineCompilationOptions, PipelineLayoutDescriptor,
-    ShaderModuleDescriptor, ShaderRuntimeChecks, ShaderSource, ShaderStages,
+    ShaderModuleDescriptor, ShaderRuntimeChecks, ShaderSource, ShaderStages, SubmissionIndex,
 };
 
 /// Window `w` of binding `b` is binding `b + 8 w`.
 const WINDOW_STRIDE: u32 = 8;
-/// How long the first workgroup may take. Drivers compile then, and a software driver, which has only the CPU
-/// to run on, optimises the kernel with all features for minutes.
+/// How long a submission may take on a GPU, and on a software adapter: that has only the CPU to run on, optimises the
+/// kernel with all features for minutes at the first workgroup, and cannot be lost as a GPU can.
 const PATIENCE: [Duration; 2] = [Duration::from_mins(1), Duration::from_mins(15)];
 /// The compiler of a large kernel recurses deeply.
 const COMPILER_STACK: usize = 32 << 20;
@@ -63,6 +63,8 @@ pub(super) struct Device {
     pub(super) windows: Vec<Window>,
     /// What building the pipeline took, with the first workgroup: drivers compile at the first dispatch.
     pub(super) built: Duration,
+    /// After which a submission counts as lost.
+    patience: Duration,
     /// Set when the device is lost.
     pub(super) lost: Fault,
     /// Set by an error that no scope caught.
@@ -104,10 +106,17 @@ impl Device {
         let checks = (module == Module::Trusted).then(ShaderRuntimeChecks::unchecked);
         let (layout, pipeline) = compile(&device, setup.kernel(), &windows, checks)?;
         let (gpu, built) = (device, Duration::ZERO);
-        let mut ready = Self { gpu, queue, pipeline, layout, windows, built, lost, uncaptured };
-        ready.try_one_workgroup(setup, PATIENCE[usize::from(adapter.is_software())])?;
+        let patience = PATIENCE[usize::from(adapter.is_software())];
+        let mut ready =
+            Self { gpu, queue, pipeline, layout, windows, built, patience, lost, uncaptured };
+        ready.try_one_workgroup(setup)?;
         ready.built = began.elapsed();
         Ok(ready)
+    }
+
+    /// Waits for a submission.
+    pub(super) fn wait(&self, index: SubmissionIndex) -> Result<(), GpuError> {
+        wait_at_most(&self.gpu, index, self.patience)
     }
 
     /// What became of the device, if anything.
@@ -126,11 +135,11 @@ impl Device {
 
     /// Renders 8 × 8 pixels once: drivers compile at the first dispatch, and one that renders
     /// nothing at all is found before it is trusted with a picture.
-    fn try_one_workgroup(&mut self, setup: &Setup<'_>, patience: Duration) -> Result<(), GpuError> {
+    fn try_one_workgroup(&mut self, setup: &Setup<'_>) -> Result<(), GpuError> {
         let mut slots = Slots::default();
         let mut slot: Slot = slots.take(self, 64);
         let index = slot.submit_trial(self, setup);
-        wait_at_most(&self.gpu, index, patience)?;
+        self.wait(index)?;
         self.fault()?;
         slot.read(self, |_| ())
     }

@@ -10,7 +10,6 @@ use super::device::Device;
 use super::pace::{Busy, MAX_TILES, Pace};
 use super::slot::{Slot, Slots, submit};
 use super::stopwatch::Stopwatch;
-use super::upload::wait;
 use crate::cpu;
 use crate::run::Run;
 use crate::scene::Setup;
@@ -124,7 +123,7 @@ impl Device {
         tally: &mut Tally,
     ) -> Result<(), GpuError> {
         let Some(oldest) = under_way.front_mut() else { return Ok(()) };
-        let waited = wait(&self.gpu, oldest.index.clone());
+        let waited = self.wait(oldest.index.clone());
         self.fault()?;
         waited?;
         let own = oldest.watch.as_ref().and_then(Stopwatch::read);
