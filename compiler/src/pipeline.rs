@@ -21,7 +21,7 @@ use shaders::{FeatureSet, LayoutError, Linked, ShaderError};
 
 use crate::import::Limits;
 use crate::lower::{self, LowerError, Lowered, Rows, Trees};
-use crate::reuse::{Reuse, Reused, Share};
+use crate::reuse::{Geometry, Reuse, Reused, Share};
 
 pub use again::{EncodedRoster, Memory, compile_again};
 pub use essence::Essence;
@@ -124,20 +124,44 @@ pub fn compile_reusing(
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(CompileError::Scene);
     }
-    let mut lowered = lower::lower(scene, loaded, &options.trees, diagnostics)?;
+    let lowered = lower::lower(scene, loaded, &options.trees, diagnostics)?;
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(CompileError::Scene);
     }
     clock.times(&lowered.times);
-    let (features, kernel, size) = link(&lowered, reuse, None)?;
+    let essence = Essence::new(scene, sources);
+    let made = Made { lowered, files, geometry: Geometry::Nothing, earlier: None };
+    complete((scene, &essence), sources, options, reuse, made, clock)
+}
+
+/// What was lowered, and from what.
+struct Made<'a> {
+    lowered: Lowered,
+    files: Vec<FileRead>,
+    geometry: Geometry,
+    /// What some of it was taken over from.
+    earlier: Option<(&'a Pack, &'a Memory)>,
+}
+
+/// Adds the kernel and all that is said of a scene to what was lowered.
+fn complete(
+    (scene, essence): (&Scene, &Essence),
+    sources: &SourceSet,
+    options: &Options<'_>,
+    reuse: &Reuse,
+    made: Made<'_>,
+    mut clock: Clock,
+) -> Result<Compiled, CompileError> {
+    let Made { mut lowered, files, geometry, earlier } = made;
+    let (features, kernel, size) = link(&lowered, reuse, earlier.map(|(pack, _)| pack))?;
     clock.phase("link and prove the kernel");
     let context = manifest::Context { scene, sources, options, files: &files };
     let manifest = context.manifest(&lowered, &features, size);
     let recipe_id = context.recipe_id();
     let trees = Share { reused: lowered.trees.loaded, all: lowered.trees.groups };
-    let reused = Reused { texts: sources.ids().count(), trees, ..reuse.counts() };
-    let essence = Essence::new(scene, sources);
-    let (memory, roster) = Memory::of(&essence, &files, &mut lowered, None);
+    let reused = Reused { texts: sources.ids().count(), geometry, trees, ..reuse.counts() };
+    let before = earlier.map(|(_, memory)| memory);
+    let (memory, roster) = Memory::of(essence, &files, &mut lowered, before);
     Ok(Compiled {
         lowered,
         features,

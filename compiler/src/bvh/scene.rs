@@ -123,7 +123,8 @@ pub fn build_instanced(
     Ok((joined, report))
 }
 
-/// The groups of triangles that fill the same space, see [`knots`].
+/// The large meshes that fill the same space, as indices of their groups, see [`knots`]. Small ones share trees with
+/// what is near them anyway, and a knot with some would be another one whenever one of them moved.
 fn knots_of_triangles(groups: &[Group], mut pieces: Vec<Piece>) -> Vec<Vec<usize>> {
     let is_large = |group: &Group| {
         let is_mesh = group.kind == GroupKind::Triangles && group.members.len() == 1;

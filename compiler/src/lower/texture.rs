@@ -105,7 +105,13 @@ impl<'a> TextureTable<'a> {
         let loaded = match self.source {
             Source::Files(loaded) => loaded,
             Source::Earlier(known) => return known.clone(),
-            Source::Gone => return KnownTextures::default(),
+            Source::Gone => {
+                debug_assert!(
+                    false,
+                    "what is remembered of textures is asked for before their images go"
+                );
+                return KnownTextures::default();
+            }
         };
         let has_alpha = |image: &Option<Arc<Image>>| image.as_ref().is_some_and(|i| i.has_alpha);
         KnownTextures {
@@ -222,7 +228,11 @@ impl<'a> TextureTable<'a> {
                 known.has_alpha.get(texture).copied().unwrap_or(false)
             }
             // Materials of mesh files are taken over as they are.
-            (Source::Earlier(_), ImageRef::Asset { .. }) | (Source::Gone, _) => false,
+            (Source::Earlier(_), ImageRef::Asset { .. }) => false,
+            (Source::Gone, _) => {
+                debug_assert!(false, "no texture is asked for once their images are gone");
+                false
+            }
         }
     }
 
@@ -240,7 +250,10 @@ impl<'a> TextureTable<'a> {
                 let found = known.least.iter().find(|(of, _)| *of == name);
                 found.map_or(0.0, |(_, least)| *least)
             }
-            Source::Gone => 0.0,
+            Source::Gone => {
+                debug_assert!(false, "no texture is asked for once their images are gone");
+                0.0
+            }
         }
     }
 }

@@ -15,10 +15,10 @@ use pack::Pack;
 use serde::{Deserialize, Serialize};
 
 use super::essence::Essence;
-use super::{Clock, CompileError, Compiled, FileRead, Options, link, load, manifest};
+use super::{Clock, CompileError, Compiled, FileRead, Made, Options, complete, load};
 use crate::cache::Cache;
 use crate::lower::{Left, Lowered, Roster, Sketch, files_of_moved, lower_again, lower_moved};
-use crate::reuse::{Geometry, Reuse, Reused, Share};
+use crate::reuse::{Geometry, Reuse};
 
 /// What a compilation leaves for the next one, besides its pack.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -55,16 +55,17 @@ impl EncodedRoster {
 }
 
 impl Memory {
-    /// What is left, and what is remembered of each thing where that is new.
+    /// What is left, and what is remembered of each thing where that is new; else it is that of an `earlier` one.
     pub(super) fn of(
         essence: &Essence,
         files: &[FileRead],
         lowered: &mut Lowered,
-        earlier: Option<[u8; 32]>,
+        earlier: Option<&Self>,
     ) -> (Option<Self>, Option<EncodedRoster>) {
         let (sketch, roster) = (lowered.sketch.take(), lowered.roster.take());
         let roster = roster.as_ref().and_then(EncodedRoster::new);
-        let name = roster.as_ref().map(|roster| roster.name).or(earlier).unwrap_or_default();
+        let before = earlier.map(|memory| memory.roster);
+        let name = roster.as_ref().map(|roster| roster.name).or(before).unwrap_or_default();
         let memory = sketch.map(|mut sketch| {
             sketch.set_sky(&essence.sky);
             let files = files.iter().map(|file| (file.name.clone(), file.hash)).collect();
@@ -132,7 +133,7 @@ pub fn compile_again(
     } else {
         moved((scene, essence), sources, options, (earlier, memory), reuse, &mut found)
     };
-    let Some(mut lowered) = lowered else { return Ok(None) };
+    let Some(lowered) = lowered else { return Ok(None) };
     let failed = found.iter().any(Diagnostic::is_error);
     diagnostics.append(&mut found);
     if failed {
@@ -144,29 +145,11 @@ pub fn compile_again(
     } else {
         clock.times(&lowered.times);
     }
-    let (features, kernel, size) = link(&lowered, reuse, Some(earlier.as_ref()))?;
-    clock.phase("link and prove the kernel");
     let named = |(name, hash): &(String, [u8; 32])| FileRead { name: name.clone(), hash: *hash };
-    let files: Vec<FileRead> = memory.files.iter().map(named).collect();
-    let context = manifest::Context { scene, sources, options, files: &files };
-    let manifest = context.manifest(&lowered, &features, size);
-    let recipe_id = context.recipe_id();
-    let trees = Share { reused: lowered.trees.loaded, all: lowered.trees.groups };
+    let files = memory.files.iter().map(named).collect();
     let geometry = if stays { Geometry::All } else { Geometry::OfOthers };
-    let reused = Reused { texts: sources.ids().count(), geometry, trees, ..reuse.counts() };
-    let (memory, roster) = Memory::of(essence, &files, &mut lowered, Some(memory.roster));
-    Ok(Some(Compiled {
-        lowered,
-        features,
-        kernel,
-        manifest,
-        recipe_id,
-        files,
-        memory,
-        roster,
-        reused,
-        phases: clock.phases,
-    }))
+    let made = Made { lowered, files, geometry, earlier: Some((earlier.as_ref(), memory)) };
+    complete((scene, essence), sources, options, reuse, made, clock).map(Some)
 }
 
 /// Lowers a scene in which things stand elsewhere. `None` if everything must be made, or to say what is wrong.
