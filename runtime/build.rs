@@ -1,6 +1,8 @@
 //! Links the full kernel, translates it to Rust in two precisions, and lists every declaration that
 //! the linker can emit, so that a kernel in a pack can be recognised as ours.
 
+#[path = "build/families.rs"]
+mod families;
 #[path = "build/known.rs"]
 mod known;
 #[path = "src/trust/pieces.rs"]

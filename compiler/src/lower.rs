@@ -31,7 +31,6 @@ mod object;
 mod order;
 mod pieces;
 mod power;
-mod principled;
 mod roster;
 mod rows;
 mod share;

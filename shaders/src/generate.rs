@@ -1,14 +1,18 @@
 //! A [`FeatureSet`] becomes the `scene/…` modules: everything that differs from scene to scene.
 
 mod bindings;
+mod bsdf;
 mod choice;
 mod constants;
-mod dispatch;
+mod light;
 mod media;
 mod motion;
+mod path;
 mod principled;
 mod records;
+mod sampler;
 mod sky;
+mod texture;
 mod traversal;
 
 use crate::{FeatureSet, ShaderError};
@@ -23,11 +27,11 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/candidate.wgsl", traversal::candidate(features)),
         ("scene/constants.wgsl", constants::text(features)),
         ("scene/crossing.wgsl", media::crossing(features)),
-        ("scene/dispatch.wgsl", dispatch::path(features)),
-        ("scene/dispatch_bsdf.wgsl", dispatch::bsdf(features)),
+        ("scene/dispatch.wgsl", path::dispatch(features)),
+        ("scene/dispatch_bsdf.wgsl", bsdf::dispatch(features)),
         ("scene/dispatch_choice.wgsl", choice::text(features)),
-        ("scene/dispatch_light.wgsl", dispatch::light(features)),
-        ("scene/dispatch_pattern.wgsl", dispatch::pattern(features)),
+        ("scene/dispatch_light.wgsl", light::dispatch(features)),
+        ("scene/dispatch_pattern.wgsl", bsdf::pattern(features)),
         ("scene/before.wgsl", media::before(features)),
         ("scene/door.wgsl", traversal::door(features)),
         ("scene/ends.wgsl", media::ends(features)),
@@ -40,16 +44,16 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/leaf.wgsl", traversal::leaf(features)),
         ("scene/motion.wgsl", motion::text(features)),
         ("scene/nodes.wgsl", traversal::nodes(features)),
-        ("scene/place.wgsl", dispatch::place(features)),
+        ("scene/place.wgsl", path::place(features)),
         ("scene/placed.wgsl", traversal::placed(features)),
         ("scene/principled.wgsl", principled::outer(features)),
         ("scene/records.wgsl", records::text()),
-        ("scene/sampler.wgsl", dispatch::sampler(features)),
+        ("scene/sampler.wgsl", sampler::text(features)),
         ("scene/segment.wgsl", media::segment(features)),
         ("scene/shadow.wgsl", media::shadow(features)),
-        ("scene/straight.wgsl", dispatch::straight(features)),
-        ("scene/texel.wgsl", dispatch::texel(features)),
-        ("scene/texture.wgsl", dispatch::texture(features)),
+        ("scene/straight.wgsl", bsdf::straight(features)),
+        ("scene/texel.wgsl", texture::texel(features)),
+        ("scene/texture.wgsl", texture::texture(features)),
         ("scene/through.wgsl", media::through(features)),
     ])
 }

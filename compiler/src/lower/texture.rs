@@ -4,14 +4,20 @@
 //! several images, they are gathered into one image, because the kernel reads roughness and
 //! metallic from green and blue of one texture, and coverage from a fourth channel.
 
+mod texels;
+
 use std::sync::Arc;
 
 use lang::scene::{ColorSpace, Wrap};
-use pack::abi::{self, TextureFormat};
+use pack::abi;
 use serde::{Deserialize, Serialize};
 
 use super::Loaded;
-use crate::import::{Environment, Image, Pixels};
+use crate::import::{Environment, Image};
+use texels::Made;
+
+pub(super) use texels::luminances;
+pub use texels::srgb_table;
 
 /// Which file an image comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -153,9 +159,7 @@ impl<'a> TextureTable<'a> {
     /// The id of a whole image.
     pub(super) fn whole(&mut self, image: ImageRef, space: ColorSpace, wrap: [Wrap; 2]) -> u32 {
         self.id(Recipe::Whole { image, space, wrap }, |loaded| {
-            let source = loaded.image(image);
-            let (format, words, mean) = stored(source, space);
-            Made { size: [source.width, source.height], format, words, mean }
+            texels::whole(loaded.image(image), space)
         })
     }
 
@@ -163,8 +167,7 @@ impl<'a> TextureTable<'a> {
     pub(super) fn environment(&mut self, environment: Option<&Environment>) -> u32 {
         self.id(Recipe::Environment { wrap: [Wrap::Repeat, Wrap::Clamp] }, |_| {
             let image = &environment.expect("the image of a sky has been loaded").image;
-            let (format, words, mean) = stored(image, space_of(image));
-            Made { size: [image.width, image.height], format, words, mean }
+            texels::whole(image, texels::space_of(image))
         })
     }
 
@@ -177,7 +180,8 @@ impl<'a> TextureTable<'a> {
         wrap: [Wrap; 2],
     ) -> u32 {
         self.id(Recipe::Gathered { channels, space, wrap }, |loaded| {
-            gather(loaded, channels, space)
+            let image = |(image, channel)| (loaded.image(image), channel);
+            texels::gather(channels.map(|of| of.map(image)), space)
         })
     }
 
@@ -236,12 +240,12 @@ impl<'a> TextureTable<'a> {
         }
     }
 
-    /// The least number in a channel of an image, see [`least`]. What nobody asked for when the earlier pack was
+    /// The least number in a channel of an image, see `texels::least`. What nobody asked for when the earlier pack was
     /// made is 0: the texture that is then asked for is none of that pack.
     pub(super) fn least(&mut self, (image, channel): Channel) -> f32 {
         match self.source {
             Source::Files(loaded) => {
-                let found = least(loaded.image(image), channel);
+                let found = texels::least(loaded.image(image), channel);
                 self.least.push(((image, channel), found));
                 found
             }
@@ -254,25 +258,6 @@ impl<'a> TextureTable<'a> {
                 debug_assert!(false, "no texture is asked for once their images are gone");
                 0.0
             }
-        }
-    }
-}
-
-/// The least number in a channel of an image, as a texture of it may hold it: bytes round down.
-fn least(image: &Image, channel: u8) -> f32 {
-    let channel = usize::from(channel);
-    match &image.data {
-        Pixels::Rgba8(bytes) => {
-            let texels = bytes.as_chunks::<4>().0.iter();
-            let least = texels.map(|texel| texel[channel]).min().unwrap_or(u8::MAX);
-            f32::from(least) / 255.0
-        }
-        Pixels::Rgba16F(bits) => {
-            let texels = bits.as_chunks::<4>().0.iter();
-            let values = texels.map(|texel| half::f16::from_bits(texel[channel]).to_f32());
-            // `f32::min` would forget a NaN.
-            let least = |a: f32, b: f32| if b < a || b.is_nan() { b } else { a };
-            libm::floorf(values.fold(1.0, least) * 255.0) / 255.0
         }
     }
 }
@@ -296,143 +281,5 @@ impl Loaded {
             }
         };
         found.expect("every image that a used material names has been loaded")
-    }
-}
-
-/// A texture on its way into the pack.
-struct Made {
-    size: [u32; 2],
-    format: TextureFormat,
-    words: Vec<u32>,
-    mean: [f64; 4],
-}
-
-/// An image as large as the largest of those that its channels come from.
-fn gather(loaded: &Loaded, channels: [Option<Channel>; 4], space: ColorSpace) -> Made {
-    let sources = channels.map(|channel| channel.map(|(image, _)| loaded.image(image)));
-    let largest = |side: fn(&Image) -> u32| sources.iter().flatten().map(|i| side(i)).max();
-    let size = [largest(|i| i.width).unwrap_or(1), largest(|i| i.height).unwrap_or(1)];
-    let mut bytes = Vec::with_capacity(4 * size[0] as usize * size[1] as usize);
-    for y in 0..size[1] {
-        for x in 0..size[0] {
-            bytes.extend((0..4).map(|k| match (sources[k], channels[k]) {
-                (Some(image), Some((_, channel))) => nearest(image, [x, y], size, channel),
-                _ => u8::MAX,
-            }));
-        }
-    }
-    let (format, mean) = match space {
-        ColorSpace::Srgb => (TextureFormat::Rgba8Srgb, byte_mean(&bytes, srgb_to_linear)),
-        _ => (TextureFormat::Rgba8Linear, byte_mean(&bytes, |x| x)),
-    };
-    Made { size, format, words: byte_words(&bytes), mean }
-}
-
-/// Format, words and mean of an image whose numbers are to be read as `space` says.
-fn stored(source: &Image, space: ColorSpace) -> (TextureFormat, Vec<u32>, [f64; 4]) {
-    match (&source.data, space) {
-        (Pixels::Rgba8(bytes), ColorSpace::Srgb) => {
-            (TextureFormat::Rgba8Srgb, byte_words(bytes), byte_mean(bytes, srgb_to_linear))
-        }
-        (Pixels::Rgba8(bytes), _) => {
-            (TextureFormat::Rgba8Linear, byte_words(bytes), byte_mean(bytes, |x| x))
-        }
-        (Pixels::Rgba16F(bits), space) => {
-            let decode = if space == ColorSpace::Srgb { srgb_to_linear } else { |x| x };
-            let (words, mean) = half_words(bits, decode);
-            (TextureFormat::Rgba16Float, words, mean)
-        }
-    }
-}
-
-/// Images of the sky are radiance, or pictures with the sRGB curve.
-fn space_of(image: &Image) -> ColorSpace {
-    if image.is_radiance { ColorSpace::Linear } else { ColorSpace::Srgb }
-}
-
-/// Luminance of each texel of a row of an image of the sky.
-pub(super) fn luminances(image: &Image, row: usize) -> Vec<f64> {
-    let width = image.width as usize;
-    let decode = if image.is_radiance { |x| x } else { srgb_to_linear };
-    let texels = 4 * row * width..4 * (row + 1) * width;
-    let light = |rgb: [f64; 3]| super::light::luminance(rgb.map(decode));
-    match &image.data {
-        Pixels::Rgba8(bytes) => {
-            let value = |byte: u8| f64::from(byte) / 255.0;
-            let texels = bytes[texels].as_chunks::<4>().0.iter();
-            texels.map(|[r, g, b, _]| light([*r, *g, *b].map(value))).collect()
-        }
-        Pixels::Rgba16F(bits) => {
-            let value = |bits: u16| f64::from(half::f16::from_bits(bits).to_f32());
-            let texels = bits[texels].as_chunks::<4>().0.iter();
-            texels.map(|[r, g, b, _]| light([*r, *g, *b].map(value))).collect()
-        }
-    }
-}
-
-/// The linear value of each sRGB byte (IEC 61966-2-1), as the SRGBLUT section holds it.
-#[must_use]
-pub fn srgb_table() -> [f32; 256] {
-    std::array::from_fn(|byte| srgb_to_linear(byte as f64 / 255.0) as f32)
-}
-
-fn srgb_to_linear(x: f64) -> f64 {
-    if x <= 0.04045 { x / 12.92 } else { libm::pow((x + 0.055) / 1.055, 2.4) }
-}
-
-fn byte_words(bytes: &[u8]) -> Vec<u32> {
-    bytes.as_chunks::<4>().0.iter().map(|texel| u32::from_le_bytes(*texel)).collect()
-}
-
-/// Mean over texels; `decode` is applied to the colour channels only.
-fn byte_mean(bytes: &[u8], decode: fn(f64) -> f64) -> [f64; 4] {
-    let mut counts = [[0_u64; 256]; 4];
-    for texel in bytes.as_chunks::<4>().0 {
-        for (count, byte) in counts.iter_mut().zip(texel) {
-            count[usize::from(*byte)] += 1;
-        }
-    }
-    let texels = (bytes.len() / 4).max(1) as f64;
-    [0, 1, 2, 3].map(|k| {
-        let value = |byte: usize| byte as f64 / 255.0;
-        let decoded = |byte| if k < 3 { decode(value(byte)) } else { value(byte) };
-        let sum: f64 = (0..256).map(|byte| counts[k][byte] as f64 * decoded(byte)).sum();
-        sum / texels
-    })
-}
-
-/// Two words a texel, colour channels decoded; and the mean.
-fn half_words(bits: &[u16], decode: fn(f64) -> f64) -> (Vec<u32>, [f64; 4]) {
-    let mut words = Vec::with_capacity(bits.len() / 2);
-    let mut sum = [0.0; 4];
-    for texel in bits.as_chunks::<4>().0 {
-        let mut halves = *texel;
-        for (k, half) in halves.iter_mut().enumerate() {
-            let raw = f64::from(half::f16::from_bits(*half).to_f32());
-            let value = if k < 3 { decode(raw) } else { raw };
-            if value.to_bits() != raw.to_bits() {
-                *half = half::f16::from_f64(value).to_bits();
-            }
-            sum[k] += value;
-        }
-        words.push(u32::from(halves[0]) | u32::from(halves[1]) << 16);
-        words.push(u32::from(halves[2]) | u32::from(halves[3]) << 16);
-    }
-    let texels = (bits.len() / 4).max(1) as f64;
-    (words, sum.map(|s| s / texels))
-}
-
-/// The texel of `image` at the place of texel `at` of a picture of `size`, one channel as a byte.
-fn nearest(image: &Image, at: [u32; 2], size: [u32; 2], channel: u8) -> u8 {
-    let scale =
-        |x: u32, to: u32, from: u32| (u64::from(x) * u64::from(to) / u64::from(from)) as usize;
-    let (x, y) = (scale(at[0], image.width, size[0]), scale(at[1], image.height, size[1]));
-    let index = 4 * (y * image.width as usize + x) + usize::from(channel);
-    match &image.data {
-        Pixels::Rgba8(bytes) => bytes[index],
-        Pixels::Rgba16F(bits) => {
-            let value = half::f16::from_bits(bits[index]).to_f32();
-            (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
-        }
     }
 }

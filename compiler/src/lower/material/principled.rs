@@ -3,9 +3,9 @@
 use lang::scene::{Color, ColorSpace, Principled, Scalar, Wrap};
 use pack::abi::{self, MaterialKind, NONE, material_flag};
 
-use super::material::{MaterialTable, blank, channel, cutting, factor, with_ior};
-use super::texture::{Channel, ImageRef};
+use super::{MaterialTable, blank, channel, cutting, factor, with_ior};
 use crate::import::{ImportedMaterial, MapUse};
+use crate::lower::texture::{Channel, ImageRef};
 
 /// Factor and channel of a scalar.
 type Textured = (f32, Option<Channel>);

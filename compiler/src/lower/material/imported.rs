@@ -1,0 +1,52 @@
+//! A material of a mesh file becomes a record.
+
+use pack::abi::{self, MaterialKind, material_flag};
+
+use super::principled::image_of;
+use super::{MaterialTable, blank, cutting, set_normal_map, with_ior};
+use crate::import::ImportedMaterial;
+
+impl MaterialTable<'_> {
+    pub(super) fn imported(&mut self, asset: usize, material: usize) -> abi::Material {
+        let file = self.loaded.and_then(|loaded| loaded.assets[asset].as_ref());
+        let file = file.expect("an asset whose material is used has been loaded");
+        let from: &ImportedMaterial = &file.materials[material];
+        let mut record = if from.unlit {
+            let emission = from.color.map(|c| c as f32);
+            let map = self.factor_map(&emission, asset, from.color_map);
+            abi::Material { emission, emission_texture: map, ..blank(MaterialKind::Emissive) }
+        } else {
+            self.imported_surface(asset, from)
+        };
+        record.flags |= material_flag::EMIT_BOTH_SIDES;
+        if !from.unlit && from.normal_strength.abs() > 0.0 {
+            let image = self.map(asset, from.normal_map);
+            set_normal_map(&mut record, image, from.normal_strength);
+        }
+        let alpha = from.alpha as f32;
+        let least =
+            from.alpha_map.map_or(1.0, |map| self.textures.least((image_of(asset, map), 3)));
+        if let Some(cutoff) = cutting(from.alpha_clip, alpha, least) {
+            record.flags |= material_flag::ALPHA_CLIP;
+            record.alpha_cutoff = cutoff;
+            record.alpha = alpha;
+            record.alpha_texture = self.map(asset, from.alpha_map);
+        }
+        record
+    }
+
+    fn imported_surface(&mut self, asset: usize, from: &ImportedMaterial) -> abi::Material {
+        if from.is_glass() {
+            return with_ior(blank(MaterialKind::Dielectric), from.ior);
+        }
+        if from.diffuse_only && from.emission.iter().all(|&c| c <= 0.0) {
+            let color = from.color.map(|c| c as f32);
+            return abi::Material {
+                color,
+                color_texture: self.factor_map(&color, asset, from.color_map),
+                ..blank(MaterialKind::Diffuse)
+            };
+        }
+        self.imported_principled(asset, from)
+    }
+}

@@ -1,0 +1,281 @@
+//! Families of feature sets: in each, one group of features takes all its values, and all others are there.
+
+use pack::abi::{LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat};
+use pack::features as bit;
+use shaders::{FeatureSet, NodeLayout};
+use std::collections::BTreeSet;
+
+/// A family: the feature bits that vary, and every member with its bits.
+pub(crate) struct Family {
+    pub(crate) mask: u64,
+    pub(crate) members: Vec<(u64, FeatureSet)>,
+}
+
+/// Index of the family of [`materials`].
+pub(crate) const MATERIALS: usize = 0;
+/// Index of the family of [`media`].
+pub(crate) const MEDIA: usize = 1;
+
+/// All families.
+pub(crate) fn all() -> [Family; 14] {
+    [
+        materials(),
+        media(),
+        geometry(),
+        views(),
+        formats(),
+        asked(),
+        normals(),
+        samplers(),
+        tints(),
+        choices(),
+        layers(),
+        motion(),
+        instances(),
+        layouts(),
+    ]
+}
+
+/// Every subset of `all`.
+fn subsets<T: Copy + Ord>(all: &[T]) -> Vec<BTreeSet<T>> {
+    (0..1_u32 << all.len())
+        .map(|bits| {
+            all.iter().enumerate().filter(|(i, _)| bits >> i & 1 == 1).map(|(_, t)| *t).collect()
+        })
+        .collect()
+}
+
+/// Materials, and media that scatter: whatever has a case of its own where light is scattered.
+fn materials_mask() -> u64 {
+    MaterialKind::ALL.into_iter().map(bit::material).sum::<u64>() | bit::SCATTERING
+}
+
+/// No material, and each alone: these dispatch without a `switch`.
+fn materials() -> Family {
+    let clear = FeatureSet { scattering: false, ..FeatureSet::full() };
+    let none = FeatureSet { materials: BTreeSet::new(), ..clear.clone() };
+    let mut members = vec![(0, none)];
+    members.extend(MaterialKind::ALL.into_iter().map(|kind| {
+        (bit::material(kind), FeatureSet { materials: [kind].into(), ..clear.clone() })
+    }));
+    Family { mask: materials_mask(), members }
+}
+
+/// Media, fog, and what shadow rays go through.
+fn media() -> Family {
+    let mut members = Vec::new();
+    for (media, scattering) in [(false, false), (true, false), (true, true)] {
+        let behind = [(false, false), (true, false), (true, true)];
+        let both = behind.map(|behind| [(false, behind), (true, behind)]);
+        for (fog, (through, sheets)) in both.into_iter().flatten() {
+            let rows = [
+                (media, bit::MEDIA),
+                (scattering, bit::SCATTERING),
+                (fog, bit::FOG),
+                (through, bit::THROUGH),
+                (sheets, bit::SHEETS),
+            ];
+            let bits = rows.iter().filter(|row| row.0).map(|row| row.1).sum();
+            let features =
+                FeatureSet { media, scattering, fog, through, sheets, ..FeatureSet::full() };
+            members.push((bits, features));
+        }
+    }
+    Family { mask: bit::MEDIA | bit::SCATTERING | bit::FOG | bit::THROUGH | bit::SHEETS, members }
+}
+
+/// What materials ask of a surface point. Tangents depend on the shapes too.
+fn asked() -> Family {
+    let members = [(0, false), (bit::OBJECTS, true)].into_iter();
+    let members = members
+        .map(|(bits, objects)| (bits, FeatureSet { objects, ..FeatureSet::full() }))
+        .collect();
+    Family { mask: bit::OBJECTS, members }
+}
+
+/// Layers of principled surfaces.
+fn layers() -> Family {
+    let bits = [bit::PRINCIPLED_SPECULAR, bit::PRINCIPLED_COAT, bit::PRINCIPLED_TRANSMISSION];
+    let member = |rows: BTreeSet<u64>| {
+        let [principled_specular, principled_coat, principled_transmission] =
+            bits.map(|bit| rows.contains(&bit));
+        let full = FeatureSet::full();
+        let features =
+            FeatureSet { principled_specular, principled_coat, principled_transmission, ..full };
+        (rows.iter().sum(), features)
+    };
+    Family { mask: bits.iter().sum(), members: subsets(&bits).into_iter().map(member).collect() }
+}
+
+/// What tilts shading normals.
+fn normals() -> Family {
+    let members = [(0, false), (bit::NORMAL_MAPS, true)].into_iter();
+    let members = members
+        .map(|(bits, normal_maps)| (bits, FeatureSet { normal_maps, ..FeatureSet::full() }))
+        .collect();
+    Family { mask: bit::NORMAL_MAPS, members }
+}
+
+/// Whether anything moves.
+fn motion() -> Family {
+    let members = [(0, false), (bit::MOTION, true)].into_iter();
+    let members =
+        members.map(|(bits, motion)| (bits, FeatureSet { motion, ..FeatureSet::full() })).collect();
+    Family { mask: bit::MOTION, members }
+}
+
+/// Whether meshes have instances.
+fn instances() -> Family {
+    let member = |instances| {
+        let bits = if instances { bit::INSTANCES } else { 0 };
+        (bits, FeatureSet { instances, ..FeatureSet::full() })
+    };
+    Family { mask: bit::INSTANCES, members: [false, true].map(member).into() }
+}
+
+/// How nodes are stored.
+fn layouts() -> Family {
+    let members = [(0, NodeLayout::Binary), (bit::WIDE_NODES, NodeLayout::Wide)];
+    let member =
+        |(bits, layout)| (bits, FeatureSet { layouts: [layout].into(), ..FeatureSet::full() });
+    Family { mask: bit::WIDE_NODES, members: members.map(member).into() }
+}
+
+fn skies_and_lens() -> Vec<(u64, FeatureSet)> {
+    let of = |sky: &SkyKind| match sky {
+        SkyKind::Constant => bit::SKY_CONSTANT,
+        SkyKind::Gradient => bit::SKY_GRADIENT,
+        SkyKind::Image => bit::SKY_IMAGE,
+    };
+    let mut members = Vec::new();
+    for lens in [false, true] {
+        for skies in subsets(&SkyKind::ALL) {
+            let bits = skies.iter().map(of).sum::<u64>() | if lens { bit::LENS } else { 0 };
+            members.push((bits, FeatureSet { lens, skies, ..FeatureSet::full() }));
+        }
+    }
+    members
+}
+
+/// Tinted lights.
+fn tints() -> Family {
+    let member =
+        |tint| (if tint { bit::TINT } else { 0 }, FeatureSet { tint, ..FeatureSet::full() });
+    Family { mask: bit::TINT, members: [false, true].map(member).into() }
+}
+
+/// Several lights, and the tree of lights.
+fn choices() -> Family {
+    let member = |(light_choice, light_tree)| {
+        let choice = if light_choice { bit::LIGHT_CHOICE } else { 0 };
+        let tree = if light_tree { bit::LIGHT_TREE } else { 0 };
+        (choice | tree, FeatureSet { light_choice, light_tree, ..FeatureSet::full() })
+    };
+    let mask = bit::LIGHT_CHOICE | bit::LIGHT_TREE;
+    Family { mask, members: [(false, false), (true, false), (true, true)].map(member).into() }
+}
+
+fn views() -> Family {
+    let mask = bit::SKY_CONSTANT | bit::SKY_GRADIENT | bit::SKY_IMAGE | bit::LENS;
+    Family { mask, members: skies_and_lens() }
+}
+
+const FORMATS: [(TextureFormat, u64); 3] = [
+    (TextureFormat::Rgba8Srgb, bit::TEXTURE_RGBA8_SRGB),
+    (TextureFormat::Rgba8Linear, bit::TEXTURE_RGBA8_LINEAR),
+    (TextureFormat::Rgba16Float, bit::TEXTURE_RGBA16_FLOAT),
+];
+
+fn formats() -> Family {
+    let mask = FORMATS.iter().map(|row| row.1).sum();
+    let mut members = Vec::new();
+    for rows in subsets(&FORMATS.map(|row| row.1)) {
+        // Whether there are textures at all belongs to the family of shapes.
+        if !rows.is_empty() {
+            let textures =
+                FORMATS.iter().filter(|row| rows.contains(&row.1)).map(|row| row.0).collect();
+            members.push((rows.iter().sum(), FeatureSet { textures, ..FeatureSet::full() }));
+        }
+    }
+    Family { mask, members }
+}
+
+fn samplers() -> Family {
+    let members = SamplerKind::ALL.map(|kind| {
+        let bits = if kind == SamplerKind::Pcg { bit::SAMPLER_PCG } else { 0 };
+        (bits, FeatureSet { samplers: [kind].into(), ..FeatureSet::full() })
+    });
+    Family { mask: bit::SAMPLER_PCG, members: members.into() }
+}
+
+/// Shapes, lights, cut-outs, and whether there are textures at all. Any formats of textures stand
+/// for all: their own family covers them.
+fn geometry() -> Family {
+    let of = |kind: &LightKind| match kind {
+        LightKind::Sphere => bit::LIGHT_SPHERE,
+        LightKind::Rectangle => bit::LIGHT_RECTANGLE,
+        LightKind::Triangle => bit::LIGHT_TRIANGLE,
+        LightKind::Sky => bit::LIGHT_SKY,
+    };
+    let format_bits: Vec<u64> =
+        subsets(&FORMATS.map(|row| row.1)).iter().map(|rows| rows.iter().sum()).collect();
+    let mut members = Vec::new();
+    for (triangles, smooth_normals, spheres) in [
+        (false, false, false),
+        (false, false, true),
+        (true, false, false),
+        (true, true, false),
+        (true, false, true),
+        (true, true, true),
+    ] {
+        for (textures, alpha_clip, tangents) in [
+            (false, false, false),
+            (true, false, false),
+            (true, true, false),
+            (false, false, true),
+            (true, false, true),
+            (true, true, true),
+        ] {
+            for lights in subsets(&LightKind::ALL) {
+                let mut bits = lights.iter().map(of).sum::<u64>();
+                bits |= if triangles { bit::TRIANGLES } else { 0 };
+                bits |= if spheres { bit::SPHERES } else { 0 };
+                bits |= if alpha_clip { bit::ALPHA_CLIP } else { 0 };
+                bits |= if tangents { bit::TANGENTS } else { 0 };
+                let possible = lights.iter().all(|kind| match kind {
+                    LightKind::Sphere => spheres,
+                    LightKind::Rectangle | LightKind::Triangle => triangles,
+                    LightKind::Sky => triangles || spheres,
+                });
+                if !possible {
+                    continue;
+                }
+                let full = FeatureSet::full();
+                let formats = if textures { full.textures.clone() } else { BTreeSet::new() };
+                let features = FeatureSet {
+                    triangles,
+                    smooth_normals,
+                    spheres,
+                    lights,
+                    alpha_clip,
+                    tangents,
+                    textures: formats,
+                    ..full
+                };
+                for format in format_bits.iter().filter(|format| textures == (**format != 0)) {
+                    members.push((bits | format, features.clone()));
+                }
+            }
+        }
+    }
+    let mask = bit::TRIANGLES
+        | bit::SPHERES
+        | bit::LIGHT_SPHERE
+        | bit::LIGHT_RECTANGLE
+        | bit::LIGHT_TRIANGLE
+        | bit::LIGHT_SKY
+        | bit::ALPHA_CLIP
+        | bit::TANGENTS
+        | FORMATS.iter().map(|row| row.1).sum::<u64>();
+    Family { mask, members }
+}

@@ -1,0 +1,188 @@
+//! `scene/dispatch.wgsl` and `scene/place.wgsl`: what a path asks of the scene at its vertices, from the camera on.
+
+use super::imports;
+use crate::FeatureSet;
+use pack::abi::LightKind;
+use std::fmt::Write as _;
+
+/// Camera, sky, surfaces and direct light.
+pub(crate) fn dispatch(features: &FeatureSet) -> String {
+    let mut text =
+        String::from("// Generated: camera, sky, shapes and direct light of this scene.\n\n");
+    let mut modules = vec![
+        "abi/material.wgsl",
+        "bsdf/scatter.wgsl",
+        "camera/film_plane.wgsl",
+        "camera/pinhole.wgsl",
+        "kernel/state.wgsl",
+        "math/vector.wgsl",
+        "sampler/key.wgsl",
+        "scene/constants.wgsl",
+        "scene/dispatch_sky.wgsl",
+        "scene/motion.wgsl",
+        "scene/placed.wgsl",
+        "scene/records.wgsl",
+        "scene/sampler.wgsl",
+        "shape/sphere.wgsl",
+        "shape/triangle.wgsl",
+        "surface/surface.wgsl",
+        "trace/ray.wgsl",
+    ];
+    if features.lens {
+        modules.push("camera/thin_lens.wgsl");
+    }
+    if features.normal_maps {
+        modules.push("surface/normal_map.wgsl");
+    }
+    if !features.lights.is_empty() {
+        modules.push("kernel/direct.wgsl");
+    }
+    text += &imports(modules);
+    text += &camera(features);
+    text += &miss(features);
+    if features.geometry() {
+        text += &surface(features);
+        text += &tangent(features);
+        text += &shading_normal(features);
+        text += &direct(features);
+    }
+    text
+}
+
+fn camera(features: &FeatureSet) -> String {
+    let lens = if features.lens {
+        "    if (camera.lens_radius > 0.0) {\n        \
+         return thin_lens_ray(camera, at, sample_2d(key, PURPOSE_LENS));\n    }\n"
+    } else {
+        ""
+    };
+    format!(
+        "\n// The ray through `at`, pixels from the top left corner.\n\
+         fn dispatch_camera(key: SampleKey, at: vec2f) -> CameraRay {{\n    \
+         let camera = load_camera();\n{lens}    return pinhole_ray(camera, at);\n}}\n"
+    )
+}
+
+fn surface(features: &FeatureSet) -> String {
+    let mut body = String::new();
+    if features.spheres {
+        let mut sphere = String::from(
+            "    let i = hit.prim & ~PRIM_SPHERE;\n    \
+             let start = dispatch_thing_origin(load_sphere_object(i), origin, time);\n    \
+             var s = sphere_surface(i, start, dir, hit.t);\n    dispatch_thing_carry(&s, load_sphere_object(i), time);\n",
+        );
+        if !features.textures.is_empty() || features.tangents {
+            sphere += "    s.uv = sphere_uv(select(-s.ng, s.ng, s.front));\n";
+        }
+        sphere += "    return s;\n";
+        if features.triangles {
+            let inner = sphere.replace("    ", "        ");
+            let _ = write!(body, "    if ((hit.prim & PRIM_SPHERE) != 0u) {{\n{inner}    }}\n");
+        } else {
+            body += &sphere;
+        }
+    }
+    if features.triangles {
+        let function =
+            if features.smooth_normals { "triangle_surface" } else { "triangle_flat_surface" };
+        let _ = write!(
+            body,
+            "    if (dispatch_is_placed(hit)) {{\n        return dispatch_placed_surface(hit, dir, time);\n    }}\n    \
+             var s = {function}(hit.prim, hit.b, dir);\n    \
+             dispatch_triangle_carry(&s, hit.prim, time);\n    return s;\n"
+        );
+    }
+    format!(
+        "\n// The surface that the ray from `origin` along `dir` has hit at `time`.\n\
+         fn dispatch_surface(hit: Hit, origin: vec3f, dir: vec3f, time: f32) -> Surface {{\n{body}}}\n"
+    )
+}
+
+fn tangent(features: &FeatureSet) -> String {
+    let mut body = String::new();
+    if features.tangents && features.geometry() {
+        body += "    if ((flags & FLAG_TANGENT) == 0u) {\n        return;\n    }\n";
+        let sphere = "(*s).tangent = sphere_tangent(select(-(*s).ng, (*s).ng, (*s).front));";
+        let triangle = "let t = dispatch_placed_tangent(hit.instance, triangle_tangent(hit.prim));\n    (*s).tangent = t.xyz;\n    \
+                        (*s).handed = select(-t.w, t.w, (*s).front);";
+        let lines = match (features.spheres, features.triangles) {
+            (true, true) => format!(
+                "    if ((hit.prim & PRIM_SPHERE) != 0u) {{\n        {sphere}\n        \
+                 (*s).handed = select(-1.0, 1.0, (*s).front);\n        return;\n    }}\n    {triangle}\n"
+            ),
+            (true, false) => {
+                format!("    {sphere}\n    (*s).handed = select(-1.0, 1.0, (*s).front);\n")
+            }
+            _ => format!("    {triangle}\n"),
+        };
+        body += &lines;
+    }
+    format!(
+        "\n// Finds the direction in which u grows, for materials whose flags ask for it.\n\
+         fn dispatch_tangent(s: ptr<function, Surface>, hit: Hit, flags: u32) {{\n{body}}}\n"
+    )
+}
+
+fn shading_normal(features: &FeatureSet) -> String {
+    let map = if features.normal_maps {
+        "    if (m.normal_texture != NONE) {\n        \
+         normal_map_tilt(s, m.normal_texture, m.normal_strength, dir);\n    }\n"
+    } else {
+        ""
+    };
+    format!(
+        "\n// Tilts the shading normal of `s`, seen along `dir`, as the material says.\n\
+         fn dispatch_shading_normal(s: ptr<function, Surface>, m: Material, dir: vec3f) {{\n{map}}}\n"
+    )
+}
+
+/// Where a point is in its object, if any material asks.
+pub(crate) fn place(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: whether this scene has objects.\n\n");
+    text += &imports(["scene/constants.wgsl", "surface/place.wgsl"]);
+    let body = if features.objects {
+        "    if ((flags & FLAG_OBJECT) != 0u) {\n        return place_at(object, p);\n    }\n"
+    } else {
+        ""
+    };
+    let _ = write!(
+        text,
+        "\n// Point `p` in its object, for materials whose flags ask for it; otherwise the origin.\n\
+         fn dispatch_place(object: u32, flags: u32, p: vec3f) -> Place {{\n{body}    \
+         return Place(vec3f(0.0), 0u);\n}}\n"
+    );
+    text
+}
+
+/// What a ray sees that hits nothing; weighted where the sky is sampled, too.
+fn miss(features: &FeatureSet) -> String {
+    let body = if features.lights.contains(&LightKind::Sky) {
+        "    let radiance = dispatch_sky(dir);\n    \
+         if (vector_max(radiance) <= 0.0) {\n        return radiance;\n    }\n    \
+         return radiance * direct_sky_weight(dir, pdf);\n"
+    } else {
+        "    return dispatch_sky(dir);\n"
+    };
+    format!(
+        "\n// Radiance found by a direction that was sampled with density `pdf` and hits nothing.\n\
+         fn dispatch_miss(dir: vec3f, pdf: f32) -> vec3f {{\n{body}}}\n"
+    )
+}
+
+fn direct(features: &FeatureSet) -> String {
+    let sample = if features.lights.is_empty() {
+        ""
+    } else {
+        "    direct_sample(path, p, gap, scatter, wo);\n"
+    };
+    let weight =
+        if features.surface_lights() { "direct_weight(origin, dir, pdf, s, time)" } else { "1.0" };
+    format!(
+        "\n// Leaves a shadow ray in `path` if light may reach the vertex at `p` directly; rays start off it\n\
+         // by `gap` on either side.\n\
+         fn dispatch_direct(path: ptr<function, Path>, p: vec3f, gap: vec3f, scatter: Scatter, wo: vec3f) {{\n{sample}}}\n\
+         \n// Weight of emission that a direction sampled with density `pdf` has found at `time`.\n\
+         fn dispatch_emission_weight(origin: vec3f, dir: vec3f, pdf: f32, s: Surface, time: f32) -> f32 {{\n    \
+         return {weight};\n}}\n"
+    )
+}

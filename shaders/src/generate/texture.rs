@@ -1,0 +1,57 @@
+//! `scene/texture.wgsl` and `scene/texel.wgsl`: from the format of a texture to its texels.
+
+use super::{imports, switch};
+use crate::FeatureSet;
+use pack::abi::TextureFormat;
+use std::fmt::Write as _;
+
+/// A texture, or white where there is none.
+pub(crate) fn texture(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: whether this scene has textures.\n\n");
+    let (body, at) = if features.textures.is_empty() {
+        ("    return vec4f(1.0);\n", "    return vec4f(1.0);\n")
+    } else {
+        text += &imports(["scene/constants.wgsl", "scene/records.wgsl", "texture/bilinear.wgsl"]);
+        (
+            "    if (i == NONE) {\n        return vec4f(1.0);\n    }\n    return bilinear_fetch(i, uv);\n",
+            "    return bilinear_at(load_texture(i), place);\n",
+        )
+    };
+    let _ = write!(
+        text,
+        "\n// Texture `i` at `uv`, linear; 1 in every channel where `i` is `NONE`.\n\
+         fn texture_fetch(i: u32, uv: vec2f) -> vec4f {{\n{body}}}\n\
+         \n// Texture `i` at `place`, 0 ..= 1 from its top left corner, linear.\n\
+         fn texture_fetch_at(i: u32, place: vec2f) -> vec4f {{\n{at}}}\n"
+    );
+    text
+}
+
+/// One texel of a texture.
+pub(crate) fn texel(features: &FeatureSet) -> String {
+    let rows: Vec<(&str, &str, &str)> = features
+        .textures
+        .iter()
+        .map(|format| match format {
+            TextureFormat::Rgba8Srgb => ("TEXTURE_RGBA8_SRGB", "rgba8", "rgba8_srgb"),
+            TextureFormat::Rgba8Linear => ("TEXTURE_RGBA8_LINEAR", "rgba8", "rgba8_linear"),
+            TextureFormat::Rgba16Float => ("TEXTURE_RGBA16_FLOAT", "rgba16", "rgba16_linear"),
+        })
+        .collect();
+    let mut files: Vec<String> = rows.iter().map(|row| format!("texture/{}.wgsl", row.1)).collect();
+    files.dedup();
+    let mut text = String::from("// Generated: the texture formats of this scene.\n\n");
+    text += &imports(["abi/texture.wgsl", "scene/constants.wgsl"]);
+    text += &imports(files.iter().map(String::as_str));
+    let cases: Vec<(&str, String)> = rows
+        .iter()
+        .map(|(tag, _, function)| (*tag, format!("{function}(image.offset, i)")))
+        .collect();
+    let _ = write!(
+        text,
+        "\n// Texel `i` of `image`, linear.\n\
+         fn texel_decode(image: Texture, i: u32) -> vec4f {{\n{}}}\n",
+        switch("image.format", &cases, "vec4f(1.0)")
+    );
+    text
+}
