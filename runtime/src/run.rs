@@ -9,7 +9,7 @@ use crate::film::{Accumulator, Film};
 use crate::job::Job;
 use crate::region::{Rect, SampleRange};
 use crate::saver::Saver;
-use crate::schedule::{Claim, Scheduler, Stop, WorkItem};
+use crate::schedule::{Claim, Scheduler, Stop, TileSize, WorkItem};
 use pack::abi::FilmPixel;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -113,30 +113,30 @@ impl<'a> Run<'a> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The next tile of about `pixels` pixels; `Wait` when there may be more later.
+    /// The next tile of about this size; `Wait` when there may be more later.
     #[cfg(feature = "gpu")]
-    pub(crate) fn claim(&self, pixels: u64) -> Claim {
-        self.claim_locked(&mut self.lock(), pixels)
+    pub(crate) fn claim(&self, size: TileSize<'_>) -> Claim {
+        self.claim_locked(&mut self.lock(), size)
     }
 
-    fn claim_locked(&self, state: &mut State, pixels: u64) -> Claim {
+    fn claim_locked(&self, state: &mut State, size: TileSize<'_>) -> Claim {
         if self.control.is_cancelled() {
             state.scheduler.stop(Stop::Cancelled);
         }
         let now = self.started.elapsed();
         let first = *state.first.get_or_insert(now);
-        let claim = state.scheduler.claim(now.saturating_sub(first), pixels);
+        let claim = state.scheduler.claim(now.saturating_sub(first), size);
         if let Claim::FirstOf(item) = claim {
             state.sum.open(item.samples, item.replicate);
         }
         claim
     }
 
-    /// As `claim`, but waits.
+    /// The next tile of about `pixels` pixels; waits while there may be more later.
     pub(crate) fn claim_blocking(&self, pixels: u64) -> Option<WorkItem> {
         let mut state = self.lock();
         loop {
-            match self.claim_locked(&mut state, pixels) {
+            match self.claim_locked(&mut state, &|_| pixels) {
                 Claim::Work(item) | Claim::FirstOf(item) => return Some(item),
                 Claim::Done => return None,
                 Claim::Wait => {

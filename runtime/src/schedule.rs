@@ -34,6 +34,9 @@ impl WorkItem {
     }
 }
 
+/// Pixels of a tile whose pixels have that many samples each.
+pub(crate) type TileSize<'a> = &'a dyn Fn(u32) -> u64;
+
 /// Answer to "what next?".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Claim {
@@ -119,24 +122,26 @@ impl Scheduler {
         self
     }
 
-    /// The next tile, of about `pixels` pixels. `now` is the time since the run began.
-    pub(crate) fn claim(&mut self, now: Duration, pixels: u64) -> Claim {
+    /// The next tile, of about as many pixels as `size` says where each has that many samples. `now` is the time
+    /// since the run began.
+    pub(crate) fn claim(&mut self, now: Duration, size: TileSize<'_>) -> Claim {
         if matches!(self.stop, Some(Stop::Cancelled)) {
             return Claim::Done;
         }
-        let claim = self.next(now, pixels);
+        let claim = self.next(now, size);
         if let Claim::Work(item) | Claim::FirstOf(item) = &claim {
             self.under_way += item.cost();
         }
         claim
     }
 
-    fn next(&mut self, now: Duration, pixels: u64) -> Claim {
+    fn next(&mut self, now: Duration, size: TileSize<'_>) -> Claim {
         if let Some(item) = self.probes.pop() {
             self.started.get_or_insert(now);
             return Claim::Work(item);
         }
         if let Some(item) = self.returned.pop() {
+            let pixels = size(item.samples.count());
             return Claim::Work(self.shrunk(item, pixels));
         }
         if self.pass.is_none() && self.rest.is_some() {
@@ -146,10 +151,10 @@ impl Scheduler {
                 }
                 self.end_probes(now);
             }
-            return self.start_pass(now, pixels);
+            return self.start_pass(now, size);
         }
         if let Some(Pass { samples, replicate, tiler }) = &mut self.pass
-            && let Some(tile) = tiler.next(pixels)
+            && let Some(tile) = tiler.next(size(samples.count()))
         {
             let (samples, replicate) = (*samples, *replicate);
             return Claim::Work(WorkItem { tile, samples, replicate, probe: false });
@@ -157,9 +162,9 @@ impl Scheduler {
         if let Some(Pass { samples, replicate, .. }) = self.pass
             && replicate + 1 < self.replicates
         {
-            return self.begin_pass(samples, replicate + 1, pixels);
+            return self.begin_pass(samples, replicate + 1, size);
         }
-        self.start_pass(now, pixels)
+        self.start_pass(now, size)
     }
 
     /// An item that came back may be larger than tiles are by now: its other half waits.
@@ -180,7 +185,7 @@ impl Scheduler {
         self.started = None;
     }
 
-    fn start_pass(&mut self, now: Duration, pixels: u64) -> Claim {
+    fn start_pass(&mut self, now: Duration, size: TileSize<'_>) -> Claim {
         let Some(rest) = self.rest.filter(|_| self.stop.is_none()) else {
             return self.ended();
         };
@@ -197,12 +202,12 @@ impl Scheduler {
         }
         self.rest = rest.after(pass);
         self.started.get_or_insert(now);
-        self.begin_pass(pass, 0, pixels)
+        self.begin_pass(pass, 0, size)
     }
 
-    fn begin_pass(&mut self, samples: SampleRange, replicate: u32, pixels: u64) -> Claim {
+    fn begin_pass(&mut self, samples: SampleRange, replicate: u32, size: TileSize<'_>) -> Claim {
         let mut tiler = Tiler::new(self.region);
-        let tile = tiler.next(pixels).expect("a region has pixels");
+        let tile = tiler.next(size(samples.count())).expect("a region has pixels");
         self.pass = Some(Pass { samples, replicate, tiler });
         Claim::FirstOf(WorkItem { tile, samples, replicate, probe: false })
     }
@@ -312,7 +317,7 @@ mod tests {
     fn run(scheduler: &mut Scheduler, seconds: f64) -> (Vec<WorkItem>, Duration) {
         let (mut items, mut now) = (Vec::new(), ZERO);
         loop {
-            match scheduler.claim(now, 1024) {
+            match scheduler.claim(now, &|_| 1024) {
                 Claim::Work(item) | Claim::FirstOf(item) => {
                     now += Duration::from_secs_f64(item.cost() as f64 * seconds);
                     scheduler.finished(&item);
@@ -374,7 +379,7 @@ mod tests {
     #[test]
     fn a_round_that_was_begun_is_ended_unless_cancelled() {
         let mut scheduler = Scheduler::new(REGION, Some(range(0, 64)), None).in_rounds(4);
-        let Claim::FirstOf(item) = scheduler.claim(ZERO, 1 << 20) else { panic!("no work") };
+        let Claim::FirstOf(item) = scheduler.claim(ZERO, &|_| 1 << 20) else { panic!("no work") };
         scheduler.finished(&item);
         scheduler.stop(Stop::ErrorReached);
         let (items, _) = run(&mut scheduler, 1.0);
@@ -402,32 +407,47 @@ mod tests {
     }
 
     #[test]
+    fn tiles_have_the_size_for_the_samples_of_their_pass() {
+        let mut scheduler = Scheduler::new(REGION, Some(range(0, 20)), None);
+        let mut costs = Vec::new();
+        while let Claim::Work(item) | Claim::FirstOf(item) =
+            scheduler.claim(ZERO, &|samples| 4096 / u64::from(samples))
+        {
+            costs.push((item.samples.count(), item.cost()));
+            scheduler.finished(&item);
+        }
+        assert!(costs.contains(&(16, 4096)) && costs.contains(&(4, 4096)), "{costs:?}");
+    }
+
+    #[test]
     fn what_comes_back_is_handed_out_again_in_smaller_tiles() {
         let mut scheduler = Scheduler::new(REGION, Some(range(0, 16)), None);
-        let Claim::FirstOf(item) = scheduler.claim(ZERO, 1 << 20) else { panic!("no work") };
+        let Claim::FirstOf(item) = scheduler.claim(ZERO, &|_| 1 << 20) else { panic!("no work") };
         assert_eq!(item.tile, REGION);
-        assert_eq!(scheduler.claim(ZERO, 1 << 20), Claim::Wait);
+        assert_eq!(scheduler.claim(ZERO, &|_| 1 << 20), Claim::Wait);
         scheduler.give_back(item);
         let mut pixels = 0;
-        while let Claim::Work(item) = scheduler.claim(ZERO, 300) {
+        while let Claim::Work(item) = scheduler.claim(ZERO, &|_| 300) {
             assert!(item.tile.pixels() <= 300);
             pixels += item.tile.pixels();
             scheduler.finished(&item);
         }
         assert_eq!(pixels, REGION.pixels());
-        assert_eq!(scheduler.claim(ZERO, 300), Claim::Done);
+        assert_eq!(scheduler.claim(ZERO, &|_| 300), Claim::Done);
     }
 
     #[test]
     fn a_failure_finishes_the_pass_and_a_cancel_ends_at_once() {
         let mut scheduler = Scheduler::new(REGION, Some(range(0, 64)), None);
-        let Claim::FirstOf(item) = scheduler.claim(ZERO, 1024) else { panic!("no work") };
+        let Claim::FirstOf(item) = scheduler.claim(ZERO, &|_| 1024) else { panic!("no work") };
         scheduler.stop(Stop::Failed);
         scheduler.finished(&item);
-        let Claim::Work(item) = scheduler.claim(ZERO, 1024) else { panic!("the pass goes on") };
+        let Claim::Work(item) = scheduler.claim(ZERO, &|_| 1024) else {
+            panic!("the pass goes on")
+        };
         assert_eq!(item.samples, range(0, 16));
         scheduler.stop(Stop::Cancelled);
-        assert_eq!(scheduler.claim(ZERO, 1024), Claim::Done);
+        assert_eq!(scheduler.claim(ZERO, &|_| 1024), Claim::Done);
         assert_eq!(scheduler.why(), Stop::Cancelled);
     }
 

@@ -35,11 +35,15 @@ impl Pace {
         Self { target, cost: FIRST, ceiling: f64::INFINITY }
     }
 
-    /// A submission of `cost` pixel samples kept the device busy for `busy`.
-    pub(super) fn measured(&mut self, cost: u64, busy: Duration) {
-        let cost = cost as f64;
-        let ideal = cost * self.target / busy.as_secs_f64().max(1e-6);
-        self.cost = ideal.min(cost.max(LEAST) * GROWTH).clamp(LEAST, self.ceiling.max(LEAST));
+    /// Pixel samples that the next submission is to have.
+    pub(super) fn cost(&self) -> f64 {
+        self.cost
+    }
+
+    /// A submission that was to have `planned` pixel samples, and had `cost`, kept the device busy for `busy`.
+    pub(super) fn measured(&mut self, planned: f64, cost: u64, busy: Duration) {
+        let ideal = cost as f64 * self.target / busy.as_secs_f64().max(1e-6);
+        self.cost = ideal.min(planned * GROWTH).clamp(LEAST, self.ceiling.max(LEAST));
     }
 
     /// The device was lost: half of what it last got is the most it gets from now on.
@@ -114,7 +118,7 @@ mod tests {
                 let (tiles, pixels) = pace.tiles(16);
                 let cost = tiles as u64 * pixels * 16;
                 let seconds = cost as f64 / rate;
-                pace.measured(cost, Duration::from_secs_f64(seconds));
+                pace.measured(pace.cost(), cost, Duration::from_secs_f64(seconds));
                 seconds
             })
             .collect()
@@ -163,10 +167,29 @@ mod tests {
     }
 
     #[test]
+    fn what_is_left_at_an_edge_does_not_make_the_next_tiles_small() {
+        let mut pace = Pace::new(Duration::from_millis(100));
+        durations(1e6, &mut pace, 10);
+        let before = pace.cost();
+        pace.measured(before, 1024, Duration::from_secs_f64(1024e-6));
+        assert!(pace.cost() > 0.9 * before, "{before} to {}", pace.cost());
+    }
+
+    #[test]
+    fn tiles_of_few_samples_have_more_pixels() {
+        let pace = Pace::new(Duration::from_millis(100));
+        let cost = |samples| {
+            let (n, pixels) = pace.tiles(samples);
+            n as u64 * pixels * u64::from(samples)
+        };
+        assert_eq!([1, 4, 16].map(cost), [65_536; 3]);
+    }
+
+    #[test]
     fn tiles_stay_within_their_film() {
         let mut pace = Pace::new(Duration::from_millis(100));
         for _ in 0..40 {
-            pace.measured(u64::MAX / 2, Duration::from_nanos(1));
+            pace.measured(pace.cost(), u64::MAX / 2, Duration::from_nanos(1));
         }
         assert_eq!(pace.tiles(1), (MAX_TILES, MAX_TILE));
         assert_eq!(pace.tiles(16), (MAX_TILES, MAX_TILE));

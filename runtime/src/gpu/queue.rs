@@ -48,6 +48,8 @@ impl Tally {
 struct Submission {
     index: SubmissionIndex,
     slots: Vec<Slot>,
+    /// Pixel samples that it was to have: tiles at an edge have fewer.
+    planned: f64,
     watch: Option<Stopwatch>,
     submitted: Instant,
 }
@@ -86,12 +88,13 @@ impl Device {
                 self.gpu.destroy();
             }
             while under_way.len() < IN_FLIGHT {
+                let planned = pace.cost();
                 let items = claim(run, pace);
                 if items.is_empty() {
                     break;
                 }
                 n_tiles += items.len() as u64;
-                under_way.push_back(self.start(setup, &mut free, &items));
+                under_way.push_back(self.start(setup, &mut free, &items, planned));
             }
             // With nothing under way there is nothing to wait for: the run is over.
             if under_way.is_empty() {
@@ -102,14 +105,20 @@ impl Device {
         }
     }
 
-    fn start(&self, setup: &Setup<'_>, free: &mut Slots, items: &[WorkItem]) -> Submission {
+    fn start(
+        &self,
+        setup: &Setup<'_>,
+        free: &mut Slots,
+        items: &[WorkItem],
+        planned: f64,
+    ) -> Submission {
         let mut slots: Vec<Slot> =
             items.iter().map(|item| free.take(self, item.tile.pixels())).collect();
         let new = || Stopwatch::new(&self.gpu, self.queue.get_timestamp_period());
         let watch = free.watches.pop().or_else(new);
         let submitted = Instant::now();
         let index = submit(self, setup, &mut slots, items, watch.as_ref());
-        Submission { index, slots, watch, submitted }
+        Submission { index, slots, planned, watch, submitted }
     }
 
     /// Waits for the oldest submission and deposits its tiles. It stays in `under_way`, with the
@@ -129,7 +138,8 @@ impl Device {
         let own = oldest.watch.as_ref().and_then(Stopwatch::read);
         run.timed(own);
         let time = tally.busy.ended(oldest.submitted, Instant::now(), own);
-        pace.measured(oldest.slots.iter().map(|slot| slot.item.cost()).sum(), time);
+        let cost = oldest.slots.iter().map(|slot| slot.item.cost()).sum();
+        pace.measured(oldest.planned, cost, time);
         free.watches.extend(oldest.watch.take());
         while let Some(slot) = oldest.slots.last_mut() {
             let item = slot.item;
@@ -157,14 +167,11 @@ impl Device {
 /// Items for one submission; empty when there are none now.
 fn claim(run: &Run<'_>, pace: &Pace) -> Vec<WorkItem> {
     let mut items: Vec<WorkItem> = Vec::with_capacity(MAX_TILES);
-    let (mut n, mut pixels) = pace.tiles(pack::abi::BATCH);
     loop {
-        match run.claim(pixels) {
+        match run.claim(&|samples| pace.tiles(samples).1) {
             Claim::Work(item) | Claim::FirstOf(item) => {
-                if items.is_empty() {
-                    (n, pixels) = pace.tiles(item.samples.count());
-                }
                 items.push(item);
+                let (n, _) = pace.tiles(items[0].samples.count());
                 if items.len() >= n {
                     return items;
                 }
