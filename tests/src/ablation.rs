@@ -33,6 +33,11 @@ const EACH: &str = "cornell";
 /// Environment variable that asks for the table on software adapters, too.
 const SOFTWARE: &str = "ABLATION_SOFTWARE";
 
+/// What there is to know of the times of software adapters. Seen with `MESA_SHADER_CACHE_DISABLE=true`.
+const COMPILED_AGAIN: &str = "\nllvmpipe compiles a kernel anew for every submission, or takes it from its cache on disk: \
+    Mesa 22.3.6 puts numbers of the frame into the code. Its times have that in them, those of long kernels most of \
+    all, and so single rows differ several-fold from run to run of this program.\n";
+
 /// Below this share of the time a difference is not told from chance.
 const MARGIN: f64 = 0.02;
 
@@ -82,6 +87,9 @@ pub fn tables(text: &mut String, names: &[&str]) -> Result<(), Box<dyn Error>> {
             "\nNo GPU was found: only texts were compared. Software adapters are measured where the \
             environment has `ABLATION_SOFTWARE=1`; they take minutes for the full kernel.\n",
         );
+    }
+    if software() {
+        text.push_str(COMPILED_AGAIN);
     }
     for verdict in verdicts {
         let _ = writeln!(text, "\n{verdict}");
