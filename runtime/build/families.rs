@@ -84,13 +84,14 @@ fn media() -> Family {
     Family { mask: bit::MEDIA | bit::SCATTERING | bit::FOG | bit::THROUGH | bit::SHEETS, members }
 }
 
+/// A feature that is there or not and depends on no other: `with` has it or has it not, and everything else.
+fn alone(mask: u64, with: fn(bool) -> FeatureSet) -> Family {
+    Family { mask, members: vec![(0, with(false)), (mask, with(true))] }
+}
+
 /// What materials ask of a surface point. Tangents depend on the shapes too.
 fn asked() -> Family {
-    let members = [(0, false), (bit::OBJECTS, true)].into_iter();
-    let members = members
-        .map(|(bits, objects)| (bits, FeatureSet { objects, ..FeatureSet::full() }))
-        .collect();
-    Family { mask: bit::OBJECTS, members }
+    alone(bit::OBJECTS, |objects| FeatureSet { objects, ..FeatureSet::full() })
 }
 
 /// Layers of principled surfaces.
@@ -109,28 +110,17 @@ fn layers() -> Family {
 
 /// What tilts shading normals.
 fn normals() -> Family {
-    let members = [(0, false), (bit::NORMAL_MAPS, true)].into_iter();
-    let members = members
-        .map(|(bits, normal_maps)| (bits, FeatureSet { normal_maps, ..FeatureSet::full() }))
-        .collect();
-    Family { mask: bit::NORMAL_MAPS, members }
+    alone(bit::NORMAL_MAPS, |normal_maps| FeatureSet { normal_maps, ..FeatureSet::full() })
 }
 
 /// Whether anything moves.
 fn motion() -> Family {
-    let members = [(0, false), (bit::MOTION, true)].into_iter();
-    let members =
-        members.map(|(bits, motion)| (bits, FeatureSet { motion, ..FeatureSet::full() })).collect();
-    Family { mask: bit::MOTION, members }
+    alone(bit::MOTION, |motion| FeatureSet { motion, ..FeatureSet::full() })
 }
 
 /// Whether meshes have instances.
 fn instances() -> Family {
-    let member = |instances| {
-        let bits = if instances { bit::INSTANCES } else { 0 };
-        (bits, FeatureSet { instances, ..FeatureSet::full() })
-    };
-    Family { mask: bit::INSTANCES, members: [false, true].map(member).into() }
+    alone(bit::INSTANCES, |instances| FeatureSet { instances, ..FeatureSet::full() })
 }
 
 /// How nodes are stored.
@@ -159,9 +149,7 @@ fn skies_and_lens() -> Vec<(u64, FeatureSet)> {
 
 /// Tinted lights.
 fn tints() -> Family {
-    let member =
-        |tint| (if tint { bit::TINT } else { 0 }, FeatureSet { tint, ..FeatureSet::full() });
-    Family { mask: bit::TINT, members: [false, true].map(member).into() }
+    alone(bit::TINT, |tint| FeatureSet { tint, ..FeatureSet::full() })
 }
 
 /// Several lights, and the tree of lights.

@@ -69,6 +69,11 @@ fn imports<'m>(modules: impl IntoIterator<Item = &'m str>) -> String {
     modules.into_iter().flat_map(|module| ["#import \"", module, "\"\n"]).collect()
 }
 
+/// The cases of a `switch`: for each tag what `call` makes of the beginning of its functions' names.
+fn cases<'t>(rows: &[(&'t str, &str)], call: impl Fn(&str) -> String) -> Vec<(&'t str, String)> {
+    rows.iter().map(|(tag, stem)| (*tag, call(stem))).collect()
+}
+
 /// A `switch` over tags whose cases return; one case needs no switch, none only `otherwise`.
 fn switch(selector: &str, cases: &[(&str, String)], otherwise: &str) -> String {
     match cases {

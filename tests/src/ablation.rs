@@ -67,11 +67,13 @@ pub fn tables(text: &mut String, names: &[&str]) -> Result<(), Box<dyn Error>> {
     );
     let devices = devices();
     let mut verdicts: Vec<String> = Vec::new();
+    let mut any_software = false;
     for name in names {
         let scene = scene_of(name)?;
         for device in &devices {
             match compared(&scene, device, effort, false) {
                 Ok(found) => {
+                    any_software |= found.software;
                     let _ = writeln!(text, "{}", row(name, &scene, &found));
                     verdicts.extend(verdict(name, &found));
                 }
@@ -88,7 +90,7 @@ pub fn tables(text: &mut String, names: &[&str]) -> Result<(), Box<dyn Error>> {
             environment has `ABLATION_SOFTWARE=1`; they take minutes for the full kernel.\n",
         );
     }
-    if software() {
+    if any_software {
         text.push_str(COMPILED_AGAIN);
     }
     for verdict in verdicts {

@@ -172,8 +172,8 @@ pub(crate) fn compile(scene: &Path, pack: &Path, folder: &Path) -> Outcome<Cost>
 }
 
 /// Makes the machine have the memory for a pack in the system's cache, by writing a file and deleting it. Virtual
-/// machines get memory when it is first touched and give it back when it is free for a while: a page costs thirty
-/// times as much that way, by chance, which says nothing about what is measured.
+/// machines get memory when it is first touched and give it back when it is free for a while: a page costs
+/// many times as much that way, by chance, which says nothing about what is measured.
 fn touch_memory(folder: &Path) -> std::io::Result<()> {
     /// Three times the largest pack that is compiled.
     const BYTES: usize = 1 << 29;

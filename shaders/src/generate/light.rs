@@ -1,6 +1,6 @@
 //! `scene/dispatch_light.wgsl`: from the kind of a light to its functions.
 
-use super::{imports, switch};
+use super::{cases, imports, switch};
 use crate::FeatureSet;
 use pack::abi::LightKind;
 use std::fmt::Write as _;
@@ -31,18 +31,12 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
         "trace/alpha.wgsl",
     ]);
     text += &imports(files.iter().map(String::as_str));
-    let cases = |call: &dyn Fn(&str) -> String| -> Vec<(&str, String)> {
-        rows.iter().map(|(tag, stem)| (*tag, call(stem))).collect()
-    };
-    let sample = cases(&|stem| match stem {
+    let sample = cases(&rows, |stem| match stem {
         "sky" => "sky_light_sample(u)".to_owned(),
         _ => format!("{stem}_light_sample(light, p, u)"),
     });
     let rows: Vec<_> = rows.iter().copied().filter(|row| row.1 != "sky").collect();
-    let cases = |call: &dyn Fn(&str) -> String| -> Vec<(&str, String)> {
-        rows.iter().map(|(tag, stem)| (*tag, call(stem))).collect()
-    };
-    let pdf = cases(&|stem| match stem {
+    let pdf = cases(&rows, |stem| match stem {
         "sphere" => "sphere_light_pdf(light, p)".to_owned(),
         _ => format!("{stem}_light_pdf(light, p, x, cos_l)"),
     });

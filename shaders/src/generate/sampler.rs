@@ -1,6 +1,6 @@
 //! `scene/sampler.wgsl`: from the kind of a sampler to its numbers.
 
-use super::{imports, switch};
+use super::{cases, imports, switch};
 use crate::FeatureSet;
 use pack::abi::SamplerKind;
 use std::fmt::Write as _;
@@ -20,8 +20,7 @@ pub(crate) fn text(features: &FeatureSet) -> String {
     text += &imports(["sampler/key.wgsl", "scene/constants.wgsl", "scene/records.wgsl"]);
     text += &imports(files.iter().map(String::as_str));
     for (name, result, none) in [("1d", "f32", "0.0"), ("2d", "vec2f", "vec2f(0.0)")] {
-        let cases: Vec<(&str, String)> =
-            rows.iter().map(|(tag, stem)| (*tag, format!("{stem}_{name}(key, purpose)"))).collect();
+        let cases = cases(&rows, |stem| format!("{stem}_{name}(key, purpose)"));
         let _ = write!(
             text,
             "\n// Numbers for `purpose`, in [0, 1 - 2^-24].\n\
