@@ -23,8 +23,8 @@ use crate::bvh::{self, BvhError, Input, Preset, Tree};
 
 pub use entry::EntryFault;
 
-/// Trees of fewer primitives are not kept: building them takes a few milliseconds.
-pub const MIN_PRIMITIVES: usize = 2_000;
+/// Trees of fewer primitives are not kept: building them takes no longer than opening a file.
+pub const MIN_PRIMITIVES: usize = 256;
 /// Default limit of all files together, bytes.
 const CAP: u64 = 4 << 30;
 /// Bytes of a record: thousands of file names, or a hundred thousand emitters and triangles of filled things.

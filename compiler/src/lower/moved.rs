@@ -111,6 +111,8 @@ pub fn lower_moved(
         counters.dropped_triangles += u64::from(from.dropped);
     }
     let world = World::of(placed, &corners, &known, &earlier);
+    // The trees are made beside a copy of the triangles; the pack itself would be a third of all memory.
+    pack.release_pages();
     if let Err(error) = check_count(&world.placement) {
         return Some(Err(error));
     }

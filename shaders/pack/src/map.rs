@@ -47,6 +47,22 @@ impl Bytes {
         }
     }
 
+    /// Gives the memory of pages that were read back to the system; who reads them again gets them from the file.
+    pub(crate) fn release(&self) {
+        #[cfg(unix)]
+        if let Self::Mapped(map) = self {
+            #[expect(
+                unsafe_code,
+                reason = "the advice may change bytes of mappings that are not those of a file"
+            )]
+            // SAFETY: the mapping is one of a file and was never written to, so whatever page is dropped has the
+            // same bytes when it comes back: those of the file, which nobody writes to while it is mapped.
+            let advised = unsafe { map.unchecked_advise(memmap2::UncheckedAdvice::DontNeed) };
+            // A system that does not take the advice keeps the pages, which harms nobody.
+            let _ = advised;
+        }
+    }
+
     /// Takes the vector as it is, or copies it when it is not aligned.
     pub(crate) fn from_vec(bytes: Vec<u8>) -> Self {
         if bytes.as_ptr().addr().is_multiple_of(WORD) {

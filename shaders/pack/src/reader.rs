@@ -168,6 +168,12 @@ impl Pack<Checked> {
         self.state.table.header.file_len
     }
 
+    /// Gives the memory of what was read of a mapped pack back to the system: for who has taken what they need and is
+    /// about to need room. Everything can still be read, from the file again.
+    pub fn release_pages(&self) {
+        self.bytes.release();
+    }
+
     /// Reads every byte and compares it with the stored hashes: finds damage that the rules allow,
     /// such as a flipped bit in a colour.
     pub fn verify_hashes(&self) -> Result<(), PackError> {
