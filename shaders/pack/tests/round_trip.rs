@@ -2,6 +2,8 @@
 
 mod common;
 
+use std::fs;
+
 use common::{Draft, Scene, manifest};
 use pack::abi::{Light, Material, Node, Sphere, Texture, TriShade, Triangle};
 use pack::{Kind, Manifest, MapMode, Pack, PackWriter, describe, features};
@@ -41,12 +43,40 @@ fn mapped_and_read_files_are_equal() {
     let path = dir.path().join("scene.pack");
     let scene = Scene::full();
     scene.writer().write(&path).unwrap();
-    assert_eq!(std::fs::read(&path).unwrap(), scene.bytes());
+    assert_eq!(fs::read(&path).unwrap(), scene.bytes());
     let mapped = Pack::open(&path, MapMode::Map).unwrap();
     let read = Pack::open(&path, MapMode::Read).unwrap();
     assert_same(&mapped, &scene);
     assert_same(&read, &scene);
     assert_eq!(describe(&mapped), describe(&read));
+}
+
+#[test]
+fn released_pages_are_gone_and_come_back() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("released.pack");
+    let bytes = Scene::full().bytes();
+    fs::write(&path, &bytes).unwrap();
+    for mode in [MapMode::Map, MapMode::Read] {
+        let pack = Pack::open(&path, mode).unwrap();
+        let sections: Vec<Vec<u8>> = pack.sections().map(|s| s.bytes.to_vec()).collect();
+        #[cfg(target_os = "linux")]
+        assert_eq!(resident(&path).is_some_and(|kib| kib > 0), mode == MapMode::Map);
+        pack.release_pages();
+        #[cfg(target_os = "linux")]
+        assert_eq!(resident(&path).unwrap_or(0), 0);
+        pack.verify_hashes().unwrap();
+        assert!(pack.sections().zip(&sections).all(|(now, before)| now.bytes == before));
+    }
+}
+
+/// KiB of the mapped file that are in this process's memory; `None` if it is not mapped.
+#[cfg(target_os = "linux")]
+fn resident(path: &std::path::Path) -> Option<u64> {
+    let maps = fs::read_to_string("/proc/self/smaps").ok()?;
+    let mut lines = maps.lines().skip_while(|line| !line.ends_with(&*path.to_string_lossy()));
+    let rss = lines.find_map(|line| line.strip_prefix("Rss:"))?;
+    rss.split_whitespace().next()?.parse().ok()
 }
 
 #[test]
@@ -59,7 +89,7 @@ fn a_mapped_pack_survives_being_written_again() {
     Scene::empty().writer().write(&path).unwrap();
     assert_same(&old, &scene);
     assert_same(&Pack::open(&path, MapMode::Map).unwrap(), &Scene::empty());
-    let names: Vec<_> = std::fs::read_dir(dir.path()).unwrap().map(|f| f.unwrap()).collect();
+    let names: Vec<_> = fs::read_dir(dir.path()).unwrap().map(|f| f.unwrap()).collect();
     assert_eq!(names.len(), 1, "no temporary file stays");
 }
 
@@ -225,7 +255,7 @@ fn a_bad_pack_is_never_written() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("scene.pack");
     Scene::empty().writer().write(&path).unwrap();
-    let before = std::fs::read(&path).unwrap();
+    let before = fs::read(&path).unwrap();
 
     let mut scene = Scene::full();
     scene.spheres[1].material = 99;
@@ -246,7 +276,7 @@ fn a_bad_pack_is_never_written() {
     let text = PackWriter::new().to_bytes().unwrap_err().to_string();
     assert_eq!(text, "section RENDER is missing");
 
-    assert_eq!(std::fs::read(&path).unwrap(), before);
+    assert_eq!(fs::read(&path).unwrap(), before);
 }
 
 #[test]
