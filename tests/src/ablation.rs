@@ -33,9 +33,12 @@ const EACH: &str = "cornell";
 /// Environment variable that asks for the table on software adapters, too.
 const SOFTWARE: &str = "ABLATION_SOFTWARE";
 
-/// What there is to know of the times of software adapters. Seen with `MESA_SHADER_CACHE_DISABLE=true`.
-const COMPILED_AGAIN: &str = "\nllvmpipe compiles a kernel anew for every submission, or takes it from its cache on disk: \
-    Mesa 22.3.6 puts numbers of the frame into the code. Its times have that in them, those of long kernels most of \
+/// Mesa's software adapter, as tables call it.
+const LLVMPIPE: &str = "llvmpipe";
+
+/// What there is to know of the times of [`LLVMPIPE`]. Seen with `MESA_SHADER_CACHE_DISABLE=true`.
+const COMPILED_AGAIN: &str = "\nllvmpipe as Mesa 22.3.6 has it compiles a kernel anew for every submission, or takes it from its cache on disk: \
+    it puts numbers of the frame into the code. Its times have that in them, those of long kernels most of \
     all, and so single rows differ several-fold from run to run of this program.\n";
 
 /// Below this share of the time a difference is not told from chance.
@@ -67,19 +70,19 @@ pub fn tables(text: &mut String, names: &[&str]) -> Result<(), Box<dyn Error>> {
     );
     let devices = devices();
     let mut verdicts: Vec<String> = Vec::new();
-    let mut any_software = false;
+    let mut any_llvmpipe = false;
     for name in names {
         let scene = scene_of(name)?;
-        for device in &devices {
-            match compared(&scene, device, effort, false) {
+        for choice in &devices {
+            match compared(&scene, choice, effort, false) {
                 Ok(found) => {
-                    any_software |= found.software;
+                    any_llvmpipe |= device(&found) == LLVMPIPE;
                     let _ = writeln!(text, "{}", row(name, &scene, &found));
                     verdicts.extend(verdict(name, &found));
                 }
                 // One scene that is too much for a device is no reason to lose the others.
                 Err(error) => {
-                    verdicts.push(format!("`{name}` was not measured on {device:?}: {error}."));
+                    verdicts.push(format!("`{name}` was not measured on {choice:?}: {error}."));
                 }
             }
         }
@@ -90,7 +93,7 @@ pub fn tables(text: &mut String, names: &[&str]) -> Result<(), Box<dyn Error>> {
             environment has `ABLATION_SOFTWARE=1`; they take minutes for the full kernel.\n",
         );
     }
-    if any_software {
+    if any_llvmpipe {
         text.push_str(COMPILED_AGAIN);
     }
     for verdict in verdicts {
