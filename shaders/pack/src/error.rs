@@ -3,6 +3,7 @@
 //! Turns a broken rule into text that says what is wrong and where. Texts have no trailing full
 //! stop and no path of the pack: whoever opened it knows its name.
 
+use files::ShowPath as _;
 use std::{fmt, io, path::PathBuf};
 
 use crate::fault::{BvhFault, ElementFault, HeaderFault, SectionFault};
@@ -12,7 +13,7 @@ use crate::kind::Kind;
 #[derive(Debug, thiserror::Error)]
 pub enum PackError {
     /// The operating system refused.
-    #[error("cannot {action} {}: {source}", path.display())]
+    #[error("cannot {action} {}: {source}", path.shown())]
     Io {
         /// What was tried: `open`, `read`, `map`, `create`, `write`, `rename`.
         action: &'static str,
@@ -21,8 +22,11 @@ pub enum PackError {
         /// The system's reason.
         source: io::Error,
     },
+    /// A file that cannot be written.
+    #[error(transparent)]
+    File(#[from] files::FileError),
     /// A directory, a pipe or a device.
-    #[error("{} is not a regular file", path.display())]
+    #[error("{} is not a regular file", path.shown())]
     NotAFile {
         /// Which.
         path: PathBuf,

@@ -22,7 +22,6 @@
 compile_error!("packs are little-endian and read in place; this machine is big-endian");
 
 pub mod abi;
-mod atomic;
 pub mod bvh;
 mod check;
 mod contents;
@@ -38,7 +37,6 @@ mod reader;
 mod table;
 mod writer;
 
-pub use atomic::write_atomic;
 pub use describe::{SectionRow, describe};
 pub use error::{PackError, Place};
 pub use fault::{BvhFault, ElementFault, HeaderFault, SectionFault};

@@ -11,7 +11,7 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use crate::abi::RenderSettings;
-use crate::atomic::write_atomic;
+
 use crate::contents::Contents;
 use crate::error::PackError;
 use crate::fault::SectionFault;
@@ -133,7 +133,7 @@ impl<'a> PackWriter<'a> {
     /// file mapped keeps the old bytes, and nobody ever sees half a pack. Returns the pack's `render_id`.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<[u8; 32], PackError> {
         let plan = self.plan()?;
-        write_atomic(path.as_ref(), |out| plan.stream(out))?;
+        files::write(path.as_ref(), |out| plan.stream(out))?;
         Ok(plan.header.render_id)
     }
 

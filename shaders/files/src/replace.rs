@@ -4,39 +4,41 @@
 //! a temporary file behind; whoever writes the same file next removes it. A lock that the system takes away
 //! from dead processes, and only from those, tells which ones are left over.
 
-use std::fs::{File, TryLockError};
+use std::fs::{File, Metadata, TryLockError};
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use tempfile::NamedTempFile;
 
-use crate::error::PackError;
+use crate::error::FileError;
+use crate::inject::step;
+use crate::target::folder;
+use crate::write::{BUFFER, Steps};
 
 /// How temporary names end.
 const SUFFIX: &str = ".tmp";
 /// Others may take a new file for a leftover before it is locked; so often in a row they do not.
 const ATTEMPTS: usize = 16;
 
-/// Writes a file under a temporary name in the same directory, flushes it to the disk and renames
-/// it to `path`. On any error `path` is as it was, and the temporary file is gone; so are those that dead
-/// processes left when they wrote `path`.
-pub fn write_atomic(
+/// Writes a file under a temporary name in the folder of `at`, flushes it to the disk and renames it to `at`. On any
+/// error `at` is as it was, and the temporary file is gone; so are those that dead processes left when they wrote
+/// `at`. `path`: the name that the user knows; `existing`: what is at `at` now.
+pub(crate) fn replace(
     path: &Path,
+    at: &Path,
+    existing: Option<&Metadata>,
     content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> Result<(), PackError> {
-    let io = |action| move |source| PackError::Io { action, path: path.to_owned(), source };
-    let dir = match path.parent() {
-        Some(dir) if !dir.as_os_str().is_empty() => dir,
-        _ => Path::new("."),
-    };
-    let prefix = prefix(path);
-    remove_leftovers(dir, &prefix);
-    let file = create(dir, &prefix).map_err(|error| io("create")(plain(error, dir)))?;
-    let mut out = BufWriter::with_capacity(1 << 20, file);
-    content(&mut out).map_err(io("write"))?;
-    let file = out.into_inner().map_err(|error| io("write")(error.into_error()))?;
-    file.as_file().sync_all().map_err(io("write"))?;
-    file.persist(path).map_err(|error| io("rename")(error.error))?;
+) -> Result<(), FileError> {
+    let dir = folder(at);
+    let file = prepare(path, at, existing)?;
+    let mut out = BufWriter::with_capacity(BUFFER, Steps(file));
+    let written = content(&mut out).and_then(|()| out.flush());
+    let Steps(file) = out.into_parts().0;
+    written.map_err(FileError::io("write", path))?;
+    let synced = step().and_then(|()| file.as_file().sync_all());
+    synced.map_err(FileError::io("write", path))?;
+    let renamed = step().and_then(|()| file.persist(at).map_err(|error| error.error));
+    renamed.map_err(FileError::io("rename to", path))?;
     // The name itself is safe once the directory is; not every file system can promise that.
     if let Ok(dir) = File::open(dir) {
         drop(dir.sync_all());
@@ -44,12 +46,48 @@ pub fn write_atomic(
     Ok(())
 }
 
-/// The error without the temporary name, which says nothing to whoever asked for another.
-fn plain(error: io::Error, dir: &Path) -> io::Error {
-    if error.kind() == io::ErrorKind::NotFound {
-        return io::Error::other(format!("there is no folder {}", dir.display()));
+/// The temporary file that is going to be `at`, with the mode and the owner of what is there.
+pub(crate) fn prepare(
+    path: &Path,
+    at: &Path,
+    existing: Option<&Metadata>,
+) -> Result<NamedTempFile, FileError> {
+    let dir = folder(at);
+    if existing.is_some() {
+        // Who may not write to a file must not replace it either.
+        let opened = step().and_then(|()| File::options().append(true).open(at));
+        opened.map_err(FileError::io("write", path))?;
     }
-    error.raw_os_error().map_or(error, io::Error::from_raw_os_error)
+    let prefix = prefix(at);
+    remove_leftovers(dir, &prefix);
+    let file = step().and_then(|()| create(dir, &prefix)).map_err(|error| {
+        if error.kind() == io::ErrorKind::NotFound {
+            return FileError::NoFolder { path: path.to_owned(), folder: dir.to_owned() };
+        }
+        // The error without the temporary name, which says nothing to whoever asked for another.
+        let plain = error.raw_os_error().map_or(error, io::Error::from_raw_os_error);
+        FileError::io("create", path)(plain)
+    })?;
+    if let Some(existing) = existing {
+        inherit(file.as_file(), existing).map_err(FileError::io("create", path))?;
+    }
+    Ok(file)
+}
+
+/// Gives the new file the owner, as far as the system allows, and the mode of the old one.
+fn inherit(file: &File, existing: &Metadata) -> io::Result<()> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::{MetadataExt as _, fchown};
+        let now = file.metadata()?;
+        if (now.uid(), now.gid()) != (existing.uid(), existing.gid())
+            && fchown(file, Some(existing.uid()), Some(existing.gid())).is_err()
+        {
+            // Only the superuser gives files away; who is a member may still keep the group.
+            let _ = fchown(file, None, Some(existing.gid()));
+        }
+    }
+    file.set_permissions(existing.permissions())
 }
 
 /// How temporary names of `path` begin. A hash, because names have a greatest length.
@@ -103,6 +141,7 @@ fn remove_leftovers(dir: &Path, prefix: &str) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::write::write;
 
     fn names(dir: &Path) -> Vec<String> {
         let entries = std::fs::read_dir(dir).unwrap();
@@ -128,15 +167,15 @@ mod tests {
         }
         let locked = File::open(&alive).unwrap();
         locked.lock().unwrap();
-        write_atomic(&path, |out| out.write_all(b"all of it")).unwrap();
+        write(&path, |out| out.write_all(b"all of it")).unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), b"all of it");
         assert!(!dead.exists());
         for file in [&alive, &of_other, &foreign] {
             assert!(file.exists(), "{}", file.display());
         }
         drop(locked);
-        write_atomic(&path, |out| out.write_all(b"again")).unwrap();
-        write_atomic(&other, |out| out.write_all(b"the other")).unwrap();
+        write(&path, |out| out.write_all(b"again")).unwrap();
+        write(&other, |out| out.write_all(b"the other")).unwrap();
         assert_eq!(names(dir.path()), [".pack-mine.tmp", "a.pack", "b.pack"]);
     }
 
@@ -144,9 +183,9 @@ mod tests {
     fn a_file_that_is_being_written_survives_others_who_write_it() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("a.pack");
-        write_atomic(&path, |out| {
+        write(&path, |out| {
             out.write_all(b"the last ")?;
-            write_atomic(&path, |out| out.write_all(b"the first")).unwrap();
+            write(&path, |out| out.write_all(b"the first")).unwrap();
             assert_eq!(std::fs::read(&path).unwrap(), b"the first");
             out.write_all(b"word")
         })
@@ -159,8 +198,8 @@ mod tests {
     fn an_error_leaves_nothing_behind() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("a.pack");
-        write_atomic(&path, |out| out.write_all(b"good")).unwrap();
-        let failed = write_atomic(&path, |out| {
+        write(&path, |out| out.write_all(b"good")).unwrap();
+        let failed = write(&path, |out| {
             out.write_all(b"bad")?;
             Err(io::Error::other("the disk is full"))
         });
@@ -173,7 +212,7 @@ mod tests {
     fn a_folder_that_is_not_there_is_named_and_no_temporary_name() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("none").join("a.pack");
-        let error = write_atomic(&path, |_| Ok(())).unwrap_err().to_string();
+        let error = write(&path, |_| Ok(())).unwrap_err().to_string();
         let none = dir.path().join("none");
         let expected =
             format!("cannot create {}: there is no folder {}", path.display(), none.display());
