@@ -13,6 +13,7 @@
 mod dir;
 mod entry;
 
+use files::ShowPath as _;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -188,7 +189,7 @@ impl Cache {
         let source = match dir::store(&path, &entry::encode(&tree, &key, took)) {
             Ok(()) => Source::Stored { took },
             Err(error) => {
-                let (root, reason) = (root.display().to_string(), error.to_string());
+                let (root, reason) = (root.shown().to_string(), error.to_string());
                 warning = Some(CacheWarning::Unwritable { root, reason });
                 Source::Built { took }
             }
@@ -199,7 +200,7 @@ impl Cache {
     /// What `store_record` was given for this key; nothing if it is longer than any record.
     pub(crate) fn record(&self, key: &blake3::Hash) -> Option<Vec<u8>> {
         let path = self.root.as_ref()?.join(dir::record_path(key));
-        let file = std::fs::File::open(&path).ok()?;
+        let file = files::open_regular(&path).ok()?;
         let mut bytes = Vec::new();
         file.take(MAX_RECORD + 1).read_to_end(&mut bytes).ok()?;
         dir::touch(&path);
@@ -257,7 +258,7 @@ impl Cache {
 }
 
 fn io_error(path: &Path, source: io::Error) -> CacheError {
-    CacheError::Io { path: path.display().to_string(), source }
+    CacheError::Io { path: path.shown().to_string(), source }
 }
 
 /// The name of a tree: everything that its shape depends on.

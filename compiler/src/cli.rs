@@ -10,6 +10,7 @@ mod explain;
 mod files;
 mod fmt;
 mod inspect;
+mod outputs;
 mod record;
 mod show;
 mod summary;
@@ -37,6 +38,7 @@ const EXAMPLES: &str = "\
 Examples:
   rtc scene.rts -o scene.pack        compile a scene; then: rtr scene.pack
   rtc scene.rts --watch              compile again whenever a file of the scene changes
+  rtc scene.rts -o - | rtr - -o a.png   without a file in between
   rtc scene.rts --depfile scene.d    also write what the pack depends on, for make or ninja
   rtc check scene.rts                only look for errors
   rtc scene.rts -D hour=7h           override a `param` of the scene
@@ -86,6 +88,11 @@ struct ReportArgs {
     /// Errors shown in full; 0 shows all.
     #[arg(long, default_value_t = 50, value_name = "N")]
     max_errors: usize,
+}
+
+/// Prints what the user asked for; gives the exit code.
+fn printed(reporter: &Reporter, text: &str) -> u8 {
+    if reporter.output(text) { OK } else { IO }
 }
 
 impl ReportArgs {

@@ -4,12 +4,13 @@
 //! deleted together with the line that named it. Names are escaped as compilers do: space, tab and
 //! `#` after a backslash, `$` doubled, `:` after a backslash where the file system allows it.
 
+use files::ShowPath as _;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 /// A name that no rule can hold.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{} cannot stand in a depfile: the name {why}", path.display())]
+#[error("{} cannot stand in a depfile: the name {why}", path.shown())]
 pub struct UnspeakableName {
     path: PathBuf,
     why: &'static str,

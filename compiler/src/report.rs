@@ -115,13 +115,16 @@ impl Reporter {
         }
     }
 
-    /// What the user asked for, on standard output.
-    pub fn output(&self, text: &str) {
-        let mut out = std::io::stdout().lock();
-        // A reader that went away, as `head` does, is no failure of ours.
-        let _ = out.write_all(text.as_bytes());
-        if !text.ends_with('\n') {
-            let _ = out.write_all(b"\n");
+    /// What the user asked for, on standard output. Says whether it could be written; if not, that is reported.
+    #[must_use]
+    pub fn output(&self, text: &str) -> bool {
+        let end = if text.ends_with('\n') { "" } else { "\n" };
+        match files::write_stdout(&format!("{text}{end}")) {
+            Ok(()) => true,
+            Err(error) => {
+                self.failure(&format!("cannot write to standard output: {error}"));
+                false
+            }
         }
     }
 }

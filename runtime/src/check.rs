@@ -8,7 +8,7 @@ mod heat;
 mod path;
 mod verdict;
 
-pub use self::heat::write_heat;
+pub use self::heat::encode_heat;
 pub use self::path::{Sample, Step};
 pub use self::verdict::Verdict;
 

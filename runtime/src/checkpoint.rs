@@ -20,7 +20,7 @@ use crate::job::{Job, MAX_PIXELS};
 use crate::output::{Identity, parse_bad, parse_ranges, ranges_text};
 use crate::region::{Rect, SampleRange};
 use crate::scene::Scene;
-use pack::PackError;
+use files::{FileError, ShowPath as _};
 use pack::abi::BATCH;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -56,7 +56,7 @@ pub struct Checkpoint {
 #[derive(Debug, Error)]
 pub enum CheckpointError {
     /// The file cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
+    #[error("cannot read {}: {source}", path.shown())]
     Io {
         /// The file.
         path: PathBuf,
@@ -64,13 +64,13 @@ pub enum CheckpointError {
         source: io::Error,
     },
     /// Not the beginning of a checkpoint, or one of another layout.
-    #[error("{} is not a checkpoint of this rtr", path.display())]
+    #[error("{} is not a checkpoint of this rtr", path.shown())]
     NotOne {
         /// The file.
         path: PathBuf,
     },
     /// The bytes are not those that were written.
-    #[error("{} is damaged: {what}; without --resume the picture is rendered anew", path.display())]
+    #[error("{} is damaged: {what}; without --resume the picture is rendered anew", path.shown())]
     Damaged {
         /// The file.
         path: PathBuf,
@@ -80,7 +80,7 @@ pub enum CheckpointError {
     /// It belongs to another run.
     #[error(
         "{} is of another run: {what} is {found} there and {expected} here; without --resume the picture is rendered anew",
-        path.display()
+        path.shown()
     )]
     Foreign {
         /// The file.
@@ -119,7 +119,7 @@ impl Checkpoint {
     }
 
     /// Writes it beside `path` and renames: whoever is killed meanwhile leaves the one before.
-    pub fn write(&self, path: &Path) -> Result<(), PackError> {
+    pub fn write(&self, path: &Path) -> Result<(), FileError> {
         let text = self.text();
         let sums: &[u8] = bytemuck::cast_slice(&self.film.sums);
         let mut head = Vec::with_capacity(HEADER);
@@ -128,7 +128,7 @@ impl Checkpoint {
         head.extend(u32::try_from(text.len()).unwrap_or(u32::MAX).to_le_bytes());
         let hash = checksum(&head, text.as_bytes(), sums);
         head.extend(hash.as_bytes());
-        pack::write_atomic(path, |out| {
+        files::write(path, |out| {
             out.write_all(&head)?;
             out.write_all(text.as_bytes())?;
             out.write_all(sums)

@@ -11,13 +11,16 @@ mod bench;
 mod check;
 mod console;
 mod measure;
+mod outputs;
 mod render;
 mod watch;
 
 use self::args::{Args, Command, MergeArgs};
 use self::console::Console;
+use self::outputs::{Claim, prove, save};
 use crate::output;
 use clap::Parser as _;
+use files::ShowPath as _;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
@@ -44,7 +47,7 @@ pub fn run(args: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> ExitC
             return code(if usage { Exit::Usage } else { Exit::Done });
         }
     };
-    code(match &args.command {
+    let exit = match &args.command {
         Some(Command::Merge(merge)) => merge_command(merge),
         Some(Command::Bench(bench)) => bench::command(bench),
         Some(Command::Check(args)) => check::command(args),
@@ -52,7 +55,9 @@ pub fn run(args: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> ExitC
         None if args.render.ablate.is_some() => ablate::command(&args.render),
         None if args.render.watch => watch::command(&args.render),
         None => render::command(&args.render, None),
-    })
+    };
+    // What could not be printed is an output that could not be written.
+    code(if console::has_lost_output() && exit == Exit::Done { Exit::World } else { exit })
 }
 
 fn code(exit: Exit) -> ExitCode {
@@ -78,7 +83,22 @@ fn list_devices() -> Exit {
 }
 
 fn merge_command(args: &MergeArgs) -> Exit {
-    let console = Console::new(args.quiet);
+    let console = Console::new(args.quiet).beside(&args.output);
+    let formats: Result<Vec<_>, String> =
+        args.output.iter().map(|path| outputs::format(path, args.format)).collect();
+    let formats = match formats {
+        Ok(formats) => formats,
+        Err(text) => {
+            console.warn(&format!("error: {text}"));
+            return Exit::World;
+        }
+    };
+    let inputs: Vec<_> =
+        args.parts.iter().map(|path| outputs::Use { path, what: "a part" }).collect();
+    let claims = args.output.iter().map(|path| Claim::new(path, "the merged picture", 0));
+    if let Err(exit) = prove(&console, &inputs, &claims.collect::<Vec<_>>()) {
+        return exit;
+    }
     let mut parts = Vec::new();
     for path in &args.parts {
         match output::read_exr(path) {
@@ -90,16 +110,18 @@ fn merge_command(args: &MergeArgs) -> Exit {
         Ok(picture) => picture,
         Err(error) => {
             for (i, path) in (1..).zip(&args.parts) {
-                console.note(&format!("part {i} is {}", path.display()));
+                console.note(&format!("part {i} is {}", path.shown()));
             }
             return console.fail(&error, Exit::World);
         }
     };
-    for path in &args.output {
-        if let Err(error) = output::write(path, &picture, true) {
-            return console.fail(&error, Exit::World);
-        }
-        console.result(&format!("wrote {}", path.display()));
+    let mut exit = Exit::Done;
+    for (path, format) in args.output.iter().zip(formats) {
+        let bytes = match output::encode(format, &picture, true) {
+            Ok(bytes) => bytes,
+            Err(error) => return console.fail(&error, Exit::Bug),
+        };
+        exit = save(&console, path, &bytes).err().unwrap_or(exit);
     }
-    Exit::Done
+    exit
 }

@@ -8,12 +8,14 @@ mod merge;
 mod png;
 
 pub(crate) use self::exr::parse_bad;
-pub use self::exr::{read_exr, write_exr};
+pub use self::exr::{encode_exr, read_exr};
 pub use self::merge::{Identity, MergeError, merge};
-pub use self::png::{encode_png, tone_map, write_png};
+pub(crate) use self::png::encode_rgb;
+pub use self::png::{encode_png, tone_map};
 
 use crate::film::Film;
 use crate::region::SampleRange;
+use files::ShowPath as _;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -54,17 +56,15 @@ pub struct Meta {
 pub enum OutputError {
     /// The file cannot be created, written or renamed.
     #[error(transparent)]
-    Write(pack::PackError),
+    Write(files::FileError),
     /// The encoder refused.
-    #[error("cannot encode {}: {message}", path.display())]
+    #[error("cannot encode the picture: {message}")]
     Encode {
-        /// The file.
-        path: PathBuf,
         /// The encoder's words.
         message: String,
     },
     /// The file cannot be read as an EXR image.
-    #[error("cannot read {}: {message}", path.display())]
+    #[error("cannot read {}: {message}", path.shown())]
     Read {
         /// The file.
         path: PathBuf,
@@ -72,7 +72,7 @@ pub enum OutputError {
         message: String,
     },
     /// An EXR image that `rtr` did not write, or that lacks what is needed here.
-    #[error("{} is not a picture of rtr: {message}", path.display())]
+    #[error("{} is not a picture of rtr: {message}", path.shown())]
     Foreign {
         /// The file.
         path: PathBuf,
@@ -80,7 +80,7 @@ pub enum OutputError {
         message: String,
     },
     /// A file name that says neither `.exr` nor `.png`.
-    #[error("{}: the name must end in .exr or .png", path.display())]
+    #[error("{}: the name must end in .exr or .png", path.shown())]
     Format {
         /// The name.
         path: PathBuf,
@@ -88,7 +88,7 @@ pub enum OutputError {
 }
 
 /// Kind of a picture file, from its name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Format {
     /// Linear float, with everything that is known.
     Exr,
@@ -108,18 +108,19 @@ impl Format {
     }
 }
 
-/// Writes `picture` in the format of the name. `residual`: whether an EXR also holds the rounding
-/// error of its means, which makes merging exact to about 2^-48.
+/// Writes `picture` in the format of the name; `residual` as for [`encode`].
 pub fn write(path: &Path, picture: &Picture, residual: bool) -> Result<(), OutputError> {
-    match Format::of(path)? {
-        Format::Exr => write_exr(path, picture, residual),
-        Format::Png => write_png(path, picture),
-    }
+    let bytes = encode(Format::of(path)?, picture, residual)?;
+    files::write(path, |out| out.write_all(&bytes)).map_err(OutputError::Write)
 }
 
-/// Writes `bytes` beside `path`, then renames.
-pub(crate) fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
-    pack::write_atomic(path, |out| out.write_all(bytes)).map_err(OutputError::Write)
+/// The bytes of the file. `residual`: whether an EXR also holds the rounding error of its means, which makes merging
+/// exact to about 2^-48.
+pub fn encode(format: Format, picture: &Picture, residual: bool) -> Result<Vec<u8>, OutputError> {
+    match format {
+        Format::Exr => encode_exr(picture, residual),
+        Format::Png => encode_png(picture),
+    }
 }
 
 /// `0..32,64..96`.

@@ -10,6 +10,7 @@ use crate::job::Job;
 use crate::output::Identity;
 use crate::region::SampleRange;
 use crate::scene::Scene;
+use files::ShowPath as _;
 use std::path::PathBuf;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -172,7 +173,7 @@ impl<'a> Saver<'a> {
             }
             Err(error) if !state.failed => {
                 state.failed = true;
-                let path = self.keep.path.display();
+                let path = self.keep.path.shown();
                 note(&format!("warning: no checkpoint in {path}: {error}; rendering goes on"));
             }
             Err(_) => {}

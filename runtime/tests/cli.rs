@@ -96,7 +96,7 @@ fn what_is_wrong_is_said_in_one_line_with_an_exit_code() {
         (&["cut.pack"], 3, "truncated"),
         (&["none.pack"], 3, "none.pack"),
         (&["marbles.pack", "-o", "a.tiff"], 3, "a.tiff: the name must end in .exr or .png"),
-        (&["marbles.pack", "-o", "no/a.png"], 3, "cannot write no/a.png: there is no folder no"),
+        (&["marbles.pack", "-o", "no/a.png"], 3, "cannot create no/a.png: there is no folder no"),
         (&["marbles.pack", "--crop", "70,0,9,9"], 2, "crop 70,0,9,9 is empty or leaves the image"),
         (&["marbles.pack", "--size", "99999x1"], 2, "an image of 99999x1 pixels"),
         (&["marbles.pack", "--size", "abc"], 2, "write it as 640x360"),
@@ -169,7 +169,7 @@ fn an_interrupt_writes_what_is_complete() {
 }
 
 #[test]
-fn a_pack_may_ask_for_an_output_below_the_working_folder() {
+fn a_pack_may_ask_for_a_plain_name_in_the_working_folder() {
     let folder = folder();
     for (output, expected) in [
         ("pic.png", "wrote pic.exr\nwrote pic.png\n"),

@@ -3,7 +3,7 @@
 mod common;
 
 use common::scene;
-use runtime::output::{OutputError, Picture, encode_png, merge, read_exr, write, write_exr};
+use runtime::output::{OutputError, Picture, encode_png, merge, read_exr, write};
 use runtime::{Control, DeviceChoice, Job, Rect, SampleRange, render};
 use std::path::PathBuf;
 
@@ -33,7 +33,7 @@ fn an_exr_file_gives_the_picture_back() {
         [(None, true, 1e-14), (crop, true, 1e-14), (crop, false, 6e-8)]
     {
         let written = picture(range(16, 21), crop);
-        write_exr(&at("a.exr"), &written, residual).expect("it can be written");
+        write(&at("a.exr"), &written, residual).expect("it can be written");
         let read = read_exr(&at("a.exr")).expect("it can be read");
         assert_eq!(read.meta, written.meta);
         let (a, b) = (&read.film, &written.film);
@@ -51,7 +51,7 @@ fn uneven_samples_survive_the_file() {
     let mut written = picture(range(0, 16), None);
     written.film.counts[5] = 0;
     written.film.sums[5] = [0.0; 3];
-    write_exr(&at("a.exr"), &written, true).expect("it can be written");
+    write(&at("a.exr"), &written, true).expect("it can be written");
     let read = read_exr(&at("a.exr")).expect("it can be read");
     assert_eq!(read.film.counts, written.film.counts);
     let error = merge(vec![read]).expect_err("a part must be even").to_string();
@@ -61,8 +61,8 @@ fn uneven_samples_survive_the_file() {
 #[test]
 fn parts_from_files_merge_to_the_whole() {
     let (_folder, at) = folder();
-    write_exr(&at("a.exr"), &picture(range(0, 32), None), true).expect("it can be written");
-    write_exr(&at("b.exr"), &picture(range(32, 64), None), true).expect("it can be written");
+    write(&at("a.exr"), &picture(range(0, 32), None), true).expect("it can be written");
+    write(&at("b.exr"), &picture(range(32, 64), None), true).expect("it can be written");
     let read = |name: &str| read_exr(&at(name)).expect("it can be read");
     let merged = merge(vec![read("a.exr"), read("b.exr")]).expect("they are parts");
     let whole = picture(range(0, 64), None);

@@ -62,12 +62,9 @@ pub fn generate(name: &str, dir: &Path, extent: Extent) -> std::io::Result<Gener
     Ok(Generated { path, holds: None })
 }
 
-/// Writes a sibling temporary file and renames it: a reader sees the old file or the new one.
+/// Makes the folder, too; a reader sees the old file or the new one.
 fn write_atomically(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     let dir = path.parent().unwrap_or(Path::new("."));
     std::fs::create_dir_all(dir)?;
-    let mut file = tempfile::NamedTempFile::new_in(dir)?;
-    std::io::Write::write_all(&mut file, bytes)?;
-    file.persist(path)?;
-    Ok(())
+    files::write(path, |out| out.write_all(bytes)).map_err(std::io::Error::other)
 }

@@ -7,13 +7,14 @@ use cargo_metadata::{DependencyKind, Metadata, MetadataCommand};
 /// Crate, what it may use when it runs, what only its build script may use.
 const ARROWS: &[(&str, &[&str], &[&str])] = &[
     ("lang", &[], &[]),
-    ("pack", &[], &[]),
+    ("files", &[], &[]),
+    ("pack", &["files"], &[]),
     ("native", &["naga"], &[]),
     ("shaders", &["pack", "naga"], &[]),
-    ("compiler", &["lang", "shaders", "pack"], &[]),
+    ("compiler", &["lang", "shaders", "pack", "files"], &[]),
     ("commit", &[], &[]),
-    ("runtime", &["pack", "commit", "wgpu"], &["pack", "shaders", "native"]),
-    ("scenes", &["compiler", "runtime"], &[]),
+    ("runtime", &["pack", "files", "commit", "wgpu"], &["pack", "shaders", "native"]),
+    ("scenes", &["compiler", "runtime", "files"], &[]),
 ];
 
 fn metadata() -> Metadata {

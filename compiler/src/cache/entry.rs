@@ -17,8 +17,8 @@
 //! ```
 //! All integers little-endian. The length is exactly what the three counts say.
 
-use std::fs;
-use std::io::{self, Read};
+use files::FileError;
+use std::io;
 use std::path::Path;
 use std::time::Duration;
 
@@ -111,21 +111,15 @@ pub(super) fn load(
 
 /// Reads at most as many bytes as a tree of `n_prims` primitives can have.
 fn read(path: &Path, n_prims: usize) -> Result<Vec<u8>, EntryFault> {
-    let failed = |error: io::Error| match error.kind() {
-        io::ErrorKind::NotFound => EntryFault::Absent,
-        _ => EntryFault::Io(error.to_string()),
-    };
-    let file = fs::File::open(path).map_err(failed)?;
     // No builder makes more pieces than twice the primitives.
     let most = (HEADER + (8 + 4) * 2 * n_prims + 12 * n_prims) as u64;
-    let len = file.metadata().map_err(failed)?.len();
-    if len > most {
-        return Err(EntryFault::Length);
-    }
-    let mut bytes = Vec::with_capacity(usize::try_from(len).unwrap_or(0));
-    // The file may grow meanwhile: the limit holds for the reading itself.
-    file.take(most).read_to_end(&mut bytes).map_err(failed)?;
-    Ok(bytes)
+    files::read(path, most).map_err(|error| match error {
+        FileError::Io { source, .. } if source.kind() == io::ErrorKind::NotFound => {
+            EntryFault::Absent
+        }
+        FileError::TooLarge { .. } => EntryFault::Length,
+        error => EntryFault::Io(error.to_string()),
+    })
 }
 
 fn decode(

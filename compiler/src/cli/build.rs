@@ -1,5 +1,6 @@
 //! `rtc build` and `rtc check`: a scene text becomes a pack, or a list of what is wrong with it.
 
+use files::ShowPath as _;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
@@ -7,6 +8,7 @@ use clap::Args;
 use pack::{MapMode, Pack};
 
 use super::compile::{Compilation, compile};
+use super::outputs::Outputs;
 use super::record::{Before, Done, Edited, Job, Record};
 use super::summary::{done, portability, reused_text, timings};
 use super::watch::watch;
@@ -24,7 +26,8 @@ use crate::reuse::Reuse;
 pub(super) struct BuildArgs {
     #[command(flatten)]
     scene: SceneArgs,
-    /// Where the pack goes [default: the scene's name with `.pack`, in the working directory].
+    /// Where the pack goes; `-` is standard output [default: the scene's name with `.pack`, in the working
+    /// directory].
     #[arg(short, long, value_name = "PACK")]
     output: Option<PathBuf>,
     /// Also write the linked kernel, for reading.
@@ -100,6 +103,14 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
     let start = Instant::now();
     let cache = if args.no_cache { Cache::disabled() } else { Cache::from_env() };
     let output = args.output.clone().unwrap_or_else(|| default_output(&args.scene.scene));
+    let optional =
+        [(&args.emit_wgsl, "the kernel of --emit-wgsl"), (&args.depfile, "the rule of --depfile")];
+    let optional = optional.iter().filter_map(|(path, what)| Some((path.as_deref()?, *what)));
+    let list: Vec<_> = [(output.as_path(), "the pack")].into_iter().chain(optional).collect();
+    let outputs = match Outputs::new(&args.scene.scene, &list, reporter) {
+        Ok(outputs) => outputs,
+        Err(code) => return code,
+    };
     let trees =
         Trees { preset: args.bvh, layout: args.nodes, instancing: args.instances, cache: &cache };
     let job = Job { scene: &args.scene.scene, output: &output, defines: &args.scene.define, trees };
@@ -107,7 +118,10 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
     let edited = match before {
         // Who asks for the kernel or the times wants to see a compilation.
         Before::UpToDate(record) if args.emit_wgsl.is_none() && !args.timings => {
-            return up_to_date(args, &record, &output, reuse, reporter);
+            let spared = outputs.spare(&record.files, reporter);
+            return spared
+                .err()
+                .unwrap_or_else(|| up_to_date(args, &record, &output, reuse, reporter));
         }
         Before::Edited(edited) => Some(edited),
         Before::UpToDate(_) | Before::Nothing => None,
@@ -117,6 +131,9 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
             Ok(done) => done,
             Err(code) => return code,
         };
+    if let Err(code) = outputs.spare(reuse.reads().keys(), reporter) {
+        return code;
+    }
     if let Some(path) = &args.emit_wgsl
         && let Err(code) = write_text(path, &compiled.kernel.text, reporter)
     {
@@ -173,7 +190,7 @@ fn explained(args: &BuildArgs, output: &Path, reporter: &Reporter) -> u8 {
     match Pack::open(output, MapMode::Map) {
         Ok(pack) => inspect::report(&pack, reporter),
         Err(error) => {
-            reporter.failure(&format!("{}: {error}", output.display()));
+            reporter.failure(&format!("{}: {error}", output.shown()));
             IO
         }
     }
@@ -199,14 +216,14 @@ fn up_to_date(
         let _ = file.and_then(|file| file.set_modified(SystemTime::now()));
     }
     let path = output;
-    let (n, output) = (record.files.len(), path.display());
+    let (n, output) = (record.files.len(), path.shown());
     let plural = if n == 1 { "" } else { "s" };
     reporter.status(&format!("{output} is up to date: nothing changed in {n} file{plural}"));
     explained(args, path, reporter)
 }
 
 fn write_text(path: &Path, text: &str, reporter: &Reporter) -> Result<(), u8> {
-    pack::write_atomic(path, |file| file.write_all(text.as_bytes())).map_err(|error| {
+    files::write(path, |file| file.write_all(text.as_bytes())).map_err(|error| {
         reporter.failure(&error.to_string());
         IO
     })

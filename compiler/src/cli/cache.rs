@@ -1,8 +1,9 @@
 //! `rtc cache`: what the BVH cache holds, and how to empty it.
 
 use clap::Args;
+use files::ShowPath as _;
 
-use super::{IO, OK};
+use super::{IO, printed};
 use crate::cache::Cache;
 use crate::report::{Color, ErrorFormat, Reporter};
 
@@ -19,17 +20,17 @@ pub(super) struct CacheArgs {
 pub(super) fn cache(args: &CacheArgs) -> u8 {
     let reporter = Reporter::new(ErrorFormat::Human, Color::Auto, usize::MAX);
     let cache = Cache::from_env();
-    let Some(root) = cache.root().map(|root| root.display().to_string()) else {
-        reporter.output("there is no cache: neither RTC_CACHE_DIR nor a home directory is set");
-        return OK;
+    let Some(root) = cache.root().map(|root| root.shown().to_string()) else {
+        let text = "there is no cache: neither RTC_CACHE_DIR nor a home directory is set";
+        return printed(&reporter, text);
     };
     let (result, what) =
         if args.clear { (cache.clear(), "deleted") } else { (cache.stats(), "cached") };
     match result {
         Ok(stats) => {
             let megabytes = stats.bytes as f64 / 1e6;
-            reporter.output(&format!("{root}: {} trees {what}, {megabytes:.1} MB", stats.entries));
-            OK
+            let text = format!("{root}: {} trees {what}, {megabytes:.1} MB", stats.entries);
+            printed(&reporter, &text)
         }
         Err(error) => {
             reporter.failure(&error.to_string());

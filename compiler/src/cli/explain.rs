@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::{OK, USAGE};
+use super::{USAGE, printed};
 use crate::report::{Color, ErrorFormat, Reporter};
 
 #[derive(Debug, Args)]
@@ -14,8 +14,7 @@ pub(super) struct ExplainArgs {
 pub(super) fn explain(args: &ExplainArgs) -> u8 {
     let reporter = Reporter::new(ErrorFormat::Human, Color::Auto, usize::MAX);
     if let Some(page) = lang::explain(&args.topic) {
-        reporter.output(&page);
-        return OK;
+        return printed(&reporter, &page);
     }
     let topic = &args.topic;
     reporter.failure(&format!(

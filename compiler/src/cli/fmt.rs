@@ -1,5 +1,6 @@
 //! `rtc fmt`: tidies scene texts in place.
 
+use files::ShowPath as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -28,7 +29,7 @@ pub(super) fn fmt(args: &FmtArgs) -> u8 {
 }
 
 fn one(path: &Path, check: bool, reporter: &Reporter) -> u8 {
-    let shown = path.display();
+    let shown = path.shown();
     let text = match read_text(path) {
         Ok(text) => text,
         Err(error) => {
@@ -52,10 +53,10 @@ fn one(path: &Path, check: bool, reporter: &Reporter) -> u8 {
         reporter.status(&format!("{shown} is not tidy; `rtc fmt {shown}` would change it"));
         return SCENE;
     }
-    match pack::write_atomic(path, |file| file.write_all(tidy.as_bytes())) {
+    match files::write(path, |file| file.write_all(tidy.as_bytes())) {
         Ok(()) => OK,
         Err(error) => {
-            reporter.failure(&format!("cannot write {shown}: {error}"));
+            reporter.failure(&format!("{error}"));
             IO
         }
     }

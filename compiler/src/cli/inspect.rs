@@ -1,6 +1,7 @@
 //! `rtc inspect`: the sections of a pack as a table, and which features its kernel has; the latter is what
 //! `rtc build --explain-features` prints, too.
 
+use files::ShowPath as _;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -11,7 +12,7 @@ use pack::bvh::InnerNode;
 use pack::manifest::{Feature, KernelSize};
 use pack::{Checked, Manifest, MapMode, Pack};
 
-use super::{BUG, IO, OK};
+use super::{BUG, IO, printed};
 use crate::bvh::Layout;
 use crate::pipeline::full_kernel_size;
 use crate::report::{Color, ErrorFormat, Reporter};
@@ -36,7 +37,7 @@ pub(super) fn inspect(args: &InspectArgs) -> u8 {
     match opened {
         Ok(pack) => report(&pack, &reporter),
         Err(error) => {
-            reporter.failure(&format!("{}: {error}", args.pack.display()));
+            reporter.failure(&format!("{}: {error}", args.pack.shown()));
             IO
         }
     }
@@ -44,7 +45,9 @@ pub(super) fn inspect(args: &InspectArgs) -> u8 {
 
 /// Prints the sections, which features the kernel has, and how large it is.
 pub(super) fn report(pack: &Pack<Checked>, reporter: &Reporter) -> u8 {
-    reporter.output(&table(pack));
+    if !reporter.output(&table(pack)) {
+        return IO;
+    }
     let manifest = match pack.manifest() {
         Ok(manifest) => manifest,
         Err(error) => {
@@ -53,10 +56,7 @@ pub(super) fn report(pack: &Pack<Checked>, reporter: &Reporter) -> u8 {
         }
     };
     match full_kernel_size() {
-        Ok(full) => {
-            reporter.output(&explanation(&manifest, full));
-            OK
-        }
+        Ok(full) => printed(reporter, &explanation(&manifest, full)),
         Err(error) => {
             reporter.failure(&format!("{error}\nThis is a bug of rtc, not of your scene."));
             BUG

@@ -7,7 +7,6 @@
 //! compilation may use is in the cache under the hash of its bytes.
 
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -250,15 +249,9 @@ impl Record {
 
 /// BLAKE3 of a regular file.
 fn file_hash(path: &Path) -> Option<String> {
-    if !std::fs::metadata(path).ok()?.is_file() {
-        return None;
-    }
+    let file = files::open_regular(path).ok()?;
     let mut hasher = blake3::Hasher::new();
-    std::io::copy(
-        &mut std::io::BufReader::with_capacity(1 << 20, File::open(path).ok()?),
-        &mut hasher,
-    )
-    .ok()?;
+    std::io::copy(&mut std::io::BufReader::with_capacity(1 << 20, file), &mut hasher).ok()?;
     Some(hasher.finalize().to_hex().to_string())
 }
 

@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::compile::analyze;
-use super::{OK, ReportArgs, SCENE, SceneArgs};
+use super::{ReportArgs, SCENE, SceneArgs, printed};
 
 #[derive(Debug, Args)]
 pub(super) struct ShowArgs {
@@ -25,8 +25,7 @@ pub(super) fn show(args: &ShowArgs) -> u8 {
     reporter.diagnostics(&analysis.sources, &analysis.diagnostics);
     let Some(scene) = &analysis.scene else { return SCENE };
     let text = if args.resolved { lang::resolved(scene) } else { summary(scene) };
-    reporter.output(&text);
-    OK
+    printed(&reporter, &text)
 }
 
 /// How many of each kind, and what will be rendered.

@@ -1,5 +1,6 @@
 //! What `rtc` says of a finished compilation.
 
+use files::ShowPath as _;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Duration;
@@ -32,7 +33,7 @@ pub(super) fn done(output: &Path, compiled: &Compiled, time: Duration) -> String
     things.extend((trees.groups > 0).then(|| trees_text(compiled)));
     format!(
         "{}: {:.1} MB, {} in {:.2} s",
-        output.display(),
+        output.shown(),
         size as f64 / 1e6,
         if things.is_empty() { "nothing but sky".to_owned() } else { things.join(", ") },
         time.as_secs_f64(),

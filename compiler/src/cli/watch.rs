@@ -6,6 +6,7 @@
 //! editor or a generator that writes many files causes one compilation. Errors are shown and watching
 //! goes on; the pack is replaced only by a complete one.
 
+use files::ShowPath as _;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -99,7 +100,7 @@ fn different<'a>(before: &'a Stamps, after: &Stamps) -> Vec<&'a Path> {
 }
 
 fn listed(paths: &[&Path]) -> String {
-    let names = paths.iter().take(MOST_NAMES).map(|path| path.display().to_string());
+    let names = paths.iter().take(MOST_NAMES).map(|path| path.shown().to_string());
     let names = names.collect::<Vec<_>>().join(", ");
     match paths.len().checked_sub(MOST_NAMES) {
         Some(more @ 1..) => format!("{names} and {more} more"),

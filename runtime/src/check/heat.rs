@@ -1,10 +1,7 @@
 //! Differences of pixels → a picture of them.
 
 use super::Report;
-use crate::output::{OutputError, write_atomic};
-use image::ImageEncoder as _;
-use std::io;
-use std::path::Path;
+use crate::output::{OutputError, encode_rgb};
 
 /// Colours from no difference to all of it, sRGB: black, blue, purple, orange, yellow, white.
 const RAMP: [[f64; 3]; 6] = [
@@ -43,22 +40,13 @@ fn color(off: f64) -> [u8; 3] {
     color
 }
 
-/// Writes a PNG: black where the two precisions agree, white where they differ by all.
+/// A PNG: black where the two precisions agree, white where they differ by all.
 ///
 /// # Errors
-/// When the file cannot be written.
-pub fn write_heat(path: &Path, report: &Report) -> Result<(), OutputError> {
+/// When the encoder refuses.
+pub fn encode_heat(report: &Report) -> Result<Vec<u8>, OutputError> {
     let pixels: Vec<[u8; 3]> = report.pixels.iter().map(|pixel| color(pixel.off)).collect();
-    let mut file = Vec::new();
-    let encoder = image::codecs::png::PngEncoder::new(io::Cursor::new(&mut file));
-    let [width, height] = report.size;
-    encoder
-        .write_image(pixels.as_flattened(), width, height, image::ExtendedColorType::Rgb8)
-        .map_err(|error| OutputError::Encode {
-            path: path.to_owned(),
-            message: error.to_string(),
-        })?;
-    write_atomic(path, &file)
+    encode_rgb(&pixels, report.size)
 }
 
 #[cfg(test)]

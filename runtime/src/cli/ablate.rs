@@ -19,14 +19,15 @@ pub(super) use with_gpu::command;
 mod with_gpu {
     use super::super::args::AblateArg;
     use super::super::console::reset_interrupts;
+    use super::super::outputs::{Claim, Use, prove, save};
     use super::{Console, Exit, RenderArgs};
     use crate::ablation::{Ablation, AblationError, Event, Measured, Plan, Row, ablate};
     use crate::control::Control;
     use crate::job::Job;
-    use crate::output::write_atomic;
     use crate::region::SampleRange;
     use crate::render::DeviceChoice;
     use crate::scene::Scene;
+    use files::ShowPath as _;
     use pack::{MapMode, Pack};
     use std::path::Path;
     use std::sync::atomic::{AtomicBool, Ordering};
@@ -43,7 +44,7 @@ mod with_gpu {
             return Exit::Usage;
         };
         if let Some(report) = args.error.report.iter().find(|path| !is_json(path)) {
-            let report = report.display();
+            let report = report.shown();
             console.warn(&format!("error: cannot write {report}: --ablate reports as .json"));
             return Exit::Usage;
         }
@@ -52,6 +53,12 @@ mod with_gpu {
             Ok(pack) => Scene::new(pack),
             Err(error) => return console.fail_about(path, &error, Exit::World),
         };
+        let inputs = [Use { path, what: "the pack" }];
+        let reports = args.error.report.iter();
+        let reports: Vec<_> = reports.map(|path| Claim::new(path, "the report", 0)).collect();
+        if let Err(exit) = prove(&console, &inputs, &reports) {
+            return exit;
+        }
         let job = job(args, &scene);
         if let Err(error) = job.check() {
             return console.fail(&error, Exit::Usage);
@@ -150,10 +157,9 @@ mod with_gpu {
         }
         let text = serde_json::to_string_pretty(ablation).expect("numbers and texts") + "\n";
         for path in &args.error.report {
-            if let Err(error) = write_atomic(path, text.as_bytes()) {
-                return console.fail(&error, Exit::World);
+            if let Err(exit) = save(console, path, text.as_bytes()) {
+                return exit;
             }
-            console.result(&format!("wrote {}", path.display()));
         }
         let wrong = ablation.wrong();
         for row in &wrong {

@@ -1,6 +1,7 @@
 //! Arguments as clap reads them, and the parsers of their values.
 
 use crate::convergence::Goal;
+use crate::output::Format;
 use crate::region::{Rect, SampleRange};
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -68,9 +69,12 @@ pub(super) struct MergeArgs {
     /// EXR files of the same pack, size, crop and seed, with different samples.
     #[arg(required = true, value_name = "PART.exr")]
     pub(super) parts: Vec<PathBuf>,
-    /// Where to write; .exr and .png may both be given.
+    /// Where to write; .exr and .png may both be given; `-` is standard output.
     #[arg(short, long, required = true, value_name = "FILE")]
     pub(super) output: Vec<PathBuf>,
+    /// Format of outputs whose names do not say it [default: png for standard output, pipes and devices].
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub(super) format: Option<Format>,
     /// Print errors only.
     #[arg(long)]
     pub(super) quiet: bool,
@@ -123,7 +127,7 @@ pub(super) struct BenchArgs {
 
 /// Every use of these renders four replicates in turns, and the picture is their mean: other noise
 /// than the usual picture, of the same quality.
-#[derive(Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 #[command(
     next_help_heading = "Error against time (renders four replicates in turns; docs/error.md)"
 )]
@@ -204,7 +208,7 @@ pub(super) enum AblateArg {
     Full,
 }
 
-#[derive(Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch on the command line")]
 pub(super) struct RenderArgs {
     /// The pack to render.
@@ -232,9 +236,16 @@ pub(super) struct RenderArgs {
     /// Stop after this time, such as 60s, 1m30s or 500ms; the picture is evenly sampled.
     #[arg(long, value_name = "TIME", value_parser = parse_duration)]
     pub(super) time: Option<Duration>,
-    /// Where to write; .exr and .png may both be given.
+    /// Where to write; .exr and .png may both be given; `-` is standard output [default: the pack's name in the
+    /// working folder, as .exr and .png].
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Vec<PathBuf>,
+    /// Format of outputs whose names do not say it [default: png for standard output, pipes and devices].
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub(super) format: Option<Format>,
+    /// Use the name that the scene gives its picture even if that replaces a file.
+    #[arg(long, conflicts_with = "output")]
+    pub(super) scene_output: bool,
     /// Go on from the checkpoint of an earlier run with the same arguments; without one, begin. The
     /// picture is the same, bit for bit, as if nothing had happened.
     #[arg(long, conflicts_with_all = MEASURING)]

@@ -4,14 +4,15 @@
 use super::Exit;
 use super::args::BenchArgs;
 use super::console::{Console, Watched, reset_interrupts};
+use super::outputs::{Claim, Use, prove, save};
 use crate::control::Control;
 use crate::convergence::{Comparison, Measure, Point, Report, Spread, compare};
 use crate::job::Job;
-use crate::output::write_atomic;
 use crate::region::SampleRange;
 use crate::render::{DeviceChoice, render};
 use crate::scene::Scene;
 use crate::schedule::Stop;
+use files::ShowPath as _;
 use pack::{MapMode, Pack};
 use serde::Serialize;
 use std::path::Path;
@@ -51,6 +52,11 @@ const TEST: &str = "exact two-sided permutation test on log fom";
 pub(super) fn command(args: &BenchArgs) -> Exit {
     let console = Console::with_progress(args.quiet);
     reset_interrupts();
+    let inputs = [&args.first, &args.second].map(|path| Use { path, what: "a pack" });
+    let report = args.report.iter().map(|path| Claim::new(path, "the report", 0));
+    if let Err(exit) = prove(&console, &inputs, &report.collect::<Vec<_>>()) {
+        return exit;
+    }
     let mut sides = Vec::new();
     for path in [&args.first, &args.second] {
         match Pack::open(path, MapMode::Map) {
@@ -107,7 +113,7 @@ fn one(args: &BenchArgs, console: &Console, run: u32, side: &mut Side<'_>) -> Re
         console.warn("error: a run ended without a picture");
         return Err(Exit::Bug);
     };
-    console.note(&format!("{} run {}: {point}", side.path.display(), run + 1));
+    console.note(&format!("{} run {}: {point}", side.path.shown(), run + 1));
     side.points.push(*point);
     side.reports.push(Report::new(&side.scene, &job, &outcome, convergence, convergence.times));
     Ok(())
@@ -120,7 +126,7 @@ fn conclude(args: &BenchArgs, console: &Console, sides: &[Side<'_>]) -> Exit {
         let (fom, rel) = (of(Point::fom), of(|point| point.noise.rel));
         console.result(&format!(
             "{}: fom {:.1}/s ({:.1} to {:.1}), rel {:.5} ({:.5} to {:.5}), median of {} runs of {:.1} s",
-            side.path.display(),
+            side.path.shown(),
             fom.median,
             fom.least,
             fom.most,
@@ -138,7 +144,7 @@ fn conclude(args: &BenchArgs, console: &Console, sides: &[Side<'_>]) -> Exit {
     }
     if let Some(path) = &args.report {
         let result = Verdict {
-            packs: [a, b].map(|side| side.path.display().to_string()),
+            packs: [a, b].map(|side| side.path.shown().to_string()),
             time_s: args.time.as_secs_f64(),
             fom: [a.foms(), b.foms()],
             ratio: comparison.map(|c| c.ratio),
@@ -147,10 +153,9 @@ fn conclude(args: &BenchArgs, console: &Console, sides: &[Side<'_>]) -> Exit {
             runs: [&a.reports, &b.reports],
         };
         let text = serde_json::to_string_pretty(&result).expect("numbers and texts") + "\n";
-        if let Err(error) = write_atomic(path, text.as_bytes()) {
-            return console.fail(&error, Exit::World);
+        if let Err(exit) = save(console, path, text.as_bytes()) {
+            return exit;
         }
-        console.result(&format!("wrote {}", path.display()));
     }
     Exit::Done
 }
@@ -173,7 +178,7 @@ fn verdict(a: &Path, b: &Path, comparison: Option<Comparison>) -> String {
     format!(
         "{} {name}: {ratio:.3} times the fom, {:.1} % of the time for the same error (p = {:.3}, \
          {significance}; {TEST})",
-        better.display(),
+        better.shown(),
         100.0 / ratio,
         found.p,
     )

@@ -3,6 +3,7 @@
 use super::Exit;
 use super::args::CheckArgs;
 use super::console::Console;
+use super::outputs::{Claim, Use, prove, save};
 use crate::check::{self, Report, Sample, Step, Verdict};
 use crate::film::BadSample;
 use crate::job::Job;
@@ -34,16 +35,25 @@ pub(super) fn command(args: &CheckArgs) -> Exit {
         }
         return replay(args, &console, &scene, &job, BadSample { x, y, sample: args.sample });
     }
+    let inputs = [Use { path: &args.pack, what: "the pack" }];
+    let room = 3 * job.crop.pixels();
+    let heat = args.heat.iter().map(|path| Claim::new(path, "the picture of --heat", room));
+    if let Err(exit) = prove(&console, &inputs, &heat.collect::<Vec<_>>()) {
+        return exit;
+    }
     let report = match check::compare(&scene, &job) {
         Ok(report) => report,
         Err(error) => return console.fail(&error, Exit::World),
     };
     tell(&console, &report);
     if let Some(path) = &args.heat {
-        if let Err(error) = check::write_heat(path, &report) {
-            return console.fail(&error, Exit::World);
+        let bytes = match check::encode_heat(&report) {
+            Ok(bytes) => bytes,
+            Err(error) => return console.fail(&error, Exit::Bug),
+        };
+        if let Err(exit) = save(&console, path, &bytes) {
+            return exit;
         }
-        console.result(&format!("wrote {}", path.display()));
     }
     let verdict = Verdict::of(&report, args.strict);
     if verdict.is_stable() {

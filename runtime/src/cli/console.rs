@@ -1,14 +1,13 @@
 //! What the user sees: results on stdout, everything else on stderr, progress while it renders.
 
-#![expect(clippy::print_stdout, clippy::print_stderr, reason = "the one module that prints")]
-
 use super::Exit;
 use super::watch::Change;
 use crate::control::{Control, Progress};
+use files::ShowPath as _;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::error::Error;
-use std::io::IsTerminal as _;
-use std::path::Path;
+use std::io::{IsTerminal as _, Write as _};
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Once};
 use std::time::{Duration, Instant};
@@ -18,16 +17,26 @@ const TICK: Duration = Duration::from_millis(100);
 /// Between two plain lines.
 const LINE: Duration = Duration::from_secs(5);
 
+/// Whether a result could not be written to standard output.
+static LOST: AtomicBool = AtomicBool::new(false);
+
+/// Whether a result could not be printed since the last call.
+pub(super) fn has_lost_output() -> bool {
+    LOST.swap(false, Ordering::Relaxed)
+}
+
 /// Prints for one command.
 #[derive(Clone)]
 pub(super) struct Console {
     quiet: bool,
+    /// Standard output carries a picture: results go where everything else goes.
+    beside: bool,
     bar: ProgressBar,
 }
 
 impl Console {
     pub(super) fn new(quiet: bool) -> Self {
-        Self { quiet, bar: ProgressBar::hidden() }
+        Self { quiet, beside: false, bar: ProgressBar::hidden() }
     }
 
     /// With a bar, when stderr is a terminal.
@@ -39,26 +48,42 @@ impl Console {
         let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
         bar.set_style(style);
-        Self { quiet, bar }
+        Self { quiet, beside: false, bar }
+    }
+
+    /// The same console for a command with these outputs.
+    pub(super) fn beside(mut self, outputs: &[PathBuf]) -> Self {
+        self.beside = outputs.iter().any(|path| files::is_stream(path));
+        self
     }
 
     /// A line of the result.
     pub(super) fn result(&self, text: &str) {
-        if !self.quiet {
-            self.bar.suspend(|| println!("{text}"));
+        if self.quiet {
+            return;
+        }
+        if self.beside {
+            return self.note(text);
+        }
+        let written = self.bar.suspend(|| files::write_stdout(&format!("{text}\n")));
+        if let Err(error) = written
+            && !LOST.swap(true, Ordering::Relaxed)
+        {
+            self.warn(&format!("error: cannot write to standard output: {error}"));
         }
     }
 
     /// A line about the run.
     pub(super) fn note(&self, text: &str) {
         if !self.quiet {
-            self.bar.suspend(|| eprintln!("{text}"));
+            self.warn(text);
         }
     }
 
     /// A line that quiet does not silence.
     pub(super) fn warn(&self, text: &str) {
-        self.bar.suspend(|| eprintln!("{text}"));
+        // Where errors cannot be written there is nobody to tell.
+        let _ = self.bar.suspend(|| writeln!(std::io::stderr(), "{}", files::escape_lines(text)));
     }
 
     /// One line for an error and its causes.
@@ -69,7 +94,7 @@ impl Console {
 
     /// As `fail`, with the file that it is about, unless the error names it itself.
     pub(super) fn fail_about(&self, path: &Path, error: &dyn Error, exit: Exit) -> Exit {
-        let (path, text) = (path.display().to_string(), with_causes(error));
+        let (path, text) = (path.shown().to_string(), with_causes(error));
         let about = if text.contains(&path) { String::new() } else { format!("{path}: ") };
         self.warn(&format!("error: {about}{text}"));
         exit

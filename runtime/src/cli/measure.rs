@@ -4,6 +4,7 @@
 use super::Exit;
 use super::args::RenderArgs;
 use super::console::Console;
+use super::outputs::save;
 use crate::convergence::{
     Convergence, Measure, REPLICATES_U32, Reference, Report, Times, chart_png, chart_svg,
 };
@@ -12,6 +13,7 @@ use crate::output;
 use crate::region::SampleRange;
 use crate::render::Outcome;
 use crate::scene::Scene;
+use files::ShowPath as _;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
@@ -39,7 +41,7 @@ impl Kind {
         };
         let found = allowed.iter().find(|kind| extension.as_deref() == Some(name(kind)));
         let [a, b] = allowed.map(|kind| name(&kind));
-        found.copied().ok_or(format!("{}: the name must end in .{a} or .{b}", path.display()))
+        found.copied().ok_or(format!("{}: the name must end in .{a} or .{b}", path.shown()))
     }
 }
 
@@ -54,7 +56,7 @@ pub(super) fn prepare(args: &RenderArgs, console: &Console, job: &mut Job) -> Re
     }
     for (paths, kinds) in [(&error.report, REPORTS), (&error.plot, PLOTS)] {
         for path in paths {
-            check(path, kinds).map_err(|text| {
+            Kind::of(path, kinds).map_err(|text| {
                 console.warn(&format!("error: {text}"));
                 Exit::World
             })?;
@@ -74,16 +76,6 @@ pub(super) fn prepare(args: &RenderArgs, console: &Console, job: &mut Job) -> Re
     };
     job.samples = SampleRange { start: 0, end: spp.div_ceil(REPLICATES_U32) };
     job.measure = Some(Measure { goal, reference });
-    Ok(())
-}
-
-/// Finds out before rendering that a file cannot be written.
-fn check(path: &Path, kinds: [Kind; 2]) -> Result<(), String> {
-    Kind::of(path, kinds)?;
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    if !folder.is_dir() || path.is_dir() {
-        return Err(format!("cannot write {}: there is no folder for it", path.display()));
-    }
     Ok(())
 }
 
@@ -128,10 +120,7 @@ pub(super) fn write(
             Ok(Kind::Png) => chart_png(&title, convergence),
             Err(_) => continue,
         };
-        match output::write_atomic(path, &bytes) {
-            Ok(()) => console.result(&format!("wrote {}", path.display())),
-            Err(error) => failed = Some(console.fail(&error, Exit::World)),
-        }
+        failed = save(console, path, &bytes).err().or(failed);
     }
     failed
 }

@@ -4,26 +4,27 @@ use super::Exit;
 use super::args::{Every, PrecisionArg, RenderArgs};
 use super::console::{Console, Watched, duration_text, mrays, reset_interrupts};
 use super::measure;
+use super::outputs::{Claim, Output, Use, outputs, prove, room, save, with_extension};
 use super::watch::Change;
 use crate::checkpoint::{Checkpoint, CheckpointError};
 use crate::control::Control;
 use crate::job::{Job, Precision};
-use crate::output::{self, Format};
+use crate::output;
 use crate::region::SampleRange;
 use crate::render::{DeviceChoice, Outcome, render_session};
 use crate::saver::{Keep, Session};
 use crate::scene::Scene;
 use crate::schedule::Stop;
+use files::ShowPath as _;
 use pack::{MapMode, Pack};
-use std::ffi::OsStr;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// `change`: what makes the picture pointless while it is rendered; then nothing is written.
 pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
     let began = Instant::now();
-    let console = Console::with_progress(args.quiet);
+    let console = Console::with_progress(args.quiet).beside(&args.output);
     let Some(path) = &args.pack else {
         console.warn("error: no pack was named");
         return Exit::Usage;
@@ -32,8 +33,8 @@ pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
         let pack = path.with_extension("pack");
         console.warn(&format!(
             "error: {0} is a scene source, compile it first: rtc {0} -o {1}",
-            path.display(),
-            pack.display()
+            path.shown(),
+            pack.shown()
         ));
         return Exit::World;
     }
@@ -52,13 +53,19 @@ pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
     if let Err(error) = job.check() {
         return console.fail(&error, Exit::Usage);
     }
-    let outputs = outputs(args, path, &scene);
-    if let Err(text) = check_outputs(&outputs) {
-        console.warn(&format!("error: {text}"));
-        return Exit::World;
+    let first = || outputs(args, &console, path, &scene);
+    let outputs = match change.map_or_else(first, |change| change.names(first)) {
+        Ok(outputs) => outputs,
+        Err(text) => {
+            console.warn(&format!("error: {text}"));
+            return Exit::World;
+        }
+    };
+    let checkpoint = checkpoint_path(&outputs);
+    if let Err(exit) = prove_all(args, &console, &job, &outputs, &checkpoint) {
+        return exit;
     }
     let load = began.elapsed();
-    let checkpoint = checkpoint_path(&outputs);
     let from = match earlier(args, &console, &checkpoint, &scene, &job) {
         Ok(from) => from,
         Err(error) => return console.fail(&error, Exit::World),
@@ -68,7 +75,7 @@ pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
         let done = from.film.samples().1;
         console.note(&format!(
             "going on from {}: {done} of {} spp are there",
-            checkpoint.display(),
+            checkpoint.shown(),
             job.samples.count()
         ));
     }
@@ -78,6 +85,35 @@ pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
     };
     let plan = Plan { scene: &scene, job: &job, outputs: &outputs, change, load };
     run(args, &console, &plan, Session { from, keep })
+}
+
+/// Everything that this run reads and writes.
+fn prove_all(
+    args: &RenderArgs,
+    console: &Console,
+    job: &Job,
+    outputs: &[Output],
+    checkpoint: &Path,
+) -> Result<(), Exit> {
+    let error = &args.error;
+    let pack = args.pack.iter().map(|path| Use { path, what: "the pack" });
+    let reference = error.reference.iter().map(|path| Use { path, what: "the reference" });
+    let inputs: Vec<_> = pack.chain(reference).collect();
+    let pictures = outputs.iter().map(|output| {
+        Claim::new(&output.path, "the picture", room(output.format, job, residual(args)))
+    });
+    let reports = error.report.iter().map(|path| Claim::new(path, "the report", 0));
+    let plots = error.plot.iter().map(|path| Claim::new(path, "the plot", 0));
+    let saves = args.checkpoint_every != Every::Never && !args.watch && job.measure.is_none();
+    let bytes = 24 * job.crop.pixels();
+    let saved = saves.then(|| Claim::new(checkpoint, "the checkpoint", bytes));
+    let claims: Vec<_> = pictures.chain(reports).chain(plots).chain(saved).collect();
+    prove(console, &inputs, &claims)
+}
+
+/// Whether the picture is going to be merged with others, or may be.
+fn residual(args: &RenderArgs) -> bool {
+    args.samples.is_some() || args.time.is_some()
 }
 
 fn job(args: &RenderArgs, scene: &Scene) -> Job {
@@ -107,7 +143,7 @@ fn job(args: &RenderArgs, scene: &Scene) -> Job {
 struct Plan<'a> {
     scene: &'a Scene,
     job: &'a Job,
-    outputs: &'a [PathBuf],
+    outputs: &'a [Output],
     change: Option<&'a Change>,
     /// Time that opening the pack took.
     load: Duration,
@@ -142,15 +178,15 @@ fn run(args: &RenderArgs, console: &Console, plan: &Plan<'_>, session: Session) 
         console.warn("error: no sample was complete, nothing is written");
         return exit(&outcome).unwrap_or(Exit::World);
     }
-    let residual =
-        args.samples.is_some() || job.time_limit.is_some() || !outcome.picture.meta.complete;
+    let residual = residual(args) || !outcome.picture.meta.complete;
     let (mut failed, began) = (None, Instant::now());
-    for path in outputs {
-        match output::write(path, &outcome.picture, residual) {
-            Ok(()) => console.result(&format!("wrote {}", path.display())),
-            // The other file may still succeed.
-            Err(error) => failed = Some(console.fail(&error, Exit::World)),
-        }
+    for Output { path, format } in outputs {
+        let written = match output::encode(*format, &outcome.picture, residual) {
+            Ok(bytes) => save(console, path, &bytes),
+            Err(error) => Err(console.fail(&error, Exit::Bug)),
+        };
+        // The other file may still succeed.
+        failed = written.err().or(failed);
     }
     let times = measure::Outside { load, write: began.elapsed() };
     if let Some(exit) = measure::write(args, console, scene, job, &outcome, &times) {
@@ -168,16 +204,17 @@ fn settle(path: &Path, args: &RenderArgs, console: &Console, outcome: &Outcome, 
         if let Err(error) = std::fs::remove_file(path)
             && error.kind() != std::io::ErrorKind::NotFound
         {
-            console.warn(&format!("warning: cannot remove {}: {error}", path.display()));
+            console.warn(&format!("warning: cannot remove {}: {error}", path.shown()));
         }
     } else if ours && path.is_file() {
-        console.note(&format!("to go on, run the same with --resume ({})", path.display()));
+        console.note(&format!("to go on, run the same with --resume ({})", path.shown()));
     }
 }
 
-/// Beside the first output: `a.png.checkpoint`.
-fn checkpoint_path(outputs: &[PathBuf]) -> PathBuf {
-    with_extension(outputs.first().map_or(Path::new("picture"), PathBuf::as_path), "checkpoint")
+/// Beside the first output that is a file: `a.png.checkpoint`.
+fn checkpoint_path(outputs: &[Output]) -> PathBuf {
+    let file = outputs.iter().find(|output| !files::is_stream(&output.path));
+    with_extension(file.map_or(Path::new("picture"), |output| &output.path), "checkpoint")
 }
 
 /// What an earlier run left to go on from, when that is wanted.
@@ -190,7 +227,7 @@ fn earlier(
 ) -> Result<Option<Checkpoint>, CheckpointError> {
     if !args.resume {
         if path.is_file() && !args.watch {
-            let path = path.display();
+            let path = path.shown();
             console.note(&format!("{path} is of an unfinished run; --resume would go on with it"));
         }
         return Ok(None);
@@ -198,7 +235,7 @@ fn earlier(
     let from = Checkpoint::read(path)?;
     match &from {
         Some(from) => from.check(path, scene, job)?,
-        None => console.note(&format!("there is no {}, so this run begins", path.display())),
+        None => console.note(&format!("there is no {}, so this run begins", path.shown())),
     }
     Ok(from)
 }
@@ -229,7 +266,7 @@ fn headline(path: &Path, scene: &Scene, job: &Job) -> String {
     let spheres = scene.pack().records::<pack::abi::Sphere>().len();
     format!(
         "{}: {w}x{h}{crop}, samples {}, {triangles} triangles, {spheres} spheres, {} lights",
-        path.display(),
+        path.shown(),
         job.samples,
         scene.settings().n_lights,
     )
@@ -296,68 +333,3 @@ fn report(console: &Console, outcome: &Outcome, job: &Job) {
 
 /// Rounding at edges lets one path in 100,000 slip past a surface; more than that is a hole.
 const LEAKS: f64 = 1e-4;
-
-/// What `-o` says; else what the scene says; else the pack's name, in the working folder.
-fn outputs(args: &RenderArgs, pack: &Path, scene: &Scene) -> Vec<PathBuf> {
-    if !args.output.is_empty() {
-        return args.output.clone();
-    }
-    let wanted = scene.pack().manifest().ok().and_then(|manifest| manifest.output);
-    let stem = wanted.as_deref().and_then(safe_stem);
-    let name = pack.file_stem().unwrap_or(OsStr::new("picture"));
-    let stem = stem.unwrap_or_else(|| PathBuf::from(name));
-    ["exr", "png"].map(|extension| with_extension(&stem, extension)).into()
-}
-
-/// Adds an extension; a dot in the stem stays.
-fn with_extension(stem: &Path, extension: &str) -> PathBuf {
-    let mut name = stem.as_os_str().to_owned();
-    name.push(".");
-    name.push(extension);
-    PathBuf::from(name)
-}
-
-/// The path without `.exr` or `.png`. A pack is a stranger's file: it may name places below the
-/// working folder only.
-fn safe_stem(output: &str) -> Option<PathBuf> {
-    let path = Path::new(output);
-    let below = path.components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir));
-    path.file_name().filter(|_| below)?;
-    let known = Format::of(path).is_ok();
-    Some(if known { path.with_extension("") } else { path.to_owned() })
-}
-
-/// Finds out before rendering, not after, that a file cannot be written.
-fn check_outputs(outputs: &[PathBuf]) -> Result<(), String> {
-    for path in outputs {
-        Format::of(path).map_err(|error| error.to_string())?;
-        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        if !folder.is_dir() {
-            return Err(format!(
-                "cannot write {}: there is no folder {}",
-                path.display(),
-                folder.display()
-            ));
-        }
-        if path.is_dir() {
-            return Err(format!("cannot write {}: it is a folder", path.display()));
-        }
-    }
-    Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_pack_may_name_outputs_below_the_working_folder_only() {
-        assert_eq!(safe_stem("pic.png"), Some(PathBuf::from("pic")));
-        assert_eq!(safe_stem("out/pic.v2"), Some(PathBuf::from("out/pic.v2")));
-        assert_eq!(safe_stem("/etc/pic.png"), None);
-        assert_eq!(safe_stem("../pic.png"), None);
-        assert_eq!(safe_stem("out/../../pic.exr"), None);
-        assert_eq!(safe_stem(""), None);
-        assert_eq!(with_extension(Path::new("a/pic.v2"), "exr"), PathBuf::from("a/pic.v2.exr"));
-    }
-}

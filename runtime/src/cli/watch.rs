@@ -6,8 +6,11 @@
 use super::Exit;
 use super::args::RenderArgs;
 use super::console::{Console, is_interrupted, reset_interrupts};
+use super::outputs::Output;
 use super::render;
+use files::ShowPath as _;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
 use std::time::{Duration, SystemTime};
 
 /// Between two looks at the file.
@@ -18,12 +21,25 @@ const POLL: Duration = Duration::from_millis(100);
 pub(super) struct Change {
     path: PathBuf,
     stamp: Option<(u64, SystemTime)>,
+    /// Names of the pictures, which stay what they were for the first.
+    names: Arc<OnceLock<Vec<Output>>>,
 }
 
 impl Change {
     /// Of the file as it is now.
     pub(super) fn of(path: &Path) -> Self {
-        Self { path: path.to_owned(), stamp: stamp(path) }
+        Self { path: path.to_owned(), stamp: stamp(path), names: Arc::default() }
+    }
+
+    /// The names of the pictures; `first` makes them where there are none yet.
+    pub(super) fn names<E>(
+        &self,
+        first: impl FnOnce() -> Result<Vec<Output>, E>,
+    ) -> Result<Vec<Output>, E> {
+        match self.names.get() {
+            Some(names) => Ok(names.clone()),
+            None => first().map(|names| self.names.get_or_init(|| names).clone()),
+        }
     }
 
     /// Whether the file is another one by now.
@@ -43,14 +59,15 @@ pub(super) fn command(args: &RenderArgs) -> Exit {
     let console = Console::new(args.quiet);
     let path = args.pack.as_deref().unwrap_or(Path::new(""));
     reset_interrupts();
+    let names = Arc::default();
     loop {
-        let change = Change::of(path);
+        let change = Change { names: Arc::clone(&names), ..Change::of(path) };
         let exit = render::command(args, Some(&change));
         if matches!(exit, Exit::Usage | Exit::Interrupted) {
             return exit;
         }
         if !change.has_come() {
-            console.note(&format!("watching {}; Ctrl-C ends", path.display()));
+            console.note(&format!("watching {}; Ctrl-C ends", path.shown()));
         }
         while !change.has_come() {
             if is_interrupted() {
@@ -58,7 +75,7 @@ pub(super) fn command(args: &RenderArgs) -> Exit {
             }
             std::thread::sleep(POLL);
         }
-        console.note(&format!("{} has changed", path.display()));
+        console.note(&format!("{} has changed", path.shown()));
     }
 }
 

@@ -5,7 +5,7 @@
 //! `variance.Y` is the variance of the mean luminance, in pictures that are the mean of replicates.
 //! `samples` is there where pixels have different numbers of samples.
 
-use super::{Meta, OutputError, Picture, parse_ranges, ranges_text, write_atomic};
+use super::{Meta, OutputError, Picture, parse_ranges, ranges_text};
 use crate::film::{BadSample, Counters, Film};
 use crate::region::{Rect, SampleRange};
 use ::exr::prelude::attribute::Chromaticities;
@@ -24,8 +24,8 @@ const VARIANCE: &str = "variance.Y";
 /// Chromaticities of Rec. 709 with white D65: red, green, blue, white.
 const REC_709: [[f32; 2]; 4] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06], [0.3127, 0.3290]];
 
-/// Writes the film as it is: linear, no exposure, no tone curve.
-pub fn write_exr(path: &Path, picture: &Picture, residual: bool) -> Result<(), OutputError> {
+/// The film as it is: linear, no exposure, no tone curve; `residual` as for `encode`.
+pub fn encode_exr(picture: &Picture, residual: bool) -> Result<Vec<u8>, OutputError> {
     let film = &picture.film;
     let means = film.means();
     let (names, planes) = (COLOURS, planes(&means, round));
@@ -62,11 +62,9 @@ pub fn write_exr(path: &Path, picture: &Picture, residual: bool) -> Result<(), O
     let [red, green, blue, white] = REC_709.map(|[x, y]| Vec2(x, y));
     image.attributes.chromaticities = Some(Chromaticities { red, green, blue, white });
     let mut file = Cursor::new(Vec::new());
-    image.write().to_buffered(&mut file).map_err(|error| OutputError::Encode {
-        path: path.to_owned(),
-        message: error.to_string(),
-    })?;
-    write_atomic(path, file.get_ref())
+    let written = image.write().to_buffered(&mut file);
+    written.map_err(|error| OutputError::Encode { message: error.to_string() })?;
+    Ok(file.into_inner())
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "rounding is the purpose")]
@@ -115,7 +113,7 @@ fn attributes_of(picture: &Picture) -> Vec<(Text, AttributeValue)> {
     list.into_iter().map(|(name, value)| (Text::from(name), value)).collect()
 }
 
-/// Reads what `write_exr` wrote.
+/// Reads what `encode_exr` made.
 pub fn read_exr(path: &Path) -> Result<Picture, OutputError> {
     let image = ::exr::prelude::read()
         .no_deep_data()

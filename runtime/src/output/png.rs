@@ -1,31 +1,24 @@
 //! Film → 8-bit sRGB PNG: exposure, tone curve, encoding, the same bytes on every machine.
 
-use super::{OutputError, Picture, write_atomic};
+use super::{OutputError, Picture};
 use image::ImageEncoder as _;
 use pack::abi::ToneMap;
 use std::io;
-use std::path::Path;
 
-/// Writes the tone-mapped picture.
-pub fn write_png(path: &Path, picture: &Picture) -> Result<(), OutputError> {
-    let fail = |error: image::ImageError| OutputError::Encode {
-        path: path.to_owned(),
-        message: error.to_string(),
-    };
-    write_atomic(path, &encode_png(picture).map_err(fail)?)
-}
-
-/// The bytes of the PNG file.
-pub fn encode_png(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
+/// The tone-mapped picture.
+pub fn encode_png(picture: &Picture) -> Result<Vec<u8>, OutputError> {
     let film = &picture.film;
     let pixels = tone_map(&film.means(), picture.meta.exposure, picture.meta.tone_map);
+    encode_rgb(&pixels, [film.region.w, film.region.h])
+}
+
+/// Pixels, row by row, as a PNG file.
+pub(crate) fn encode_rgb(pixels: &[[u8; 3]], size: [u32; 2]) -> Result<Vec<u8>, OutputError> {
     let mut file = Vec::new();
-    image::codecs::png::PngEncoder::new(io::Cursor::new(&mut file)).write_image(
-        pixels.as_flattened(),
-        film.region.w,
-        film.region.h,
-        image::ExtendedColorType::Rgb8,
-    )?;
+    let encoder = image::codecs::png::PngEncoder::new(io::Cursor::new(&mut file));
+    let [w, h] = size;
+    let written = encoder.write_image(pixels.as_flattened(), w, h, image::ExtendedColorType::Rgb8);
+    written.map_err(|error| OutputError::Encode { message: error.to_string() })?;
     Ok(file)
 }
 
