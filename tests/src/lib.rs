@@ -4,6 +4,8 @@
 //! becomes a film, a film becomes a mean with its standard error.
 
 pub mod ablation;
+#[cfg(unix)]
+pub mod attacks;
 pub mod ball;
 pub mod benchmarks;
 pub mod console;

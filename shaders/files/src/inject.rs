@@ -1,7 +1,7 @@
 //! Failures of the disk on demand, so that tests can look at what every one of them leaves behind.
 //!
 //! Every operation that changes the disk is a step. A test arms the n-th step to fail, for every n until none is
-//! left, as SQLite tests its file layer. Unarmed, a step costs one load of an atomic.
+//! left, as `SQLite` tests its file layer. Unarmed, a step costs one load of an atomic.
 
 use std::io;
 use std::sync::Mutex;

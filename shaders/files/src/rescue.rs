@@ -70,7 +70,9 @@ mod tests {
             found.push(at);
         }
         assert_ne!(found[0], found[1], "nothing is overwritten");
-        found.iter().for_each(|path| std::fs::remove_file(path).unwrap());
+        for path in found {
+            std::fs::remove_file(path).unwrap();
+        }
         let path = dir.path().join("a.png");
         assert!(matches!(save(&path, |out| out.write_all(b"x")), Ok(Saved::AsAsked)));
     }
