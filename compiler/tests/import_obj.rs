@@ -4,7 +4,7 @@
 #![expect(clippy::format_push_string, reason = "short texts")]
 
 use compiler::import::{ErrorKind, ImportError, Limits, MeshFile, load_obj, topology};
-use lang::scene::Axis;
+use lang::scene::{Axis, ColorSpace};
 use std::fs;
 use tempfile::TempDir;
 
@@ -277,10 +277,6 @@ fn every_kind_of_bad_line_is_named() {
     for (line, expected) in cases {
         check_error(format!("{SQUARE}{line}").as_bytes(), &format!("mesh.obj:{expected}"));
     }
-    check_error(
-        b"g gr\xfc\xdfe\n",
-        "mesh.obj:1: a group name that is not UTF-8: `gr\u{fffd}\u{fffd}e`",
-    );
     check_error(SQUARE.as_bytes(), "mesh.obj: the file has no faces");
     check_error(b"", "mesh.obj: this is not an OBJ file but empty");
     check_error(b"ply\n", "mesh.obj: this is not an OBJ file but a PLY file");
@@ -339,16 +335,96 @@ fn missing_libraries_and_images_are_warnings() {
     assert_eq!(mesh.report.warnings[0].message, "there is no image `C:/textures/wood.png`");
 }
 
+/// `place: message` of every warning.
+fn warnings(mesh: &MeshFile) -> Vec<String> {
+    let warnings = mesh.report.warnings.iter();
+    warnings.map(|warning| format!("{}: {}", warning.place, warning.message)).collect()
+}
+
+#[test]
+fn names_in_latin_1_are_read_and_said() {
+    let obj = [b"mtllib gr\xfcn.mtl\n", SQUARE.as_bytes(), b"o T\xfcr\nusemtl Gr\xfcn\nf 1 2 3\n"];
+    let mtl = b"# \xa9\nnewmtl Gr\xfcn\nKd 0 1 0\nmap_Kd t\xfcr.png\nmap_Ke t\xfcr.png\n";
+    let files: [(&str, &[u8]); 1] = [("gr\u{fc}n.mtl", mtl)];
+    let mesh = load_with(&obj.concat(), &files).expect("a good file");
+    assert_eq!(mesh.parts[0].name, "T\u{fc}r");
+    assert_eq!(mesh.materials[0].name, "Gr\u{fc}n");
+    let expected = [
+        "mesh.obj:1: 3 names are not UTF-8 and were read as Latin-1; this is the first",
+        "gr\u{fc}n.mtl:2: this is not UTF-8; such lines are read as Latin-1",
+        "gr\u{fc}n.mtl: material `Gr\u{fc}n`: there is no image `t\u{fc}r.png`",
+        "gr\u{fc}n.mtl: material `Gr\u{fc}n`: there is no image `t\u{fc}r.png`",
+    ];
+    assert_eq!(warnings(&mesh), expected);
+}
+
+#[test]
+fn indices_of_what_a_file_has_none_of_are_left_out() {
+    let text = format!("{SQUARE}f 1//1 2//7 3//-1\nvt 0 0\nf 1/1/9 3/1/9 4/1/9\n");
+    let mesh = load(&text);
+    let expected =
+        "mesh.obj:5: 2 faces have normal indices, but there are no `vn` lines above them: \
+                    their normals are computed";
+    assert_eq!(warnings(&mesh), [expected]);
+    assert_eq!((mesh.report.n_triangles, mesh.report.computed_normals), (2, 2));
+    let mesh = load(&format!("{SQUARE}vn 0 0 1\nf 1/1/1 2/2/1 3/3/1\nf 1/4 3/4 4/4\n"));
+    let expected =
+        "mesh.obj:6: 2 faces have UV indices, but there are no `vt` lines above them";
+    assert_eq!(warnings(&mesh), [expected]);
+    assert_eq!((mesh.report.n_triangles, mesh.report.computed_normals), (2, 1));
+    assert_eq!(mesh.parts[0].uvs, compiler::import::Attribute::Absent);
+    // Where there are some, an index that is wrong stays an error.
+    let error = "mesh.obj:6: normal index 2, but only 1 are defined above this line";
+    check_error(format!("{SQUARE}vn 0 0 1\nf 1//2 2//1 3//1\n").as_bytes(), error);
+    check_error(format!("{SQUARE}f 1//0 2//0 3//0\n").as_bytes(), "mesh.obj:5: normal index 0; indices begin at 1");
+}
+
+#[test]
+fn a_material_without_a_name_and_a_library_that_is_absent_leave_the_others() {
+    let text = format!("mtllib a.mtl no.mtl b.mtl\n{SQUARE}usemtl x\nf 1 2 3\nusemtl y\nf 1 3 4\n");
+    let files: [(&str, &[u8]); 2] = [
+        ("a.mtl", b"newmtl\nKd 1 x 0\nnewmtl x\nKd 1 0 0\n"),
+        ("b.mtl", b"newmtl y\nKd 0 1 0\n"),
+    ];
+    let mesh = load_with(text.as_bytes(), &files).expect("a good file");
+    let colors: Vec<_> = mesh.materials.iter().map(|material| material.color).collect();
+    assert_eq!(colors, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    let expected = [
+        "mesh.obj:1: there is no `no.mtl`; its materials are not known",
+        "a.mtl:1: `newmtl` without a name; this material is left out",
+    ];
+    assert_eq!(warnings(&mesh), expected);
+}
+
+#[test]
+fn the_colour_space_of_a_map_is_understood() {
+    let mut png = std::io::Cursor::new(Vec::new());
+    image::RgbImage::new(1, 1).write_to(&mut png, image::ImageFormat::Png).expect("in memory");
+    let space = |written: &str| {
+        let text = format!("mtllib a.mtl\n{SQUARE}usemtl m\nf 1 2 3\n");
+        let mtl = format!("newmtl m\n{written}\n");
+        let files = [("a.mtl", mtl.as_bytes()), ("x.png", png.get_ref().as_slice())];
+        let mesh = load_with(text.as_bytes(), &files).expect("a good file");
+        let material = &mesh.materials[0];
+        let map = material.color_map.or(material.normal_map).expect("a map");
+        (map.space, mesh.report.warnings.len())
+    };
+    assert_eq!(space("map_Kd -colorspace sRGB x.png"), (ColorSpace::Srgb, 0));
+    assert_eq!(space("map_Kd -colorspace linear -clamp on x.png"), (ColorSpace::Linear, 0));
+    assert_eq!(space("norm -colorspace linear x.png"), (ColorSpace::Data, 0));
+    assert_eq!(space("norm -colorspace sRGB x.png"), (ColorSpace::Data, 1));
+    assert_eq!(space("map_Kd -colorspace ACEScg x.png"), (ColorSpace::Srgb, 1));
+}
+
 #[test]
 fn bad_mtl_lines_are_named() {
     let text = format!("mtllib a.mtl\n{SQUARE}usemtl m\nf 1 2 3\n");
-    let cases: [(&[u8], &str); 6] = [
+    let cases: [(&[u8], &str); 5] = [
         (b"newmtl m\nKd 1 2\n", "a.mtl:2: `Kd` has 3 numbers, found 2"),
         (b"newmtl m\nKd 1 2 x\n", "a.mtl:2: `x` is not a number"),
         (b"newmtl m\n\nNs nan\n", "a.mtl:3: `nan` is not a finite number"),
         (b"newmtl m\nd\n", "a.mtl:2: `d` has 1 number, found 0"),
         (b"Kd 1 1 1\n", "a.mtl:1: `Kd` before the first `newmtl`"),
-        (b"newmtl\n", "a.mtl:1: `newmtl` without a name"),
     ];
     for (mtl, expected) in cases {
         let error = load_with(text.as_bytes(), &[("a.mtl", mtl)]).expect_err("bad");

@@ -37,6 +37,12 @@ impl<'a> ImageSet<'a> {
         u32::try_from(found).ok()
     }
 
+    /// The same for the file that an image is in.
+    pub(super) fn find_place(&self, place: &str, alpha: Alpha) -> Option<u32> {
+        let found = self.requests.iter().position(|r| r.place == place && r.alpha == alpha)?;
+        u32::try_from(found).ok()
+    }
+
     /// Asks for an image; returns its index.
     pub(super) fn add(
         &mut self,

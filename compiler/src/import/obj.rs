@@ -138,11 +138,21 @@ fn warn_about(scanned: &Scanned, file: &str, report: &mut ImportReport) {
         let message = format!("`{keyword}` is not used here; {count} such lines are skipped");
         report.warn(format!("{file}:{line}"), message);
     }
-    let (count, line) = scanned.colored;
-    if count > 0 {
-        let message = format!("colours of {count} vertices are not used");
-        report.warn(format!("{file}:{line}"), message);
-    }
+    let mut warn = |(count, line): (u64, u64), message: &dyn Fn(u64) -> String| {
+        if count > 0 {
+            report.warn(format!("{file}:{line}"), message(count));
+        }
+    };
+    warn(scanned.colored, &|n| format!("colours of {n} vertices are not used"));
+    warn(scanned.latin, &|n| {
+        format!("{n} names are not UTF-8 and were read as Latin-1; this is the first")
+    });
+    let [uvs, normals] = scanned.dangling;
+    warn(uvs, &|n| format!("{n} faces have UV indices, but there are no `vt` lines above them"));
+    warn(normals, &|n| {
+        let what = "have normal indices, but there are no `vn` lines above them";
+        format!("{n} faces {what}: their normals are computed")
+    });
 }
 
 impl Frame {

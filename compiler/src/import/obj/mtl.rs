@@ -22,7 +22,7 @@ use super::super::report::ImportReport;
 use super::scan::{Scanned, numbers_of, split_word, text, uncommented};
 use lang::scene::{ColorSpace, Wrap};
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// All materials of an OBJ file.
@@ -49,18 +49,16 @@ pub(super) fn load(
 ) -> Result<Library, ImportError> {
     let mut found: BTreeMap<String, Found> = BTreeMap::new();
     let mut missing = false;
-    let mut done: Vec<&str> = Vec::new();
+    let mut done: BTreeSet<&str> = BTreeSet::new();
     for (written, line) in &scanned.libraries {
-        if done.contains(&written.as_str()) {
+        if !done.insert(written) {
             continue;
         }
-        done.push(written);
-        let place = format!("{obj_file}:{line}");
-        let paths = library_paths(folder, written);
-        if paths.is_empty() {
+        let (paths, absent) = library_paths(folder, written);
+        for name in absent {
             missing = true;
-            let message = format!("there is no `{written}`; its materials are not known");
-            report.warn(place, message);
+            let message = format!("there is no `{name}`; its materials are not known");
+            report.warn(format!("{obj_file}:{line}"), message);
         }
         for path in paths {
             for material in read_library(&path, reader, report)? {
@@ -85,15 +83,18 @@ pub(super) fn load(
     Ok(library)
 }
 
-/// The files that an `mtllib` line means: one name with spaces, or several names.
-fn library_paths(folder: &Path, written: &str) -> Vec<PathBuf> {
-    let whole = folder.join(written.replace('\\', "/"));
-    if whole.is_file() {
-        return vec![whole];
+/// The files that an `mtllib` line means, one name with spaces or several names, and those that are not there.
+fn library_paths<'a>(folder: &Path, written: &'a str) -> (Vec<PathBuf>, Vec<&'a str>) {
+    let path = |name: &str| folder.join(name.replace('\\', "/"));
+    if path(written).is_file() {
+        return (vec![path(written)], Vec::new());
     }
-    let each = written.split_whitespace().map(|name| folder.join(name.replace('\\', "/")));
-    let each: Vec<PathBuf> = each.collect();
-    if each.iter().all(|path| path.is_file()) { each } else { Vec::new() }
+    let (there, absent): (Vec<&str>, Vec<&str>) =
+        written.split_whitespace().partition(|name| path(name).is_file());
+    if there.is_empty() {
+        return (Vec::new(), vec![written]);
+    }
+    (there.into_iter().map(path).collect(), absent)
 }
 
 fn read_library(
@@ -111,19 +112,30 @@ fn read_library(
     Ok(materials)
 }
 
-/// Keeps the lines that matter, checked.
+/// Keeps the lines that matter, checked, as UTF-8.
 fn clean(bytes: &[u8], file: &str, report: &mut ImportReport) -> Result<Vec<u8>, ImportError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let mut out = Vec::with_capacity(bytes.len());
-    let mut named = false;
+    let mut within = Within::Nothing;
+    let mut told_latin = false;
     for (line_idx, line) in bytes.split(|byte| *byte == b'\n').enumerate() {
         let place = || format!("{file}:{}", line_idx + 1);
-        let checked = clean_line(line.trim_ascii(), named);
+        let (line, is_latin) = text(line.trim_ascii());
+        let checked = clean_line(line.as_bytes(), within);
         match checked.map_err(|(kind, message)| ImportError::new(kind, place(), message))? {
             Line::Keep(line) => {
-                named |= line.starts_with(b"newmtl");
+                if line.starts_with(b"newmtl") {
+                    within = Within::Material;
+                }
+                if is_latin && !std::mem::replace(&mut told_latin, true) {
+                    report.warn(place(), "this is not UTF-8; such lines are read as Latin-1");
+                }
                 out.extend_from_slice(&line);
                 out.push(b'\n');
+            }
+            Line::Nameless => {
+                within = Within::Nameless;
+                report.warn(place(), "`newmtl` without a name; this material is left out");
             }
             Line::Drop => {}
             Line::Odd(message) => report.warn(place(), message),
@@ -132,14 +144,26 @@ fn clean(bytes: &[u8], file: &str, report: &mut ImportReport) -> Result<Vec<u8>,
     Ok(out)
 }
 
+/// What the lines at hand describe.
+#[derive(Clone, Copy, PartialEq)]
+enum Within {
+    /// Nothing: no material has begun.
+    Nothing,
+    /// A material that nothing can refer to.
+    Nameless,
+    Material,
+}
+
 enum Line {
     Keep(Vec<u8>),
     Drop,
+    /// `newmtl` without a name.
+    Nameless,
     /// Dropped, and worth a warning.
     Odd(String),
 }
 
-fn clean_line(line: &[u8], named: bool) -> Result<Line, (ErrorKind, String)> {
+fn clean_line(line: &[u8], within: Within) -> Result<Line, (ErrorKind, String)> {
     let (keyword, rest) = split_word(line);
     let keep = |rest: &[u8]| Ok(Line::Keep([keyword, b" ", rest].concat()));
     let key = String::from_utf8_lossy(keyword);
@@ -162,17 +186,15 @@ fn clean_line(line: &[u8], named: bool) -> Result<Line, (ErrorKind, String)> {
             | b"map_d"
             | b"norm"
     );
-    if known && !named {
+    if known && within == Within::Nothing {
         return Err((ErrorKind::Format, format!("`{key}` before the first `newmtl`")));
     }
+    if within == Within::Nameless && keyword != b"newmtl" {
+        return Ok(Line::Drop);
+    }
     match keyword {
-        b"newmtl" => {
-            let name = text(rest, "a material name")?;
-            if name.is_empty() {
-                return Err((ErrorKind::Format, "`newmtl` without a name".to_owned()));
-            }
-            keep(rest)
-        }
+        b"newmtl" if rest.is_empty() => Ok(Line::Nameless),
+        b"newmtl" => keep(rest),
         b"Kd" | b"Ks" | b"Ke" => {
             let rest = uncommented(rest);
             if rest.starts_with(b"spectral") || rest.starts_with(b"xyz") {
@@ -198,8 +220,7 @@ fn clean_line(line: &[u8], named: bool) -> Result<Line, (ErrorKind, String)> {
             if number.is_some() { keep(rest) } else { Ok(Line::Drop) }
         }
         b"map_Kd" | b"map_Ke" | b"map_d" | b"norm" => {
-            let written = text(rest, "a file name")?;
-            if written.is_empty() {
+            if rest.is_empty() {
                 return Ok(Line::Odd(format!("`{key}` without a file name")));
             }
             keep(rest)
@@ -335,20 +356,33 @@ impl Maps<'_, '_, '_> {
         };
         let options = MapOptions::parse(written);
         if options.ignored {
-            let message = format!("options of `{written}` beside -clamp are not used");
+            let message =
+                format!("options of `{written}` beside -clamp and -colorspace are not used");
             self.report.warn(self.place, message);
         }
+        let space = match (space, options.space) {
+            (own, None) => own,
+            (ColorSpace::Data, Some(said)) => {
+                if said == ColorSpace::Srgb {
+                    let message = format!("-colorspace of `{written}` is not used: it has no colours");
+                    self.report.warn(self.place, message);
+                }
+                ColorSpace::Data
+            }
+            (_, Some(said)) => said,
+        };
         let name = options.file.replace('\\', "/");
         let wrap = [if options.clamp { Wrap::Clamp } else { Wrap::Repeat }; 2];
-        if let Some(image) = self.images.find(&name, alpha) {
-            return Ok(Some(MapUse { image, space, wrap }));
-        }
         let Some(path) = self.find(&name) else {
             self.report.warn(self.place, format!("there is no image `{name}`"));
             return Ok(None);
         };
+        let place = path.display().to_string();
+        if let Some(image) = self.images.find_place(&place, alpha) {
+            return Ok(Some(MapUse { image, space, wrap }));
+        }
         let bytes = Cow::Owned(self.reader.read(&path)?);
-        let image = self.images.add(name, path.display().to_string(), alpha, bytes)?;
+        let image = self.images.add(name, place, alpha, bytes)?;
         Ok(Some(MapUse { image, space, wrap }))
     }
 
@@ -366,18 +400,28 @@ impl Maps<'_, '_, '_> {
 struct MapOptions<'a> {
     file: &'a str,
     clamp: bool,
+    /// What `-colorspace` says.
+    space: Option<ColorSpace>,
     ignored: bool,
 }
 
 impl<'a> MapOptions<'a> {
     fn parse(written: &'a str) -> Self {
-        let mut out = Self { file: written.trim(), clamp: false, ignored: false };
+        let mut out = Self { file: written.trim(), clamp: false, space: None, ignored: false };
         while out.file.starts_with('-') {
             let (option, mut rest) = cut_word(out.file);
             let (first, after) = cut_word(rest);
             match option {
                 "-clamp" => {
                     out.clamp = first == "on";
+                    rest = after;
+                }
+                "-colorspace" => {
+                    match first.to_ascii_lowercase().as_str() {
+                        "srgb" => out.space = Some(ColorSpace::Srgb),
+                        "linear" | "raw" | "non-color" => out.space = Some(ColorSpace::Linear),
+                        _ => out.ignored = true,
+                    }
                     rest = after;
                 }
                 "-o" | "-s" | "-t" => {

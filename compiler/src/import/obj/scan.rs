@@ -8,6 +8,7 @@
 //! `o <tag index>`, so that each of `tobj`'s models is uniform and says what it is.
 
 use super::super::error::{ErrorKind, ImportError, excerpt};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::{BufRead, Read};
 
@@ -57,6 +58,11 @@ pub(super) struct Scanned {
     pub(super) skipped: BTreeMap<String, (u64, u64)>,
     /// Vertices with a colour, which is not used, and the line of the first.
     pub(super) colored: (u64, u64),
+    /// Names that are not UTF-8 and were read as Latin-1, and the line of the first.
+    pub(super) latin: (u64, u64),
+    /// Faces with indices of UVs and of normals of which the file has none above them, and the line of the
+    /// first: these indices are left out.
+    pub(super) dangling: [(u64, u64); 2],
     /// Faces so far.
     pub(super) n_faces: u64,
 }
@@ -179,17 +185,17 @@ impl<'a> Scanner<'a> {
             b"vn" => self.normal(uncommented(rest)),
             b"f" | b"fo" => self.face(uncommented(rest)),
             b"o" => {
-                self.name.object = text(rest, "an object name")?;
+                self.name.object = self.text(rest);
                 self.name.groups.clear();
                 self.rename()
             }
             b"g" => {
-                self.name.groups = text(rest, "a group name")?;
+                self.name.groups = self.text(rest);
                 self.rename()
             }
             b"usemtl" => self.use_material(rest),
             b"mtllib" => {
-                let name = text(rest, "a material file name")?;
+                let name = self.text(rest);
                 self.out.libraries.push((name, self.line));
                 Ok(())
             }
@@ -213,10 +219,7 @@ impl<'a> Scanner<'a> {
         match n {
             3 | 4 => self.pass(b"v", rest),
             6 | 7 => {
-                if self.out.colored.0 == 0 {
-                    self.out.colored.1 = self.line;
-                }
-                self.out.colored.0 += 1;
+                count(&mut self.out.colored, self.line);
                 self.pass(b"v", words_of(rest, 3));
             }
             n => return format_error(format!("a vertex has 3 numbers (x y z), found {n}")),
@@ -279,18 +282,30 @@ impl<'a> Scanner<'a> {
         if self.out.n_faces >= self.max_faces {
             return Err((ErrorKind::Limit, format!("more than {} faces", self.max_faces)));
         }
-        let tag = Tag { has_uv: has[1], has_normal: has[2], ..self.state.clone() };
+        let dangles = [1, 2].map(|which| has[which] && self.defined[which] == 0);
+        let has = [has[1] && !dangles[0], has[2] && !dangles[1]];
+        let tag = Tag { has_uv: has[0], has_normal: has[1], ..self.state.clone() };
         if self.out.tags.last().is_none_or(|(last, _)| *last != tag) {
             let opening = format!("o {}\n", self.out.tags.len());
             self.ready.extend_from_slice(opening.as_bytes());
             self.out.tags.push((tag, self.out.n_faces));
         }
-        self.pass(b"f", rest);
+        if dangles == [false; 2] {
+            self.pass(b"f", rest);
+        } else {
+            for (dangles, found) in dangles.into_iter().zip(&mut self.out.dangling) {
+                if dangles {
+                    count(found, self.line);
+                }
+            }
+            self.pass(b"f", &with_indices(rest, has));
+        }
         self.out.n_faces += 1;
         Ok(())
     }
 
-    /// Checks `v`, `v/vt`, `v//vn` or `v/vt/vn`; says which of the three are there.
+    /// Checks `v`, `v/vt`, `v//vn` or `v/vt/vn`; says which of the three are there. UVs and normals of which the
+    /// file has none so far may have any index.
     fn corner(&self, corner: &[u8]) -> Result<[bool; 3], (ErrorKind, String)> {
         const KINDS: [&str; 3] = ["vertex", "UV", "normal"];
         let mut has = [false; 3];
@@ -309,7 +324,8 @@ impl<'a> Scanner<'a> {
                 return Err((ErrorKind::Format, message));
             };
             let n = self.defined[which];
-            if index == 0 || index.unsigned_abs() > n {
+            let dangles = which > 0 && n == 0;
+            if index == 0 || (index.unsigned_abs() > n && !dangles) {
                 let kind = KINDS[which];
                 let message = if index == 0 {
                     format!("{kind} index 0; indices begin at 1")
@@ -321,6 +337,15 @@ impl<'a> Scanner<'a> {
             has[which] = true;
         }
         Ok(has)
+    }
+
+    /// A name as text.
+    fn text(&mut self, bytes: &[u8]) -> String {
+        let (text, is_latin) = text(bytes);
+        if is_latin {
+            count(&mut self.out.latin, self.line);
+        }
+        text.into_owned()
     }
 
     fn rename(&mut self) -> Checked {
@@ -337,7 +362,7 @@ impl<'a> Scanner<'a> {
     }
 
     fn use_material(&mut self, rest: &[u8]) -> Checked {
-        let name = text(rest, "a material name")?;
+        let name = self.text(rest);
         if name.is_empty() {
             self.state.material = None;
             return Ok(());
@@ -474,8 +499,39 @@ pub(super) fn numbers_of(line: &[u8], out: &mut [f32]) -> Result<usize, (ErrorKi
     Ok(n)
 }
 
-pub(super) fn text(bytes: &[u8], what: &str) -> Result<String, (ErrorKind, String)> {
-    std::str::from_utf8(bytes)
-        .map(str::to_owned)
-        .map_err(|_| (ErrorKind::Format, format!("{what} that is not UTF-8: `{}`", excerpt(bytes))))
+/// Bytes of a name as text, and whether they are not UTF-8: then they are read as Latin-1, which old exporters
+/// wrote in western countries, and in which all bytes are characters.
+pub(super) fn text(bytes: &[u8]) -> (Cow<'_, str>, bool) {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => (Cow::Borrowed(text), false),
+        Err(_) => (bytes.iter().copied().map(char::from).collect(), true),
+    }
+}
+
+/// Counts one more; `line` is kept of the first.
+fn count(found: &mut (u64, u64), line: u64) {
+    if found.0 == 0 {
+        found.1 = line;
+    }
+    found.0 += 1;
+}
+
+/// Corners with no other indices than that of the vertex and those that they have: of a UV, of a normal.
+fn with_indices(corners: &[u8], has: [bool; 2]) -> Vec<u8> {
+    let mut out = Vec::with_capacity(corners.len());
+    for corner in words(corners) {
+        let mut parts = corner.split(|byte| *byte == b'/');
+        out.extend_from_slice(parts.next().unwrap_or_default());
+        let [uv, normal] = [0, 1].map(|_| parts.next().unwrap_or_default());
+        match has {
+            [false, false] => {}
+            [true, false] => out.extend_from_slice(&[b"/", uv].concat()),
+            [_, true] => {
+                let uv = if has[0] { uv } else { b"" };
+                out.extend_from_slice(&[b"/", uv, b"/", normal].concat());
+            }
+        }
+        out.push(b' ');
+    }
+    out
 }
