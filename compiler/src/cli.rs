@@ -17,8 +17,9 @@ mod summary;
 mod watch;
 
 use std::ffi::OsString;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use clap::error::ContextKind;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 
 use crate::report::{Color, ErrorFormat, Reporter};
@@ -42,7 +43,7 @@ Examples:
   rtc scene.rts --depfile scene.d    also write what the pack depends on, for make or ninja
   rtc check scene.rts                only look for errors
   rtc scene.rts -D hour=7h           override a `param` of the scene
-  rtc fmt scene.rts                  tidy the text
+  rtc fmt scene.rts                  tidy the text; `rtc fmt .` every one below, `rtc fmt -` standard input
   rtc scene.rts --explain-features   what its kernel can do, which line needs that, what was left out
   rtc explain E0301                  what an error means, with an example
   rtc show --resolved scene.rts      every value, defaults included
@@ -153,8 +154,46 @@ fn with_default_command(mut arguments: Vec<OsString>) -> Vec<OsString> {
     let own = ["help", "-h", "--help", "-V", "--version"];
     let program = Cli::command();
     let known = |word: &str| own.contains(&word) || program.find_subcommand(word).is_some();
-    if arguments.get(1).is_some_and(|word| !word.to_str().is_some_and(known)) {
+    if arguments.get(1).is_some_and(|word| {
+        !word.to_str().is_some_and(|word| known(word) || is_misspelled_command(word))
+    }) {
         arguments.insert(1, "build".into());
     }
     arguments
+}
+
+/// Whether a word is one for which clap proposes a command, and not the name of a file that is there.
+fn is_misspelled_command(word: &str) -> bool {
+    if !word.chars().all(char::is_alphabetic) || Path::new(word).exists() {
+        return false;
+    }
+    let error = Cli::try_parse_from(["rtc", word]).err();
+    error.is_some_and(|error| error.get(ContextKind::SuggestedSubcommand).is_some())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_command_is_a_scene_unless_it_is_nearly_one() {
+        let second = |word: &str| {
+            let arguments = ["rtc", word, "d.rts"].map(OsString::from).to_vec();
+            with_default_command(arguments)[1].clone()
+        };
+        for word in ["chek", "biuld", "shwo", "inspct", "explian", "check", "help"] {
+            assert_eq!(second(word), word);
+        }
+        for word in ["check.rts", "chek.rts", "-D", "scene", "a/chek", "", "é"] {
+            assert_eq!(second(word), "build", "{word}");
+        }
+    }
+
+    #[test]
+    fn a_misspelled_command_is_answered_with_the_one_that_is_meant() {
+        let arguments = with_default_command(["rtc", "chek", "d.rts"].map(OsString::from).to_vec());
+        let message = Cli::try_parse_from(arguments).unwrap_err().to_string();
+        assert!(message.contains("unrecognized subcommand 'chek'"), "{message}");
+        assert!(message.contains("'check'"), "{message}");
+    }
 }
