@@ -2,6 +2,7 @@
 //!
 //! Every token is printed again as it was written, comments included; only blanks, line breaks,
 //! separators, `.5` (to `0.5`), the case of hex colours and the order of neighbouring imports change.
+//! Lines end as most of them did, with CR LF or with LF.
 //! Whatever the author broke over lines stays broken, one entry a line; the rest stays on its line
 //! as long as that has at most [`MAX_WIDTH`] columns. Formatting twice changes nothing, and the
 //! result is only given out if it reads as the same tree.
@@ -35,7 +36,7 @@ pub fn format_file(sources: &SourceSet, file: FileId) -> Result<String, Vec<Diag
     let text = sources.text(file);
     let tokens = lex(text);
     let chunks: Vec<_> = split(text, &tokens).into_iter().map(|chunk| chunk.tokens).collect();
-    let formatted = print::print(text, &tokens, &chunks);
+    let formatted = with_line_ends_of(text, print::print(text, &tokens, &chunks));
     let mut again = SourceSet::new();
     let copy = again.add("", formatted.as_str());
     let (after, _) = parse(&again, copy);
@@ -47,6 +48,12 @@ pub fn format_file(sources: &SourceSet, file: FileId) -> Result<String, Vec<Diag
         .at(Span { file, start: 0, end: 0 }, "")
         .with_note("this is a fault of the formatter: please report it with the file");
     Err(vec![bug])
+}
+
+/// The lines of `formatted`, which end with LF, with the more frequent line end of `text`.
+fn with_line_ends_of(text: &str, formatted: String) -> String {
+    let (n_both, n_feeds) = (text.matches("\r\n").count(), text.matches('\n').count());
+    if n_both > n_feeds - n_both { formatted.replace('\n', "\r\n") } else { formatted }
 }
 
 /// Do two trees say the same? The order of imports says nothing.

@@ -1,10 +1,12 @@
-//! `rtc fmt`: tidies scene texts in place.
+//! `rtc fmt`: tidies scene texts in place, or the one on standard input on its way to standard output.
 
-use files::ShowPath as _;
+use std::ffi::OsStr;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use lang::source::SourceSet;
+use files::ShowPath as _;
+use lang::source::{MAX_FILE_BYTES, SourceSet};
 
 use super::files::read_text;
 use super::{IO, OK, ReportArgs, SCENE};
@@ -12,9 +14,10 @@ use crate::report::Reporter;
 
 #[derive(Debug, Args)]
 pub(super) struct FmtArgs {
-    /// Scene texts.
-    #[arg(required = true)]
-    scenes: Vec<PathBuf>,
+    /// Scene texts; folders, for every `.rts` file below them, links left out; or `-`, which tidies standard
+    /// input to standard output.
+    #[arg(required = true, value_name = "PATH")]
+    paths: Vec<PathBuf>,
     /// Change nothing; exit with 1 if a text is not tidy.
     #[arg(long)]
     check: bool,
@@ -24,11 +27,89 @@ pub(super) struct FmtArgs {
 
 pub(super) fn fmt(args: &FmtArgs) -> u8 {
     let reporter = args.report.reporter();
-    let codes = args.scenes.iter().map(|path| one(path, args.check, &reporter));
-    codes.max().unwrap_or(OK)
+    let code = |path: &PathBuf| {
+        if path.as_os_str() == "-" {
+            standard_input(args.check, &reporter)
+        } else if path.is_dir() {
+            folder(path, args.check, &reporter)
+        } else {
+            file(path, args.check, &reporter)
+        }
+    };
+    args.paths.iter().map(code).max().unwrap_or(OK)
 }
 
-fn one(path: &Path, check: bool, reporter: &Reporter) -> u8 {
+fn standard_input(check: bool, reporter: &Reporter) -> u8 {
+    const NAME: &str = "standard input";
+    let mut bytes = Vec::new();
+    let most = MAX_FILE_BYTES as u64;
+    if let Err(error) = std::io::stdin().lock().take(most + 1).read_to_end(&mut bytes) {
+        reporter.failure(&format!("cannot read {NAME}: {error}"));
+        return IO;
+    }
+    if bytes.len() > MAX_FILE_BYTES {
+        reporter.failure(&format!("{NAME} has more than the {most} bytes of a scene text"));
+        return IO;
+    }
+    let text = match String::from_utf8(bytes) {
+        Ok(text) => text,
+        Err(error) => {
+            let at = error.utf8_error().valid_up_to();
+            reporter.failure(&format!("{NAME} is not UTF-8 text: wrong byte at offset {at}"));
+            return SCENE;
+        }
+    };
+    match tidied(NAME, &text, reporter) {
+        Err(code) => code,
+        Ok(tidy) if check => {
+            if tidy == text {
+                OK
+            } else {
+                SCENE
+            }
+        }
+        Ok(tidy) => {
+            reporter.output(&tidy);
+            OK
+        }
+    }
+}
+
+/// Every scene text below a folder, in the order of their paths.
+fn folder(path: &Path, check: bool, reporter: &Reporter) -> u8 {
+    let mut code = OK;
+    let mut texts = Vec::new();
+    let mut folders = vec![path.to_owned()];
+    while let Some(folder) = folders.pop() {
+        if let Err(error) = list(&folder, &mut texts, &mut folders) {
+            reporter.failure(&format!("cannot read {}: {error}", folder.shown()));
+            code = IO;
+        }
+    }
+    texts.sort();
+    texts.iter().map(|text| file(text, check, reporter)).fold(code, u8::max)
+}
+
+/// Adds the scene texts and the folders that lie in `folder`. Links are neither: what they point to is
+/// tidied where it lies, and no circle is walked.
+fn list(
+    folder: &Path,
+    texts: &mut Vec<PathBuf>,
+    folders: &mut Vec<PathBuf>,
+) -> std::io::Result<()> {
+    for entry in std::fs::read_dir(folder)? {
+        let entry = entry?;
+        let (kind, path) = (entry.file_type()?, entry.path());
+        if kind.is_dir() {
+            folders.push(path);
+        } else if kind.is_file() && path.extension() == Some(OsStr::new("rts")) {
+            texts.push(path);
+        }
+    }
+    Ok(())
+}
+
+fn file(path: &Path, check: bool, reporter: &Reporter) -> u8 {
     let shown = path.shown();
     let text = match read_text(path) {
         Ok(text) => text,
@@ -37,14 +118,9 @@ fn one(path: &Path, check: bool, reporter: &Reporter) -> u8 {
             return IO;
         }
     };
-    let tidy = match lang::format::format(&text) {
+    let tidy = match tidied(&shown.to_string(), &text, reporter) {
         Ok(tidy) => tidy,
-        Err(diagnostics) => {
-            let mut sources = SourceSet::new();
-            sources.add(shown.to_string(), text);
-            reporter.diagnostics(&sources, &diagnostics);
-            return SCENE;
-        }
+        Err(code) => return code,
     };
     if tidy == text {
         return OK;
@@ -56,8 +132,18 @@ fn one(path: &Path, check: bool, reporter: &Reporter) -> u8 {
     match files::write(path, |file| file.write_all(tidy.as_bytes())) {
         Ok(()) => OK,
         Err(error) => {
-            reporter.failure(&format!("{error}"));
+            reporter.failure(&error.to_string());
             IO
         }
     }
+}
+
+/// The text as it should look; what is wrong with one that cannot be read is reported.
+fn tidied(name: &str, text: &str, reporter: &Reporter) -> Result<String, u8> {
+    lang::format::format(text).map_err(|diagnostics| {
+        let mut sources = SourceSet::new();
+        sources.add(name, text);
+        reporter.diagnostics(&sources, &diagnostics);
+        SCENE
+    })
 }
