@@ -1,8 +1,6 @@
 //! How much memory a film takes, and whether that much is free: before rendering, not in the middle of it.
 //!
-//! Linux promises memory that it does not have and kills whoever uses it, so an allocation that succeeds says
-//! nothing. It does say what is free, for the machine and for the group that a process is in. Elsewhere
-//! nothing is known, and nothing is refused.
+//! How much is free `pack::memory` says; where nothing is known, nothing is refused.
 
 use crate::convergence::REPLICATES;
 use crate::job::Job;
@@ -64,33 +62,6 @@ fn gigabytes(bytes: u64) -> String {
     format!("{:.1} GB", bytes as f64 / 1e9)
 }
 
-/// Bytes that this process can use without making others swap, where the system tells.
-pub(crate) fn free() -> Option<u64> {
-    let read = |path: &str| std::fs::read_to_string(path).ok();
-    let machine = read("/proc/meminfo").and_then(|text| available(&text));
-    let number = |path: &str| read(path)?.trim().parse::<u64>().ok();
-    let limit = number("/sys/fs/cgroup/memory.max");
-    let used = number("/sys/fs/cgroup/memory.current");
-    let cache = read("/sys/fs/cgroup/memory.stat").map_or(0, |text| reclaimable(&text));
-    let in_group = |(limit, used): (u64, u64)| limit.saturating_sub(used.saturating_sub(cache));
-    machine.into_iter().chain(limit.zip(used).map(in_group)).min()
-}
-
-/// Bytes of files that `memory.stat` counts as used, though they are given back when memory is short.
-fn reclaimable(stat: &str) -> u64 {
-    let counts = |name: &str| matches!(name, "active_file" | "inactive_file");
-    let pairs = stat.lines().filter_map(|line| line.split_once(' '));
-    let bytes =
-        pairs.filter(|(name, _)| counts(name)).filter_map(|(_, n)| n.trim().parse::<u64>().ok());
-    bytes.fold(0, u64::saturating_add)
-}
-
-/// `MemAvailable` of `/proc/meminfo`, in bytes.
-fn available(meminfo: &str) -> Option<u64> {
-    let line = meminfo.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -138,19 +109,5 @@ mod tests {
         assert_eq!(announce(&job(1920, None), true, Some(1 << 20)), Ok(None));
         let part = Job { crop: Rect { x: 0, y: 0, w: 16, h: 16 }, ..large };
         assert_eq!(announce(&part, true, Some(1 << 20)), Ok(None));
-    }
-
-    #[test]
-    fn free_memory_is_read_where_it_is_told() {
-        assert_eq!(available("MemTotal: 9 kB\nMemAvailable:   1024 kB\n"), Some(1 << 20));
-        for text in
-            ["", "MemAvailable: x kB", "MemAvailable: 3", "MemAvailable: 18446744073709551615 kB"]
-        {
-            assert_eq!(available(text), None, "{text}");
-        }
-        assert_eq!(reclaimable("anon 5\nfile 9\nactive_file 3\ninactive_file 4\nkernel x\n"), 7);
-        if cfg!(target_os = "linux") {
-            assert!(free().is_some_and(|bytes| bytes > 0));
-        }
     }
 }

@@ -114,7 +114,7 @@ pub fn render_session(
     let Session { from, keep } = session;
     // A run that is measured has four pictures to keep, which no checkpoint holds.
     let (from, keep) = if job.measure.is_some() { (None, None) } else { (from, keep) };
-    if let Some(text) = memory::announce(job, keep.is_some(), memory::free())? {
+    if let Some(text) = memory::announce(job, keep.is_some(), pack::memory::free())? {
         control.note(&text);
     }
     let saver = keep.as_ref().map(|keep| Saver::new(keep, scene, job, from.as_ref()));
