@@ -7,6 +7,7 @@
 //!
 //! It does not know the scene, the pack or how materials are packed.
 
+mod budget;
 mod check;
 mod error;
 mod file;
@@ -21,6 +22,7 @@ mod polygon;
 mod report;
 mod topology;
 
+pub use self::budget::Budget;
 pub use self::error::{ErrorKind, ImportError};
 pub use self::file::Limits;
 pub use self::gltf::{load_gltf, read_gltf};

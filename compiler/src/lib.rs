@@ -9,6 +9,7 @@ pub mod cache;
 pub mod cli;
 pub mod depfile;
 pub mod import;
+pub mod input;
 pub mod lower;
 pub mod normalize;
 pub mod pipeline;

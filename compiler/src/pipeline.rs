@@ -19,7 +19,7 @@ use pack::manifest::KernelSize;
 use pack::{Pack, PackError, PackWriter};
 use shaders::{FeatureSet, LayoutError, Linked, ShaderError};
 
-use crate::import::Limits;
+use crate::import::{ImportError, Limits};
 use crate::lower::{self, LowerError, Lowered, Rows, Trees};
 use crate::reuse::{Geometry, Reuse, Reused, Share};
 
@@ -80,6 +80,9 @@ pub enum CompileError {
     /// The scene has errors; they are among the diagnostics.
     #[error("the scene has errors")]
     Scene,
+    /// There is no memory for a file of the scene.
+    #[error(transparent)]
+    Memory(#[from] ImportError),
     /// The scene is too large for the format.
     #[error(transparent)]
     Lower(#[from] LowerError),
@@ -119,7 +122,7 @@ pub fn compile_reusing(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Compiled, CompileError> {
     let mut clock = Clock::start();
-    let (loaded, files) = load::load(scene, sources, options, reuse, diagnostics);
+    let (loaded, files) = load::load(scene, sources, options, reuse, diagnostics)?;
     clock.phase("read files");
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(CompileError::Scene);

@@ -8,7 +8,8 @@
 
 mod import_support;
 
-use compiler::import::{ImportError, Limits, MeshFile, decode_image, read_gltf, read_obj};
+use compiler::import::{Budget, ImportError, Limits, MeshFile, decode_image, read_gltf, read_obj};
+use compiler::input::Root;
 use import_support::{Builder, tiny_png, triangle};
 use lang::scene::Axis;
 use serde_json::json;
@@ -17,8 +18,14 @@ use std::path::Path;
 use tempfile::TempDir;
 
 /// Small, so that a damaged header cannot make the test slow.
-const LIMITS: Limits =
-    Limits { file_bytes: 1 << 20, triangles: 1 << 16, pixels: 1 << 16, total_pixels: 1 << 18 };
+const LIMITS: Limits = Limits {
+    file_bytes: 1 << 20,
+    triangles: 1 << 16,
+    pixels: 1 << 16,
+    total_pixels: 1 << 18,
+    memory: Budget::UNLIMITED,
+    root: Root::ANYWHERE,
+};
 
 /// Xorshift64*, Vigna 2016.
 struct Random(u64);

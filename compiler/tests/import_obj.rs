@@ -257,15 +257,15 @@ fn every_kind_of_bad_line_is_named() {
         ("f 1 2 9\n", "5: vertex index 9, but only 4 are defined above this line"),
         ("f 1 2 -5\n", "5: vertex index -5, but only 4 are defined above this line"),
         ("f 1 2 0\n", "5: vertex index 0; indices begin at 1"),
-        ("f 1/1 2/1 3/1\n", "5: UV index 1, but only 0 are defined above this line"),
-        ("f 1//2 2//1 3//1\n", "5: normal index 2, but only 0 are defined above this line"),
+        ("vt 0 0\nf 1/2 2/1 3/1\n", "6: UV index 2, but only 1 are defined above this line"),
+        ("f 1//x 2//1 3//1\n", "5: `x` is not an index in `1//x`"),
         ("f 1 2 3.0\n", "5: `3.0` is not an index in `3.0`"),
         (
             "f 1 2 99999999999999999999\n",
             "5: `99999999999999999999` is not an index in `99999999999999999999`",
         ),
         ("f 1 2 /3\n", "5: `/3` is not of the form v/vt/vn"),
-        ("f 1 2 3/1/1/1\n", "5: UV index 1, but only 0 are defined above this line"),
+        ("f 1 2 3/1/1/1\n", "5: `3/1/1/1` is not of the form v/vt/vn"),
         ("s many\n", "5: `s` takes `off` or a group number, found `many`"),
         (
             "vt 0 0\nf 1 2/1 3\n",
@@ -362,30 +362,29 @@ fn names_in_latin_1_are_read_and_said() {
 fn indices_of_what_a_file_has_none_of_are_left_out() {
     let text = format!("{SQUARE}f 1//1 2//7 3//-1\nvt 0 0\nf 1/1/9 3/1/9 4/1/9\n");
     let mesh = load(&text);
-    let expected =
-        "mesh.obj:5: 2 faces have normal indices, but there are no `vn` lines above them: \
+    let expected = "mesh.obj:5: 2 faces have normal indices, but there are no `vn` lines above them: \
                     their normals are computed";
     assert_eq!(warnings(&mesh), [expected]);
     assert_eq!((mesh.report.n_triangles, mesh.report.computed_normals), (2, 2));
     let mesh = load(&format!("{SQUARE}vn 0 0 1\nf 1/1/1 2/2/1 3/3/1\nf 1/4 3/4 4/4\n"));
-    let expected =
-        "mesh.obj:6: 2 faces have UV indices, but there are no `vt` lines above them";
+    let expected = "mesh.obj:6: 2 faces have UV indices, but there are no `vt` lines above them";
     assert_eq!(warnings(&mesh), [expected]);
     assert_eq!((mesh.report.n_triangles, mesh.report.computed_normals), (2, 1));
     assert_eq!(mesh.parts[0].uvs, compiler::import::Attribute::Absent);
     // Where there are some, an index that is wrong stays an error.
     let error = "mesh.obj:6: normal index 2, but only 1 are defined above this line";
     check_error(format!("{SQUARE}vn 0 0 1\nf 1//2 2//1 3//1\n").as_bytes(), error);
-    check_error(format!("{SQUARE}f 1//0 2//0 3//0\n").as_bytes(), "mesh.obj:5: normal index 0; indices begin at 1");
+    check_error(
+        format!("{SQUARE}f 1//0 2//0 3//0\n").as_bytes(),
+        "mesh.obj:5: normal index 0; indices begin at 1",
+    );
 }
 
 #[test]
 fn a_material_without_a_name_and_a_library_that_is_absent_leave_the_others() {
     let text = format!("mtllib a.mtl no.mtl b.mtl\n{SQUARE}usemtl x\nf 1 2 3\nusemtl y\nf 1 3 4\n");
-    let files: [(&str, &[u8]); 2] = [
-        ("a.mtl", b"newmtl\nKd 1 x 0\nnewmtl x\nKd 1 0 0\n"),
-        ("b.mtl", b"newmtl y\nKd 0 1 0\n"),
-    ];
+    let files: [(&str, &[u8]); 2] =
+        [("a.mtl", b"newmtl\nKd 1 x 0\nnewmtl x\nKd 1 0 0\n"), ("b.mtl", b"newmtl y\nKd 0 1 0\n")];
     let mesh = load_with(text.as_bytes(), &files).expect("a good file");
     let colors: Vec<_> = mesh.materials.iter().map(|material| material.color).collect();
     assert_eq!(colors, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);

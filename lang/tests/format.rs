@@ -57,10 +57,7 @@ fn the_example_is_laid_out_as_the_formatter_does() {
 #[test]
 fn lines_end_as_most_of_them_did_and_marks_go() {
     for (text, expected) in [
-        (
-            "\u{feff}rts 1\r\n\r\n\r\n\r\nlet a=1 // b \r\n",
-            "rts 1\r\n\r\nlet a = 1 // b\r\n",
-        ),
+        ("\u{feff}rts 1\r\n\r\n\r\n\r\nlet a=1 // b \r\n", "rts 1\r\n\r\nlet a = 1 // b\r\n"),
         ("rts 1\r\n\nlet a = 1\r\n", "rts 1\r\n\r\nlet a = 1\r\n"),
         ("rts 1\r\n\nlet a = 1\r\nlet b = 2\n", "rts 1\n\nlet a = 1\nlet b = 2\n"),
         ("rts 1\rlet a = 1\r", "rts 1\nlet a = 1\n"),

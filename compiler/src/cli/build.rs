@@ -111,9 +111,19 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
         Ok(outputs) => outputs,
         Err(code) => return code,
     };
+    let limits = match args.scene.limits(reporter) {
+        Ok(limits) => limits,
+        Err(code) => return code,
+    };
     let trees =
         Trees { preset: args.bvh, layout: args.nodes, instancing: args.instances, cache: &cache };
-    let job = Job { scene: &args.scene.scene, output: &output, defines: &args.scene.define, trees };
+    let job = Job {
+        scene: &args.scene.scene,
+        root: &limits.root,
+        output: &output,
+        defines: &args.scene.define,
+        trees,
+    };
     let before = job.before(&cache);
     let edited = match before {
         // Who asks for the kernel or the times wants to see a compilation.
@@ -126,11 +136,17 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
         Before::Edited(edited) => Some(edited),
         Before::UpToDate(_) | Before::Nothing => None,
     };
-    let Compilation { compiled, mut phases, texts, silent, whole } =
-        match compile(&args.scene, trees, edited.as_ref().map(|e| (&job, e)), reuse, reporter) {
-            Ok(done) => done,
-            Err(code) => return code,
-        };
+    let Compilation { compiled, mut phases, texts, silent, whole } = match compile(
+        &args.scene,
+        &limits,
+        trees,
+        edited.as_ref().map(|e| (&job, e)),
+        reuse,
+        reporter,
+    ) {
+        Ok(done) => done,
+        Err(code) => return code,
+    };
     if let Err(code) = outputs.spare(reuse.reads().keys(), reporter) {
         return code;
     }
@@ -241,10 +257,10 @@ fn write_depfile(path: &Path, output: &Path, reuse: &Reuse, reporter: &Reporter)
 pub(super) fn check(args: &CheckArgs) -> u8 {
     let reporter = args.report.reporter();
     let cache = Cache::from_env();
-    match compile(&args.scene, Trees::usual(&cache), None, &Reuse::once(), &reporter) {
-        Ok(_) => OK,
-        Err(code) => code,
-    }
+    let compiled = args.scene.limits(&reporter).and_then(|limits| {
+        compile(&args.scene, &limits, Trees::usual(&cache), None, &Reuse::once(), &reporter)
+    });
+    compiled.err().unwrap_or(OK)
 }
 
 fn default_output(scene: &Path) -> PathBuf {

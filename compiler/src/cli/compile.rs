@@ -9,8 +9,9 @@ use shaders::ShaderError;
 
 use super::files::{DiskLoader, TextError, read_text};
 use super::record::{Edited, Job};
-use super::{BUG, IO, SCENE, SceneArgs};
+use super::{BUG, IO, SCENE, SceneArgs, USAGE};
 use crate::import::Limits;
+use crate::input::{InputError, Root};
 use crate::lower::Trees;
 use crate::pipeline::{self, CompileError, Compiled, Essence, Memory, Options, Phase};
 use crate::report::Reporter;
@@ -18,25 +19,31 @@ use crate::reuse::Reuse;
 
 /// Reads and checks the text; an unreadable file is reported and becomes an exit code.
 pub(super) fn analyze(scene: &SceneArgs, reporter: &Reporter) -> Result<Analysis, u8> {
-    analyze_reading(scene, &Reuse::once(), reporter)
+    analyze_reading(scene, &scene.root(reporter)?, &Reuse::once(), reporter)
 }
 
 /// As `analyze`; `reuse` is told which files are read.
-fn analyze_reading(scene: &SceneArgs, reuse: &Reuse, reporter: &Reporter) -> Result<Analysis, u8> {
+fn analyze_reading(
+    scene: &SceneArgs,
+    root: &Root,
+    reuse: &Reuse,
+    reporter: &Reporter,
+) -> Result<Analysis, u8> {
     reuse.read(&scene.scene);
     let shown = scene.scene.display().to_string();
-    let text = read_text(&scene.scene).map_err(|error| {
+    let text = read_text(&scene.scene, root).map_err(|error| {
         reporter.failure(&format!("cannot read {shown}: {error}"));
         if scene.scene.extension().is_some_and(|e| e == "pack") {
             reporter.status("help: this is a pack already; render it with `rtr`");
         }
         match error {
-            TextError::Io(_) => IO,
+            TextError::Input(InputError::Outside(_)) => USAGE,
+            TextError::Input(_) => IO,
             TextError::NotText(_) => SCENE,
         }
     })?;
     let options = lang::Options { defines: scene.define.clone() };
-    Ok(lang::analyze(&shown, &text, &mut DiskLoader { reuse: Some(reuse) }, &options))
+    Ok(lang::analyze(&shown, &text, &mut DiskLoader { reuse, root }, &options))
 }
 
 /// A scene that became everything that its pack holds.
@@ -54,13 +61,15 @@ pub(super) struct Compilation {
 /// Compiles a scene; `before`: which job it is, and what is there of its last compilation.
 pub(super) fn compile(
     args: &SceneArgs,
+    limits: &Limits,
     trees: Trees<'_>,
     before: Option<(&Job<'_>, &Edited)>,
     reuse: &Reuse,
     reporter: &Reporter,
 ) -> Result<Compilation, u8> {
     let start = Instant::now();
-    let Analysis { sources, scene, mut diagnostics, .. } = analyze_reading(args, reuse, reporter)?;
+    let Analysis { sources, scene, mut diagnostics, .. } =
+        analyze_reading(args, &limits.root, reuse, reporter)?;
     let Some(scene) = scene else {
         reporter.diagnostics(&sources, &diagnostics);
         return Err(SCENE);
@@ -70,7 +79,7 @@ pub(super) fn compile(
     let options = Options {
         root: args.scene.parent().unwrap_or(Path::new("")),
         trees,
-        limits: Limits::default(),
+        limits: limits.clone(),
         defines: &args.define,
     };
     let mut again = || -> Result<Option<Compiled>, CompileError> {
@@ -102,7 +111,8 @@ pub(super) fn compile(
 fn failed(error: &CompileError, reporter: &Reporter) -> u8 {
     match error {
         CompileError::Scene => SCENE,
-        CompileError::Lower(_)
+        CompileError::Memory(_)
+        | CompileError::Lower(_)
         | CompileError::Pack(_)
         | CompileError::Shader(ShaderError::TooManyBindings { .. }) => {
             reporter.failure(&error.to_string());

@@ -1,16 +1,20 @@
 //! Reads scene texts for the language, which does not know the disk.
 
+use std::io::ErrorKind::NotFound;
 use std::path::{Path, PathBuf};
 
 use lang::source::{LoadError, Loader, MAX_FILE_BYTES};
 
+use crate::input::{InputError, Root};
 use crate::reuse::Reuse;
 
 /// Finds imports beside the file that imports them.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct DiskLoader<'a> {
     /// Told every file that is asked for.
-    pub(crate) reuse: Option<&'a Reuse>,
+    pub(crate) reuse: &'a Reuse,
+    /// Where texts may lie.
+    pub(crate) root: &'a Root,
 }
 
 impl Loader for DiskLoader<'_> {
@@ -18,16 +22,14 @@ impl Loader for DiskLoader<'_> {
         let dir = Path::new(importing).parent().unwrap_or(Path::new(""));
         let file = tidy(&dir.join(path));
         let name = file.display().to_string();
-        if let Some(reuse) = self.reuse {
-            reuse.read(&file);
-        }
-        match read_text(&file) {
+        self.reuse.read(&file);
+        match read_text(&file, self.root) {
             Ok(text) => Ok((name, text)),
             Err(TextError::NotText(byte)) => Err(LoadError::NotText(byte)),
-            Err(TextError::Io(error)) if error.kind() == std::io::ErrorKind::NotFound => {
+            Err(TextError::Input(InputError::Io(error))) if error.kind() == NotFound => {
                 Err(other_case(&file).map_or(LoadError::NotFound, LoadError::WrongCase))
             }
-            Err(TextError::Io(error)) => Err(LoadError::Unreadable(error.to_string())),
+            Err(TextError::Input(error)) => Err(LoadError::Unreadable(error.to_string())),
         }
     }
 }
@@ -35,25 +37,17 @@ impl Loader for DiskLoader<'_> {
 /// Why a text could not be read.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum TextError {
-    /// The file is missing, unreadable or too large.
-    #[error("{0}")]
-    Io(#[from] std::io::Error),
+    /// The file is missing, unreadable, too large, or not where it may be.
+    #[error(transparent)]
+    Input(#[from] InputError),
     /// Byte at this offset is not UTF-8.
     #[error("this file is not UTF-8 text: wrong byte at offset {0}")]
     NotText(u64),
 }
 
 /// The whole text of a regular file of at most `MAX_FILE_BYTES`.
-pub(crate) fn read_text(path: &Path) -> Result<String, TextError> {
-    let meta = std::fs::metadata(path)?;
-    if !meta.is_file() {
-        return Err(std::io::Error::other("this is not a regular file").into());
-    }
-    if meta.len() > MAX_FILE_BYTES as u64 {
-        let message = format!("{} bytes are too many for a scene text", meta.len());
-        return Err(std::io::Error::other(message).into());
-    }
-    let bytes = std::fs::read(path)?;
+pub(crate) fn read_text(path: &Path, root: &Root) -> Result<String, TextError> {
+    let bytes = root.read(path, MAX_FILE_BYTES as u64)?;
     String::from_utf8(bytes).map_err(|e| TextError::NotText(e.utf8_error().valid_up_to() as u64))
 }
 

@@ -10,6 +10,7 @@ use lang::source::{MAX_FILE_BYTES, SourceSet};
 
 use super::files::read_text;
 use super::{IO, OK, ReportArgs, SCENE};
+use crate::input::Root;
 use crate::report::Reporter;
 
 #[derive(Debug, Args)]
@@ -61,17 +62,9 @@ fn standard_input(check: bool, reporter: &Reporter) -> u8 {
     };
     match tidied(NAME, &text, reporter) {
         Err(code) => code,
-        Ok(tidy) if check => {
-            if tidy == text {
-                OK
-            } else {
-                SCENE
-            }
-        }
-        Ok(tidy) => {
-            reporter.output(&tidy);
-            OK
-        }
+        Ok(tidy) if check && tidy != text => SCENE,
+        Ok(tidy) if check || reporter.output(&tidy) => OK,
+        Ok(_) => IO,
     }
 }
 
@@ -111,7 +104,7 @@ fn list(
 
 fn file(path: &Path, check: bool, reporter: &Reporter) -> u8 {
     let shown = path.shown();
-    let text = match read_text(path) {
+    let text = match read_text(path, &Root::ANYWHERE) {
         Ok(text) => text,
         Err(error) => {
             reporter.failure(&format!("cannot read {shown}: {error}"));

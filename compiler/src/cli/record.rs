@@ -15,6 +15,7 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use crate::cache::Cache;
+use crate::input::Root;
 use crate::lower::Trees;
 use crate::pipeline::{EncodedRoster, Memory};
 use crate::reuse::{Reuse, Stamp};
@@ -23,6 +24,8 @@ use crate::reuse::{Reuse, Stamp};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Job<'a> {
     pub(super) scene: &'a Path,
+    /// Where its files may lie.
+    pub(super) root: &'a Root,
     pub(super) output: &'a Path,
     pub(super) defines: &'a [(String, String)],
     pub(super) trees: Trees<'a>,
@@ -110,7 +113,7 @@ impl Job<'_> {
     pub(super) fn before(&self, cache: &Cache) -> Before {
         let record = || Record::decode(&cache.record(&self.key()?)?);
         let Some(record) = record() else { return Before::Nothing };
-        let now = FilesNow::look_at(&record.files);
+        let now = FilesNow::look_at(&record.files, self.root);
         let mut files = record.files.iter().zip(&record.hashes);
         let same = files.all(|(path, hash)| now.hash(path) == Some(hash));
         if same && record.silent && self.pack_of(&record).is_some() {
@@ -159,7 +162,7 @@ impl Job<'_> {
                 {
                     return hash.clone();
                 }
-                let hash = file_hash(path)?;
+                let hash = file_hash(path, self.root)?;
                 (Stamp::of(path) == *stamp).then_some(hash)
             };
             let hashes = reads.par_iter().map(hash).collect::<Option<_>>()?;
@@ -197,9 +200,9 @@ impl Edited {
 }
 
 impl FilesNow {
-    fn look_at(files: &[PathBuf]) -> Self {
+    fn look_at(files: &[PathBuf], root: &Root) -> Self {
         // The time first: a file that changes meanwhile will be seen to have another.
-        let look = |path: &PathBuf| (path.clone(), (Stamp::of(path), file_hash(path)));
+        let look = |path: &PathBuf| (path.clone(), (Stamp::of(path), file_hash(path, root)));
         Self(files.par_iter().map(look).collect())
     }
 
@@ -247,9 +250,9 @@ impl Record {
     }
 }
 
-/// BLAKE3 of a regular file.
-fn file_hash(path: &Path) -> Option<String> {
-    let file = files::open_regular(path).ok()?;
+/// BLAKE3 of a regular file in the root; a file that is outside is not known, and reading it says why.
+fn file_hash(path: &Path, root: &Root) -> Option<String> {
+    let file = root.open(path).ok()?;
     let mut hasher = blake3::Hasher::new();
     std::io::copy(&mut std::io::BufReader::with_capacity(1 << 20, file), &mut hasher).ok()?;
     Some(hasher.finalize().to_hex().to_string())

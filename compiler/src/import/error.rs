@@ -23,6 +23,10 @@ pub enum ErrorKind {
     Limit,
     /// An image cannot be decoded.
     Image,
+    /// The file lies outside of the folder that inputs must lie in.
+    Outside,
+    /// There is no memory for it, or the budget allows no more; no fault of the scene.
+    Memory,
 }
 
 /// A file that cannot be used, with the place of the first reason.

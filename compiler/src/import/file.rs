@@ -1,13 +1,15 @@
 //! Reads files whole, within limits, and remembers what was read.
 
+use super::budget::{Budget, Loan};
 use super::error::{ErrorKind, ImportError};
+use super::mesh::{Attribute, Part};
 use super::report::FileRead;
-use std::fs::File;
-use std::io::Read as _;
+use crate::input::{InputError, Root};
+use files::ShowPath as _;
 use std::path::Path;
 
-/// What an input may cost. Checked before memory is taken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Where inputs may lie and what they may cost. Checked before memory is taken.
+#[derive(Clone, Debug)]
 pub struct Limits {
     /// Bytes of one file.
     pub file_bytes: u64,
@@ -17,12 +19,23 @@ pub struct Limits {
     pub pixels: u64,
     /// Pixels of all images of one mesh file together.
     pub total_pixels: u64,
+    /// Memory of all files of a compilation together.
+    pub memory: Budget,
+    /// Where files may lie.
+    pub root: Root,
 }
 
 impl Default for Limits {
-    /// 4 GiB, 2^27 triangles, 2^28 pixels an image and 2^30 a file.
+    /// 4 GiB, 2^27 triangles, 2^28 pixels an image and 2^30 a file; any memory, anywhere.
     fn default() -> Self {
-        Self { file_bytes: 1 << 32, triangles: 1 << 27, pixels: 1 << 28, total_pixels: 1 << 30 }
+        Self {
+            file_bytes: 1 << 32,
+            triangles: 1 << 27,
+            pixels: 1 << 28,
+            total_pixels: 1 << 30,
+            memory: Budget::UNLIMITED,
+            root: Root::ANYWHERE,
+        }
     }
 }
 
@@ -30,18 +43,32 @@ impl Default for Limits {
 pub(super) struct Reader<'a> {
     pub(super) limits: &'a Limits,
     pub(super) files: Vec<FileRead>,
+    /// What the bytes of these files took; they live as long as the reader, or less.
+    loans: Vec<Loan>,
 }
 
 impl<'a> Reader<'a> {
     pub(super) fn new(limits: &'a Limits) -> Self {
-        Self { limits, files: Vec::new() }
+        Self { limits, files: Vec::new(), loans: Vec::new() }
     }
 
     /// The whole file, which must be a regular file within the limit.
     pub(super) fn read(&mut self, path: &Path) -> Result<Vec<u8>, ImportError> {
-        let bytes = read_file(path, self.limits)?;
+        let (bytes, loan) = read_file(path, self.limits)?;
+        self.loans.push(loan);
         self.remember(path, &bytes);
         Ok(bytes)
+    }
+
+    /// Takes memory until everything is read.
+    pub(super) fn take(&mut self, bytes: u64, place: &str) -> Result<(), ImportError> {
+        self.loans.push(self.limits.memory.take(bytes, place)?);
+        Ok(())
+    }
+
+    /// The files that were read; what their bytes took is given back.
+    pub(super) fn finish(self) -> Vec<FileRead> {
+        self.files
     }
 
     /// Notes that `bytes` of the file `path` went into the import.
@@ -51,34 +78,55 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The whole file, which must be a regular file within the limit.
-pub(super) fn read_file(path: &Path, limits: &Limits) -> Result<Vec<u8>, ImportError> {
-    let place = path.display().to_string();
-    let io = |source: std::io::Error| io_error(path, source);
-    let kind = std::fs::metadata(path).map_err(io)?; // before `open`, which would wait at a pipe
-    if !kind.is_file() {
-        return Err(ImportError::new(ErrorKind::Io, place, "this is not a regular file"));
+/// The whole file, which must be a regular file within the limit, and what its bytes took.
+pub(super) fn read_file(path: &Path, limits: &Limits) -> Result<(Vec<u8>, Loan), ImportError> {
+    let place = || path.shown().to_string();
+    let failed = |error| input_error(path, error);
+    let file = limits.root.open(path).map_err(failed)?;
+    let len = file.metadata().map_err(|e| failed(e.into()))?.len();
+    if len > limits.file_bytes {
+        return Err(failed(InputError::TooLarge { len, most: limits.file_bytes }));
     }
-    let file = File::open(path).map_err(io)?;
-    let too_long = |length: u64| {
-        let max = limits.file_bytes;
-        let message = format!("the file has {length} bytes, the limit is {max}");
-        ImportError::new(ErrorKind::Limit, path.display().to_string(), message)
+    let loan = limits.memory.take(len, &place())?;
+    let bytes = files::read_open(path, &file, limits.file_bytes).map_err(|e| failed(e.into()))?;
+    Ok((bytes, loan))
+}
+
+/// Takes what the parts of a mesh need until the pack is written: here, and once more in the pack.
+pub(super) fn keep(parts: &[Part], place: &str, limits: &Limits) -> Result<(), ImportError> {
+    fn attribute<T>(attribute: &Attribute<T>) -> usize {
+        match attribute {
+            Attribute::Absent => 0,
+            Attribute::PerVertex(values) => size_of_val(values.as_slice()),
+            Attribute::Indexed { values, corners } => {
+                size_of_val(values.as_slice()) + size_of_val(corners.as_slice())
+            }
+        }
+    }
+    let part = |part: &Part| {
+        size_of_val(part.positions.as_slice())
+            + size_of_val(part.triangles.as_slice())
+            + attribute(&part.normals)
+            + attribute(&part.uvs)
     };
-    if kind.len() > limits.file_bytes {
-        return Err(too_long(kind.len()));
-    }
-    let capacity = usize::try_from(kind.len()).map_err(|_| too_long(kind.len()))?;
-    let mut bytes = Vec::new();
-    if bytes.try_reserve_exact(capacity).is_err() {
-        let message = format!("no memory for its {capacity} bytes");
-        return Err(ImportError::new(ErrorKind::Limit, place, message));
-    }
-    file.take(limits.file_bytes.saturating_add(1)).read_to_end(&mut bytes).map_err(io)?;
-    if bytes.len() as u64 > limits.file_bytes {
-        return Err(too_long(bytes.len() as u64)); // it grew while it was read
-    }
-    Ok(bytes)
+    let bytes: usize = parts.iter().map(part).sum();
+    limits.memory.take(2 * bytes as u64, place)?.keep();
+    Ok(())
+}
+
+fn input_error(path: &Path, error: InputError) -> ImportError {
+    let place = path.shown().to_string();
+    let kind = match error {
+        InputError::Io(source) if source.kind() == std::io::ErrorKind::OutOfMemory => {
+            let message = "there is no memory for its bytes";
+            return ImportError::new(ErrorKind::Memory, place, message);
+        }
+        InputError::Io(source) => return io_error(path, source),
+        InputError::Outside(_) => ErrorKind::Outside,
+        InputError::NotRegular => ErrorKind::Io,
+        InputError::TooLarge { .. } => ErrorKind::Limit,
+    };
+    ImportError::new(kind, place, error.to_string())
 }
 
 fn io_error(path: &Path, source: std::io::Error) -> ImportError {
@@ -87,7 +135,7 @@ fn io_error(path: &Path, source: std::io::Error) -> ImportError {
     let message =
         if missing { "no such file".to_owned() } else { format!("cannot read: {source}") };
     let help = if missing { spelling_help(path) } else { String::new() };
-    let mut error = ImportError::new(kind, path.display().to_string(), message).with_help(help);
+    let mut error = ImportError::new(kind, path.shown().to_string(), message).with_help(help);
     error.source = Some(source);
     error
 }
@@ -106,7 +154,7 @@ fn spelling_help(path: &Path) -> String {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let wanted = wanted.to_string_lossy().to_lowercase();
     let Ok(entries) = std::fs::read_dir(folder) else {
-        return format!("there is no folder `{}`", folder.display());
+        return format!("there is no folder `{}`", folder.shown());
     };
     let names = entries.take(MAX_ENTRIES).flatten();
     let names = names.map(|entry| entry.file_name().to_string_lossy().into_owned());

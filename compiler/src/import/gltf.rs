@@ -19,11 +19,12 @@ mod primitive;
 use self::accessor::Buffers;
 use self::container::Images;
 use super::error::{ErrorKind, ImportError};
-use super::file::{Limits, Reader, read_file};
+use super::file::{Limits, Reader, keep, read_file};
 use super::image_set::ImageSet;
 use super::mesh::MeshFile;
 use super::report::ImportReport;
-use ::gltf::json::{Root, Value, deserialize};
+use ::gltf::json::{Accessor, Material, Root, deserialize, mesh, scene};
+use files::ShowPath as _;
 use std::path::Path;
 
 /// Extensions that are understood.
@@ -54,15 +55,17 @@ impl Document<'_> {
 
 /// Reads a `.gltf` or `.glb` file with the buffers and images that it refers to.
 pub fn load_gltf(path: &Path, limits: &Limits) -> Result<MeshFile, ImportError> {
-    read_gltf(&read_file(path, limits)?, path, limits)
+    let (bytes, _loan) = read_file(path, limits)?;
+    read_gltf(&bytes, path, limits)
 }
 
 /// The same for a file whose bytes are in memory; `path` is what its files are relative to.
 pub fn read_gltf(bytes: &[u8], path: &Path, limits: &Limits) -> Result<MeshFile, ImportError> {
     let mut reader = Reader::new(limits);
     reader.remember(path, bytes);
-    let file = path.display().to_string();
+    let file = path.shown().to_string();
     let (json, chunk) = container::split(bytes, &file)?;
+    reader.take(json_bytes(json), &file)?;
     let root = parse(json, &file)?;
     let document = Document { root: &root, file: &file };
     let mut report = ImportReport::default();
@@ -70,14 +73,15 @@ pub fn read_gltf(bytes: &[u8], path: &Path, limits: &Limits) -> Result<MeshFile,
     let folder = path.parent().unwrap_or(Path::new(""));
     let buffers = container::buffers(&document, chunk, folder, &mut reader)?;
     let placed = node::placed_meshes(&document)?;
-    let table = primitive::Table::new(&document, &placed, limits, &mut report)?;
+    let table = primitive::Table::new(&document, &placed, &mut reader, &mut report)?;
     let mut images = ImageSet::default();
     let mut source = Images { document: &document, buffers: &buffers, folder, reader };
     let materials = material::convert(&table.used, &mut source, &mut images, &mut report)?;
     let Images { reader, .. } = source;
     let parts = bake::parts(&placed, &table, &materials, &buffers, &mut report)?;
     let images = images.decode(limits, &mut report)?;
-    report.files = reader.files;
+    report.files = reader.finish();
+    keep(&parts, &file, limits)?;
     report.n_triangles = parts.iter().map(|part| part.triangles.len() as u64).sum();
     if report.n_triangles == 0 {
         let message = match report.zero_area.count {
@@ -130,10 +134,32 @@ fn remedy(extensions: &str) -> String {
 
 /// `extensionsRequired` of a JSON text that is otherwise not understood.
 fn required_extensions(json: &[u8]) -> Vec<String> {
-    let value: Value = deserialize::from_slice(json).unwrap_or_default();
-    let list = value.get("extensionsRequired").and_then(Value::as_array);
-    let names = list.into_iter().flatten().filter_map(Value::as_str);
-    names.map(str::to_owned).collect()
+    #[derive(Default, serde::Deserialize)]
+    struct Required {
+        #[serde(rename = "extensionsRequired", default)]
+        names: Vec<String>,
+    }
+    let required: Required = deserialize::from_slice(json).unwrap_or_default();
+    required.names
+}
+
+/// The most memory that a parsed text takes: an object for each `{`, a number, index or pair after each `,` and
+/// `[`, and its texts; lists may have doubled.
+fn json_bytes(json: &[u8]) -> u64 {
+    const OBJECT: usize = {
+        let (node, material) = (size_of::<scene::Node>(), size_of::<Material>());
+        let (primitive, accessor) = (size_of::<mesh::Primitive>(), size_of::<Accessor>());
+        let larger = if node > material { node } else { material };
+        let other = if primitive > accessor { primitive } else { accessor };
+        if larger > other { larger } else { other }
+    };
+    const ENTRY: usize = 32;
+    let cost = |byte: &u8| match byte {
+        b'{' => 2 * OBJECT,
+        b',' | b'[' => 2 * ENTRY,
+        _ => 1,
+    };
+    json.iter().map(|byte| cost(byte) as u64).sum()
 }
 
 /// Says what of the file is left out.

@@ -13,11 +13,13 @@ mod exr;
 mod guard;
 mod hdr;
 
+use super::budget::{Loan, no_memory, zeroed};
 use super::error::{ErrorKind, ImportError, excerpt};
 use super::file::{Limits, read_file};
-use ::image::{DynamicImage, ImageDecoder as _, ImageFormat, ImageReader};
+use ::image::{ImageDecoder, ImageFormat, ImageReader};
 pub use environment::{Environment, load_environment};
 
+use files::ShowPath as _;
 use half::f16;
 use std::io::Cursor;
 use std::path::Path;
@@ -50,8 +52,8 @@ pub enum Pixels {
 
 /// Reads one image file.
 pub fn load_image(path: &Path, limits: &Limits) -> Result<Image, ImportError> {
-    let bytes = read_file(path, limits)?;
-    decode_image(&bytes, &path.display().to_string(), limits)
+    let (bytes, _loan) = read_file(path, limits)?;
+    decode_image(&bytes, &path.shown().to_string(), limits)
 }
 
 /// Formats that are read, by their first bytes.
@@ -174,43 +176,88 @@ fn decode_ldr(
 ) -> Result<Image, ImportError> {
     let mut reader = reader(bytes, format, place)?;
     let mut allowed = ::image::Limits::no_limits();
-    allowed.max_alloc = Some(limits.pixels.saturating_mul(8).saturating_add(1 << 20)); // 16-bit RGBA
+    let most = limits.pixels.saturating_mul(8).saturating_add(1 << 20); // 16-bit RGBA
+    allowed.max_alloc = Some(most.min(limits.memory.left()));
     reader.limits(allowed);
     let decoder = reader.into_decoder().map_err(|e| broken(place, &e))?;
     let (width, height) = decoder.dimensions();
-    let [width, height] = checked_size(width, height, place, limits)?;
-    let decoded = DynamicImage::from_decoder(decoder).map_err(|e| broken(place, &e))?;
-    let deep = matches!(
-        decoded,
-        DynamicImage::ImageLuma16(_)
-            | DynamicImage::ImageLumaA16(_)
-            | DynamicImage::ImageRgb16(_)
-            | DynamicImage::ImageRgba16(_)
-    );
-    Ok(if deep {
-        let half = |value: &u16| f16::from_f32(f32::from(*value) / 65535.0).to_bits();
-        let texels: Vec<u16> = decoded.into_rgba16().iter().map(half).collect();
-        let has_alpha = texels.chunks_exact(4).any(|texel| texel[3] < HALF_ONE);
-        Image {
-            width,
-            height,
-            data: Pixels::Rgba16F(texels),
-            has_alpha,
-            clamped: 0,
-            is_radiance: false,
+    let size = checked_size(width, height, place, limits)?;
+    let color = decoder.color_type();
+    let n_channels = usize::from(color.channel_count());
+    match usize::from(color.bytes_per_pixel()) / n_channels {
+        1 => {
+            let kept = kept(size, 4, place, limits)?;
+            let (raw, _loan) = raw::<u8>(decoder, size, format, place, limits)?;
+            let texels =
+                if n_channels == 4 { raw } else { rgba(&raw, n_channels, u8::MAX, place)? };
+            kept.keep();
+            let has_alpha = texels.chunks_exact(4).any(|texel| texel[3] < u8::MAX);
+            Ok(ldr(size, Pixels::Rgba8(texels), has_alpha))
         }
-    } else {
-        let texels = decoded.into_rgba8().into_raw();
-        let has_alpha = texels.chunks_exact(4).any(|texel| texel[3] < u8::MAX);
-        Image {
-            width,
-            height,
-            data: Pixels::Rgba8(texels),
-            has_alpha,
-            clamped: 0,
-            is_radiance: false,
+        2 => {
+            let kept = kept(size, 8, place, limits)?;
+            let (mut raw, _loan) = raw::<u16>(decoder, size, format, place, limits)?;
+            for value in &mut raw {
+                *value = f16::from_f32(f32::from(*value) / 65535.0).to_bits();
+            }
+            let texels =
+                if n_channels == 4 { raw } else { rgba(&raw, n_channels, HALF_ONE, place)? };
+            kept.keep();
+            let has_alpha = texels.chunks_exact(4).any(|texel| texel[3] < HALF_ONE);
+            Ok(ldr(size, Pixels::Rgba16F(texels), has_alpha))
         }
-    })
+        _ => Err(broken(place, &"its channels have neither 8 nor 16 bits")),
+    }
+}
+
+fn ldr([width, height]: [u32; 2], data: Pixels, has_alpha: bool) -> Image {
+    Image { width, height, data, has_alpha, clamped: 0, is_radiance: false }
+}
+
+fn n_pixels([width, height]: [u32; 2]) -> usize {
+    width as usize * height as usize
+}
+
+/// Memory for texels of `bytes` each: those of the image, and those that the pack gets.
+fn kept(size: [u32; 2], bytes: u64, place: &str, limits: &Limits) -> Result<Loan, ImportError> {
+    limits.memory.take((n_pixels(size) as u64).saturating_mul(2 * bytes), place)
+}
+
+/// The channels as they are in the file, and the memory that decoding takes.
+fn raw<T: bytemuck::Pod>(
+    decoder: impl ImageDecoder,
+    size: [u32; 2],
+    format: Format,
+    place: &str,
+    limits: &Limits,
+) -> Result<(Vec<T>, Loan), ImportError> {
+    let n_bytes = decoder.total_bytes();
+    // A progressive JPEG keeps its coefficients, 16 bits each, up to four a pixel, until its end.
+    let more = if format == Format::Jpeg { 8 * n_pixels(size) as u64 } else { 0 };
+    let loan = limits.memory.take(n_bytes.saturating_add(more), place)?;
+    let n = usize::try_from(n_bytes).unwrap_or(usize::MAX) / size_of::<T>();
+    let mut values: Vec<T> = zeroed(n, place)?;
+    decoder.read_image(bytemuck::cast_slice_mut(&mut values)).map_err(|e| broken(place, &e))?;
+    Ok((values, loan))
+}
+
+/// Grey, grey with alpha, or colour as colour with alpha.
+fn rgba<T: bytemuck::Pod>(
+    raw: &[T],
+    n_channels: usize,
+    one: T,
+    place: &str,
+) -> Result<Vec<T>, ImportError> {
+    let mut texels: Vec<T> = zeroed(raw.len() / n_channels * 4, place)?;
+    for (texel, channels) in texels.chunks_exact_mut(4).zip(raw.chunks_exact(n_channels)) {
+        texel.copy_from_slice(&match *channels {
+            [grey] => [grey, grey, grey, one],
+            [grey, alpha] => [grey, grey, grey, alpha],
+            [r, g, b] => [r, g, b, one],
+            _ => [one; 4], // four channels are not converted
+        });
+    }
+    Ok(texels)
 }
 
 /// Bits of the half float 1; bits of positive half floats are ordered like their values.
@@ -228,12 +275,11 @@ struct HalfImage {
 }
 
 impl HalfImage {
-    /// All texels opaque black.
+    /// All texels transparent black; no texels where there is no memory for them.
     fn new(size: [u32; 2]) -> Self {
-        let n_pixels = size[0] as usize * size[1] as usize;
         Self {
             size,
-            texels: vec![0; 4 * n_pixels],
+            texels: zeroed(4 * n_pixels(size), "").unwrap_or_default(),
             has_alpha: false,
             clamped: 0,
             largest: 0.0,
@@ -260,6 +306,12 @@ impl HalfImage {
         if let Some(texel) = self.texels.get_mut(4 * texel_idx..4 * texel_idx + 4) {
             texel.copy_from_slice(&bits);
         }
+    }
+
+    /// Whether it has its texels.
+    fn check(self, place: &str) -> Result<Self, ImportError> {
+        let n = 4 * n_pixels(self.size);
+        if self.texels.len() == n { Ok(self) } else { Err(no_memory(2 * n, place)) }
     }
 
     fn finish(self) -> Image {

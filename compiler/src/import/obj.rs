@@ -9,11 +9,13 @@ mod mtl;
 mod scan;
 
 use self::scan::{Scanned, Scanner};
+use super::budget::Loan;
 use super::error::{ErrorKind, ImportError};
-use super::file::{Limits, Reader, read_file};
+use super::file::{Limits, Reader, keep, read_file};
 use super::image_set::ImageSet;
 use super::mesh::{MeshFile, Part};
 use super::report::ImportReport;
+use files::ShowPath as _;
 use lang::scene::Axis;
 use std::path::Path;
 
@@ -34,7 +36,8 @@ pub fn load_obj(
     up: Axis,
     limits: &Limits,
 ) -> Result<MeshFile, ImportError> {
-    read_obj(&read_file(path, limits)?, path, metres_per_unit, up, limits)
+    let (bytes, _loan) = read_file(path, limits)?;
+    read_obj(&bytes, path, metres_per_unit, up, limits)
 }
 
 /// The same for a file whose bytes are in memory; `path` is where its libraries are looked for.
@@ -47,9 +50,9 @@ pub fn read_obj(
 ) -> Result<MeshFile, ImportError> {
     let mut reader = Reader::new(limits);
     reader.remember(path, bytes);
-    let file = path.display().to_string();
+    let file = path.shown().to_string();
     reject_foreign(bytes, &file)?;
-    let (models, scanned) = parse(bytes, &file, limits)?;
+    let (models, scanned, loan) = parse(bytes, &file, limits)?;
     let mut report = ImportReport::default();
     warn_about(&scanned, &file, &mut report);
     let mut images = ImageSet::default();
@@ -64,8 +67,10 @@ pub fn read_obj(
         limits,
     };
     let parts = build::parts(models, &source, &mut report)?;
+    drop(loan);
+    keep(&parts, &file, limits)?;
     let images = images.decode(limits, &mut report)?;
-    report.files = reader.files;
+    report.files = reader.finish();
     finish(&file, &scanned, parts, report).map(|(parts, report)| MeshFile {
         parts,
         materials: library.materials,
@@ -118,8 +123,8 @@ fn parse(
     bytes: &[u8],
     file: &str,
     limits: &Limits,
-) -> Result<(Vec<tobj::Model>, Scanned), ImportError> {
-    let mut scanner = Scanner::new(file, bytes, limits.triangles);
+) -> Result<(Vec<tobj::Model>, Scanned, Loan), ImportError> {
+    let mut scanner = Scanner::new(file, bytes, limits);
     let options = tobj::LoadOptions::default();
     // Materials are read apart: the scanner passes on neither `mtllib` nor `usemtl`.
     let parsed =
@@ -130,7 +135,8 @@ fn parse(
     let (models, _) = parsed.map_err(|error| {
         ImportError::new(ErrorKind::Format, scanner.place(), format!("cannot be read: {error}"))
     })?;
-    Ok((models, scanner.out))
+    let (scanned, loan) = scanner.finish();
+    Ok((models, scanned, loan))
 }
 
 fn warn_about(scanned: &Scanned, file: &str, report: &mut ImportReport) {

@@ -2,6 +2,9 @@
 
 use std::path::PathBuf;
 
+/// Warnings of one file that are kept; more of them tell nobody more.
+const MAX_WARNINGS: usize = 100;
+
 /// What was noticed while reading one mesh file.
 #[derive(Clone, Debug, Default)]
 pub struct ImportReport {
@@ -27,6 +30,8 @@ pub struct ImportReport {
     pub bounds: Option<[[f32; 3]; 2]>,
     /// Odd things, in the order in which they were met; each kind once.
     pub warnings: Vec<Warning>,
+    /// Odd things after the first hundred.
+    pub n_untold: u64,
 }
 
 /// A file that went into an import.
@@ -69,6 +74,10 @@ pub struct Warning {
 impl ImportReport {
     /// Adds a warning.
     pub(super) fn warn(&mut self, place: impl Into<String>, message: impl Into<String>) {
-        self.warnings.push(Warning { place: place.into(), message: message.into() });
+        if self.warnings.len() < MAX_WARNINGS {
+            self.warnings.push(Warning { place: place.into(), message: message.into() });
+        } else {
+            self.n_untold += 1;
+        }
     }
 }

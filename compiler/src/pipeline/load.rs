@@ -60,7 +60,7 @@ pub(super) fn load(
     options: &Options<'_>,
     reuse: &Reuse,
     diagnostics: &mut Vec<Diagnostic>,
-) -> (Loaded, Vec<FileRead>) {
+) -> Result<(Loaded, Vec<FileRead>), ImportError> {
     let assets: Vec<_> =
         scene.assets.par_iter().map(|asset| mesh(asset, sources, options, reuse)).collect();
     let textures: Vec<_> = scene
@@ -74,6 +74,7 @@ pub(super) fn load(
         .collect();
     let mut files = Vec::new();
     let mut loaded = Loaded::default();
+    let (assets, textures) = (with_memory(assets)?, with_memory(textures)?);
     for (asset, result) in scene.assets.iter().zip(assets) {
         let fault = |e| diagnostics.push(failed(&e, asset.path_span, &asset.path));
         let file = result.map_err(fault).ok();
@@ -94,11 +95,25 @@ pub(super) fn load(
             image
         }));
     }
-    loaded.environment = environment(scene, sources, options, reuse, &mut files, diagnostics);
+    loaded.environment = environment(scene, sources, options, reuse, &mut files, diagnostics)?;
     find_parts(scene, &loaded, diagnostics);
     files.sort_by(|a, b| a.name.cmp(&b.name));
     files.dedup();
-    (loaded, files)
+    Ok((loaded, files))
+}
+
+/// The results, unless there was no memory for one of them: that is no fault of the scene.
+fn with_memory<T>(
+    results: Vec<Result<T, ImportError>>,
+) -> Result<Vec<Result<T, ImportError>>, ImportError> {
+    let mut kept = Vec::with_capacity(results.len());
+    for result in results {
+        match result {
+            Err(error) if error.kind == ErrorKind::Memory => return Err(error),
+            result => kept.push(result),
+        }
+    }
+    Ok(kept)
 }
 
 /// The image of the sky, with what is odd about it.
@@ -109,17 +124,19 @@ fn environment(
     reuse: &Reuse,
     files: &mut Vec<FileRead>,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Option<Environment> {
-    let SkyModel::Image { path: written, path_span, .. } = &scene.sky.as_ref()?.model else {
-        return None;
+) -> Result<Option<Environment>, ImportError> {
+    let model = scene.sky.as_ref().map(|sky| &sky.model);
+    let Some(SkyModel::Image { path: written, path_span, .. }) = model else {
+        return Ok(None);
     };
     let path = beside(sources, *path_span, written);
     reuse.read(&path);
     let found = match load_environment(&path, &options.limits) {
         Ok(found) => found,
+        Err(error) if error.kind == ErrorKind::Memory => return Err(error),
         Err(error) => {
             diagnostics.push(failed(&error, *path_span, written));
-            return None;
+            return Ok(None);
         }
     };
     let image = &found.image;
@@ -140,7 +157,7 @@ fn environment(
         diagnostics.push(warning);
     }
     files.push(FileRead { name: relative(&path, options.root), hash: content(image) });
-    Some(found)
+    Ok(Some(found))
 }
 
 fn read_asset(asset: &Asset, path: &Path, options: &Options<'_>) -> Result<MeshFile, ImportError> {
@@ -183,14 +200,14 @@ pub(super) fn relative(path: &Path, root: &Path) -> String {
 
 fn failed(error: &ImportError, span: Span, written: &str) -> Diagnostic {
     let code = match error.kind {
-        ErrorKind::Missing | ErrorKind::Io => "E0514",
+        ErrorKind::Missing | ErrorKind::Io | ErrorKind::Outside => "E0514",
         ErrorKind::Format => "E0503",
         ErrorKind::Number => "E0504",
         ErrorKind::Index => "E0505",
         ErrorKind::Accessor => "E0506",
         ErrorKind::Extension => "E0507",
         ErrorKind::Empty => "E0508",
-        ErrorKind::Limit => "E0509",
+        ErrorKind::Limit | ErrorKind::Memory => "E0509",
         ErrorKind::Image => "E0602",
     };
     let itself = Path::new(&error.place).ends_with(written);
@@ -244,6 +261,10 @@ fn report(report: &ImportReport, span: Span, diagnostics: &mut Vec<Diagnostic>) 
     }
     for warning in &report.warnings {
         let message = format!("{}: {}", warning.place, warning.message);
+        warn("W0524", "import", message, &None);
+    }
+    if report.n_untold > 0 {
+        let message = format!("{} more things like these are odd in this file", report.n_untold);
         warn("W0524", "import", message, &None);
     }
 }

@@ -102,6 +102,7 @@ fn fetch(
         let Some((_, text)) = data.split_once(";base64,") else {
             return Err(error("a data URI that is not base64".to_owned()));
         };
+        reader.take(text.len() as u64, document.file)?;
         return STANDARD.decode(text).map_err(|e| error(format!("broken base64: {e}")));
     }
     reader.read(&local_path(document, what, uri, folder)?)

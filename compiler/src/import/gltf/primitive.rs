@@ -1,7 +1,7 @@
 //! Primitives of meshes: which are used, and their arrays.
 
 use super::super::error::{ErrorKind, ImportError};
-use super::super::file::Limits;
+use super::super::file::Reader;
 use super::super::report::ImportReport;
 use super::Document;
 use super::accessor::Buffers;
@@ -54,15 +54,16 @@ impl Table {
     pub(super) fn new(
         document: &Document<'_>,
         placed: &[Placed],
-        limits: &Limits,
+        reader: &mut Reader<'_>,
         report: &mut ImportReport,
     ) -> Result<Self, ImportError> {
+        let limits = reader.limits;
         let mut uses = vec![0_u32; document.root.meshes.len()];
         for placed in placed {
             uses[placed.mesh] = uses[placed.mesh].saturating_add(1);
         }
         let mut used = BTreeMap::new();
-        let mut n_triangles: u64 = 0;
+        let (mut n_triangles, mut n_bytes) = (0_u64, 0_u64);
         let mut left_out = [0_u64; 4];
         for (mesh_idx, mesh) in document.root.meshes.iter().enumerate() {
             let n_uses = u64::from(uses[mesh_idx]);
@@ -86,6 +87,8 @@ impl Table {
                 n_triangles = n_triangles.saturating_add(
                     n_uses.saturating_mul(claimed(document, primitive, mode, &what)?),
                 );
+                let bytes = claimed_bytes(document, primitive, mode)?;
+                n_bytes = n_bytes.saturating_add(bytes.saturating_mul(n_uses.saturating_add(1)));
             }
         }
         if n_triangles > limits.triangles {
@@ -93,6 +96,7 @@ impl Table {
             let message = format!("its scene has {n_triangles} triangles, the limit is {max}");
             return Err(ImportError::new(ErrorKind::Limit, document.file, message));
         }
+        reader.take(n_bytes, document.file)?;
         let what = [
             "primitives of points or lines are left out",
             "primitives have vertex colours, which are not used",
@@ -121,6 +125,25 @@ fn claimed(
     let positions = position_accessor(document, primitive, what)?;
     let count = Buffers::count(document, primitive.indices.unwrap_or(positions))?;
     Ok(if mode == Mode::Triangles { count / 3 } else { count.saturating_sub(2) })
+}
+
+/// Bytes of its arrays, decoded or placed: values of three floats at most, corners as indices and in triangles.
+fn claimed_bytes(
+    document: &Document<'_>,
+    primitive: &Primitive,
+    mode: Mode,
+) -> Result<u64, ImportError> {
+    let mut bytes = 0_u64;
+    for index in primitive.attributes.values() {
+        bytes = bytes.saturating_add(Buffers::count(document, *index)?.saturating_mul(12));
+    }
+    let positions = attribute(primitive, Semantic::Positions);
+    if let Some(corners) = primitive.indices.or(positions) {
+        let triangle = if mode == Mode::Triangles { 4 } else { 12 };
+        let each = 4 + triangle;
+        bytes = bytes.saturating_add(Buffers::count(document, corners)?.saturating_mul(each));
+    }
+    Ok(bytes)
 }
 
 fn position_accessor(

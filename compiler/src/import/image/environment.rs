@@ -9,6 +9,7 @@ use super::{
 };
 use crate::import::error::ErrorKind;
 use crate::import::file::{Limits, read_file};
+use files::ShowPath as _;
 use std::path::Path;
 
 /// An image whose texels, times `scale`, are radiance.
@@ -25,8 +26,8 @@ const LARGEST: f32 = 65504.0;
 
 /// Reads one image file.
 pub fn load_environment(path: &Path, limits: &Limits) -> Result<Environment, ImportError> {
-    let bytes = read_file(path, limits)?;
-    decode_environment(&bytes, &path.display().to_string(), limits)
+    let (bytes, _loan) = read_file(path, limits)?;
+    decode_environment(&bytes, &path.shown().to_string(), limits)
 }
 
 /// Decodes an image in memory; `place` is named in errors.

@@ -4,15 +4,15 @@
 //! associated (premultiplied) in EXR and straight here, so colour is divided by it where it is
 //! between 0 and 1.
 
-use super::{HalfImage, broken, checked_size};
+use super::{HalfImage, broken, checked_size, kept};
 use crate::import::error::{ErrorKind, ImportError};
 use crate::import::file::Limits;
 use ::exr::image::read::image::ReadLayers as _;
 use ::exr::image::read::layers::ReadChannels as _;
 use ::exr::image::read::specific_channels::ReadSpecificChannel as _;
 use ::exr::math::Vec2;
-use ::exr::meta::MetaData;
 use ::exr::meta::header::Header;
+use ::exr::meta::{BlockDescription, MetaData};
 use std::io::Cursor;
 
 /// What the chosen layer has.
@@ -35,6 +35,8 @@ pub(super) fn decode(
     scale: f32,
 ) -> Result<HalfImage, ImportError> {
     let (layer, size) = choose(bytes, place, limits)?;
+    let kept = kept(size, 8, place, limits)?;
+    let _loan = limits.memory.take(block_bytes(bytes, place)?, place)?;
     let set = move |image: &mut HalfImage, at: Vec2<usize>, [r, g, b, a]: [f32; 4]| {
         let straight = if a > 0.0 && a < 1.0 { a / scale } else { 1.0 / scale };
         let texel_idx = at.1 * image.size[0] as usize + at.0;
@@ -73,7 +75,27 @@ pub(super) fn decode(
         let message = "the size of the layer differs from its header";
         return Err(ImportError::new(ErrorKind::Image, place, message));
     }
+    let image = image.check(place)?;
+    kept.keep();
     Ok(image)
+}
+
+/// The most that a block takes while it is decoded: as it is in the file, unpacked, and in between.
+fn block_bytes(bytes: &[u8], place: &str) -> Result<u64, ImportError> {
+    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false);
+    let meta = meta.map_err(|e| broken(place, &e))?;
+    let of = |header: &Header| {
+        let texels = match header.blocks {
+            BlockDescription::ScanLines => {
+                header.layer_size.0.saturating_mul(header.compression.scan_lines_per_block())
+            }
+            BlockDescription::Tiles(tiles) => tiles.tile_size.0.saturating_mul(tiles.tile_size.1),
+        };
+        let channels = header.channels.list.iter();
+        let texel: usize = channels.map(|channel| channel.sample_type.bytes_per_sample()).sum();
+        (texels as u64).saturating_mul(texel as u64).saturating_mul(3)
+    };
+    Ok(meta.headers.iter().map(of).max().unwrap_or_default())
 }
 
 /// Memory for a layer; `choose` has checked the size of every layer against the limit.

@@ -1,10 +1,10 @@
 //! Radiance HDR (shared exponent, linear) becomes half floats.
 
-use super::{HalfImage, broken, checked_size};
+use super::{Format, HalfImage, broken, checked_size, kept, raw};
 use crate::import::error::ImportError;
 use crate::import::file::Limits;
+use ::image::ImageDecoder as _;
 use ::image::codecs::hdr::HdrDecoder;
-use ::image::{DynamicImage, ImageDecoder as _};
 use std::io::Cursor;
 
 /// Width and height by the header, within the limit.
@@ -24,10 +24,12 @@ pub(super) fn decode(
     let decoder = HdrDecoder::new(Cursor::new(bytes)).map_err(|e| broken(place, &e))?;
     let (width, height) = decoder.dimensions();
     let size = checked_size(width, height, place, limits)?;
-    let decoded = DynamicImage::from_decoder(decoder).map_err(|e| broken(place, &e))?;
-    let mut image = HalfImage::new(size);
-    for (texel_idx, rgb) in decoded.into_rgb32f().as_raw().chunks_exact(3).enumerate() {
+    let kept = kept(size, 8, place, limits)?;
+    let (decoded, _loan) = raw::<f32>(decoder, size, Format::Hdr, place, limits)?;
+    let mut image = HalfImage::new(size).check(place)?;
+    for (texel_idx, rgb) in decoded.chunks_exact(3).enumerate() {
         image.set(texel_idx, [rgb[0] * scale, rgb[1] * scale, rgb[2] * scale, 1.0]);
     }
+    kept.keep();
     Ok(image)
 }

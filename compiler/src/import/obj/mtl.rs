@@ -20,6 +20,8 @@ use super::super::image_set::{Alpha, ImageSet};
 use super::super::material::{ImportedMaterial, MapUse};
 use super::super::report::ImportReport;
 use super::scan::{Scanned, numbers_of, split_word, text, uncommented};
+use crate::input::Root;
+use files::ShowPath as _;
 use lang::scene::{ColorSpace, Wrap};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -38,6 +40,9 @@ struct Found {
     library: PathBuf,
 }
 
+/// Bytes of `tobj`'s material, of the entry by which it is found, and of what it becomes.
+const MATERIAL_BYTES: u64 = 2048;
+
 /// Reads the libraries of an OBJ file and makes the materials that it uses.
 pub(super) fn load(
     folder: &Path,
@@ -54,7 +59,7 @@ pub(super) fn load(
         if !done.insert(written) {
             continue;
         }
-        let (paths, absent) = library_paths(folder, written);
+        let (paths, absent) = library_paths(folder, written, &reader.limits.root);
         for name in absent {
             missing = true;
             let message = format!("there is no `{name}`; its materials are not known");
@@ -84,13 +89,13 @@ pub(super) fn load(
 }
 
 /// The files that an `mtllib` line means, one name with spaces or several names, and those that are not there.
-fn library_paths<'a>(folder: &Path, written: &'a str) -> (Vec<PathBuf>, Vec<&'a str>) {
+fn library_paths<'a>(folder: &Path, written: &'a str, root: &Root) -> (Vec<PathBuf>, Vec<&'a str>) {
     let path = |name: &str| folder.join(name.replace('\\', "/"));
-    if path(written).is_file() {
+    if root.has(&path(written)) {
         return (vec![path(written)], Vec::new());
     }
     let (there, absent): (Vec<&str>, Vec<&str>) =
-        written.split_whitespace().partition(|name| path(name).is_file());
+        written.split_whitespace().partition(|name| root.has(&path(name)));
     if there.is_empty() {
         return (Vec::new(), vec![written]);
     }
@@ -103,7 +108,10 @@ fn read_library(
     report: &mut ImportReport,
 ) -> Result<Vec<tobj::Material>, ImportError> {
     let bytes = reader.read(path)?;
-    let file = path.display().to_string();
+    let file = path.shown().to_string();
+    let n_materials =
+        bytes.split(|byte| *byte == b'\n').filter(|line| line.starts_with(b"newmtl")).count();
+    reader.take(bytes.len() as u64 * 4 + n_materials as u64 * MATERIAL_BYTES, &file)?;
     let cleaned = clean(&bytes, &file, report)?;
     let parsed = tobj::load_mtl_buf(&mut cleaned.as_slice());
     let (materials, _) = parsed.map_err(|error| {
@@ -239,7 +247,7 @@ fn convert(
     report: &mut ImportReport,
 ) -> Result<ImportedMaterial, ImportError> {
     let mtl = &found.material;
-    let place = format!("{}: material `{}`", found.library.display(), mtl.name);
+    let place = format!("{}: material `{}`", found.library.shown(), mtl.name);
     let mut maps = Maps { found, place: &place, reader, images, report };
     let mut out = ImportedMaterial::named(mtl.name.clone());
     out.metallic = 0.0;
@@ -364,7 +372,8 @@ impl Maps<'_, '_, '_> {
             (own, None) => own,
             (ColorSpace::Data, Some(said)) => {
                 if said == ColorSpace::Srgb {
-                    let message = format!("-colorspace of `{written}` is not used: it has no colours");
+                    let message =
+                        format!("-colorspace of `{written}` is not used: it has no colours");
                     self.report.warn(self.place, message);
                 }
                 ColorSpace::Data
@@ -377,7 +386,7 @@ impl Maps<'_, '_, '_> {
             self.report.warn(self.place, format!("there is no image `{name}`"));
             return Ok(None);
         };
-        let place = path.display().to_string();
+        let place = path.shown().to_string();
         if let Some(image) = self.images.find_place(&place, alpha) {
             return Ok(Some(MapUse { image, space, wrap }));
         }
@@ -392,7 +401,7 @@ impl Maps<'_, '_, '_> {
         let foreign = name.starts_with('/') || name.contains(':');
         let last = name.rsplit('/').next().unwrap_or(name);
         let path = folder.join(if foreign { last } else { name });
-        path.is_file().then_some(path)
+        self.reader.limits.root.has(&path).then_some(path)
     }
 }
 

@@ -7,7 +7,9 @@
 //! state become a [`Tag`]; where the tag of a face differs from the one before, the scanner emits
 //! `o <tag index>`, so that each of `tobj`'s models is uniform and says what it is.
 
+use super::super::budget::Loan;
 use super::super::error::{ErrorKind, ImportError, excerpt};
+use super::super::file::Limits;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::{BufRead, Read};
@@ -18,6 +20,17 @@ const MAX_LINE: usize = 1 << 20;
 const MAX_CORNERS: usize = 4096;
 /// How much cleaned text is prepared at a time.
 const CHUNK: usize = 1 << 16;
+/// Bytes that a position, UV or normal takes: in `tobj`'s list, which doubles as it grows.
+const VALUE_BYTES: u64 = 24;
+/// Bytes that a corner of a face takes at most: `tobj`'s face, its index lists and map, copies of the three values
+/// in its model and here, and the lists of triangles, all of which may have doubled. 110 were measured.
+const CORNER_BYTES: u64 = 160;
+/// Bytes of a model of `tobj` and of its tag.
+const MODEL_BYTES: u64 = 600;
+/// Bytes beside its letters of a name and of the entry by which it is found.
+const NAME_BYTES: u64 = 200;
+/// The budget is asked for so many bytes at once.
+const CHARGE: u64 = 1 << 20;
 
 /// State that all faces of one of `tobj`'s models share.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -80,6 +93,9 @@ pub(super) struct Scanner<'a> {
     /// Counts of `v`, `vt`, `vn` so far.
     defined: [u64; 3],
     max_faces: u64,
+    /// What all of this takes, and what of it is not asked for yet.
+    loan: Loan,
+    due: u64,
     name: PartName,
     state: Tag,
     name_ids: BTreeMap<PartName, u32>,
@@ -95,7 +111,7 @@ fn format_error(message: impl Into<String>) -> Checked {
 }
 
 impl<'a> Scanner<'a> {
-    pub(super) fn new(file: &'a str, bytes: &'a [u8], max_faces: u64) -> Self {
+    pub(super) fn new(file: &'a str, bytes: &'a [u8], limits: &Limits) -> Self {
         let rest = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         let name_ids = BTreeMap::from([(PartName::default(), 0)]);
         let state =
@@ -109,7 +125,9 @@ impl<'a> Scanner<'a> {
             ready: Vec::new(),
             n_read: 0,
             defined: [0; 3],
-            max_faces,
+            max_faces: limits.triangles,
+            loan: limits.memory.nothing(),
+            due: 0,
             name: PartName::default(),
             state,
             name_ids,
@@ -196,6 +214,7 @@ impl<'a> Scanner<'a> {
             b"usemtl" => self.use_material(rest),
             b"mtllib" => {
                 let name = self.text(rest);
+                self.charge(NAME_BYTES + 4 * name.len() as u64)?;
                 self.out.libraries.push((name, self.line));
                 Ok(())
             }
@@ -248,7 +267,23 @@ impl<'a> Scanner<'a> {
         self.define(2)
     }
 
+    /// Takes memory before `tobj` does.
+    fn charge(&mut self, bytes: u64) -> Checked {
+        self.due += bytes;
+        if self.due < CHARGE {
+            return Ok(());
+        }
+        let due = std::mem::take(&mut self.due);
+        self.loan.more(due, "").map_err(|error| (error.kind, error.message))
+    }
+
+    /// What reading took.
+    pub(super) fn finish(self) -> (Scanned, Loan) {
+        (self.out, self.loan)
+    }
+
     fn define(&mut self, which: usize) -> Checked {
+        self.charge(VALUE_BYTES)?;
         self.defined[which] += 1;
         if self.defined[which] >= u64::from(u32::MAX) {
             return Err((ErrorKind::Limit, "more than 2^32 values of one kind".to_owned()));
@@ -282,6 +317,7 @@ impl<'a> Scanner<'a> {
         if self.out.n_faces >= self.max_faces {
             return Err((ErrorKind::Limit, format!("more than {} faces", self.max_faces)));
         }
+        self.charge(n_corners as u64 * CORNER_BYTES)?;
         let dangles = [1, 2].map(|which| has[which] && self.defined[which] == 0);
         let has = [has[1] && !dangles[0], has[2] && !dangles[1]];
         let tag = Tag { has_uv: has[0], has_normal: has[1], ..self.state.clone() };
@@ -289,6 +325,7 @@ impl<'a> Scanner<'a> {
             let opening = format!("o {}\n", self.out.tags.len());
             self.ready.extend_from_slice(opening.as_bytes());
             self.out.tags.push((tag, self.out.n_faces));
+            self.charge(MODEL_BYTES)?;
         }
         if dangles == [false; 2] {
             self.pass(b"f", rest);
@@ -354,6 +391,8 @@ impl<'a> Scanner<'a> {
         self.state.name = if let Some(id) = self.name_ids.get(&self.name) {
             *id
         } else {
+            let letters = self.name.object.len() + self.name.groups.len();
+            self.charge(NAME_BYTES + 4 * letters as u64)?;
             self.name_ids.insert(self.name.clone(), next);
             self.out.names.push(self.name.clone());
             next
@@ -369,6 +408,9 @@ impl<'a> Scanner<'a> {
         }
         let next = u32::try_from(self.out.materials.len())
             .map_err(|_| (ErrorKind::Limit, "more than 2^32 materials".to_owned()))?;
+        if !self.material_ids.contains_key(&name) {
+            self.charge(NAME_BYTES + 4 * name.len() as u64)?;
+        }
         let id = *self.material_ids.entry(name.clone()).or_insert(next);
         if id == next {
             self.out.materials.push((name, self.line));
