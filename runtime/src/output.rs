@@ -54,7 +54,7 @@ pub struct Meta {
 /// A picture that cannot be read or written.
 #[derive(Debug, Error)]
 pub enum OutputError {
-    /// The file cannot be created, written or renamed.
+    /// The file cannot be opened, created, written or renamed.
     #[error(transparent)]
     Write(files::FileError),
     /// The encoder refused.

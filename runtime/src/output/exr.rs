@@ -8,18 +8,22 @@
 use super::{Meta, OutputError, Picture, parse_ranges, ranges_text};
 use crate::film::{BadSample, Counters, Film};
 use crate::region::{Rect, SampleRange};
+use ::exr::meta::MetaData;
 use ::exr::prelude::attribute::Chromaticities;
 use ::exr::prelude::{
     AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image, IntegerBounds, Layer,
     LayerAttributes, ReadChannels as _, ReadLayers as _, Text, Vec2, WritableImage as _,
 };
-use std::io::Cursor;
+use std::io::{BufReader, Cursor};
 use std::path::Path;
 
 const COLOURS: [&str; 3] = ["R", "G", "B"];
 const RESIDUALS: [&str; 3] = ["residual.R", "residual.G", "residual.B"];
 const SAMPLES: &str = "samples";
 const VARIANCE: &str = "variance.Y";
+
+/// Bytes that one byte can stand for: deflate stores at most 1032, the other lossless compressions less.
+const MOST_DEFLATED: u64 = 1032;
 
 /// Chromaticities of Rec. 709 with white D65: red, green, blue, white.
 const REC_709: [[f32; 2]; 4] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06], [0.3127, 0.3290]];
@@ -115,6 +119,7 @@ fn attributes_of(picture: &Picture) -> Vec<(Text, AttributeValue)> {
 
 /// Reads what `encode_exr` made.
 pub fn read_exr(path: &Path) -> Result<Picture, OutputError> {
+    check_claims(path)?;
     let image = ::exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
@@ -127,6 +132,32 @@ pub fn read_exr(path: &Path) -> Result<Picture, OutputError> {
     let fields = Fields { layer: &image.layer_data.attributes };
     let (film, meta) = parse(&image, &fields).map_err(foreign)?;
     Ok(Picture { film, meta })
+}
+
+/// Before memory is taken: whether the file can hold the pixels that it claims, and holds them without loss. Sums are
+/// to be gone on with, and decoders of what is lossy are the ones that damaged files confuse.
+fn check_claims(path: &Path) -> Result<(), OutputError> {
+    let read = |message: String| OutputError::Read { path: path.to_owned(), message };
+    let foreign = |message: String| OutputError::Foreign { path: path.to_owned(), message };
+    let file = files::open_regular(path).map_err(OutputError::Write)?;
+    let length = file.metadata().map_err(|error| read(error.to_string()))?.len();
+    let meta = MetaData::read_from_buffered(BufReader::new(file), false)
+        .map_err(|error| read(error.to_string()))?;
+    for header in &meta.headers {
+        if header.compression.may_loose_data() {
+            return Err(foreign(format!("it is compressed with loss ({})", header.compression)));
+        }
+        let [width, height] = [header.layer_size.x(), header.layer_size.y()];
+        let bytes = [height, header.channels.bytes_per_pixel]
+            .iter()
+            .fold(width as u64, |product, factor| product.saturating_mul(*factor as u64));
+        if bytes / MOST_DEFLATED > length {
+            return Err(read(format!(
+                "it claims {width}x{height} pixels, more than its {length} bytes can hold"
+            )));
+        }
+    }
+    Ok(())
 }
 
 type ReadImage = Image<Layer<AnyChannels<FlatSamples>>>;
