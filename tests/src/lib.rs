@@ -12,6 +12,7 @@ pub mod console;
 pub mod corrections;
 pub mod edits;
 pub mod features;
+pub mod fuzz;
 pub mod kernel;
 pub mod layers;
 pub mod picture;
