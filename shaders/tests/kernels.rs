@@ -1,9 +1,16 @@
 //! Every kernel that features can make: valid, without dead code or dead bindings, made of exact
-//! arithmetic, and translatable for every kind of device.
+//! arithmetic in forms that drivers keep (see `rewrites/forms.rs`), and translatable for every kind of device.
 
 mod common;
+#[path = "rewrites/forms.rs"]
+mod forms;
+#[path = "rewrites/planted.rs"]
+mod planted;
+#[path = "rewrites/values.rs"]
+mod values;
 
 use common::feature_sets;
+use forms::rewrites;
 use naga::valid::ModuleInfo;
 use naga::{Expression, Function, Handle, MathFunction, Module, Statement};
 use shaders::{FeatureSet, check_layouts, link, validate};
@@ -14,31 +21,48 @@ fn kernel(name: &str, features: &FeatureSet) -> (Module, ModuleInfo) {
     validate(&linked).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
+/// Linking and validating is most of the work: every kernel is made once, for all that is asked of it.
 #[test]
 fn every_single_feature_and_every_pair_is_sound() {
     let sets = feature_sets();
     assert!(sets.len() > 200, "only {} different kernels", sets.len());
-    for (name, features) in &sets {
-        let (module, _) = kernel(name, features);
-        check_layouts(&module).unwrap_or_else(|e| panic!("{name}: {e}"));
-        check_no_dead_code(name, features, &module);
-        check_arithmetic(name, &module);
-    }
+    let n_threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let forms: BTreeSet<_> = std::thread::scope(|scope| {
+        let check = |first: usize| {
+            let own = sets.iter().skip(first).step_by(n_threads);
+            own.flat_map(|(name, features)| check_kernel(name, features)).collect::<Vec<_>>()
+        };
+        let threads: Vec<_> =
+            (0..n_threads).map(|first| scope.spawn(move || check(first))).collect();
+        threads
+            .into_iter()
+            .flat_map(|thread| thread.join().expect("every kernel is sound"))
+            .collect()
+    });
+    assert!(forms.is_empty(), "forms that drivers rewrite: {forms:#?}");
 }
 
-#[test]
-fn kernels_translate_for_vulkan_metal_and_direct3d() {
+/// Function and form of what drivers may compute in another order; everything else is asserted.
+fn check_kernel(name: &str, features: &FeatureSet) -> Vec<(String, String)> {
+    let (module, info) = kernel(name, features);
+    check_layouts(&module).unwrap_or_else(|e| panic!("{name}: {e}"));
+    check_no_dead_code(name, features, &module);
+    check_arithmetic(name, &module);
     // Translation is slow in a debug build: one kernel for each feature on each geometry is enough, because
     // a pair adds no construct that its members lack.
-    for (name, features) in feature_sets() {
-        let one_feature = name.split(" + ").collect::<BTreeSet<_>>().len() == 1;
-        let halves: Vec<&str> = name.split(" + ").collect();
-        let same_twice = halves.len() == 2 && halves[0].ends_with(halves[1]);
-        if one_feature || same_twice {
-            let (module, info) = kernel(&name, &features);
-            translate(&name, &module, &info);
-        }
+    let one_feature = name.split(" + ").collect::<BTreeSet<_>>().len() == 1;
+    let halves: Vec<&str> = name.split(" + ").collect();
+    let same_twice = halves.len() == 2 && halves[0].ends_with(halves[1]);
+    if one_feature || same_twice {
+        translate(name, &module, &info);
     }
+    let form = |form: String| {
+        // The number of the expression differs from kernel to kernel, the function does not.
+        let function = form.split(' ').next().unwrap_or_default().to_owned();
+        let what = form.split_once(": ").map_or(form.as_str(), |parts| parts.1).to_owned();
+        (function, what)
+    };
+    rewrites(&module, &info).into_iter().map(form).collect()
 }
 
 fn translate(name: &str, module: &Module, info: &ModuleInfo) {

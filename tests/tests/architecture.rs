@@ -66,3 +66,46 @@ fn a_forbidden_arrow_is_caught() {
     let found = BTreeSet::from(["lang".to_string(), "pack".to_string()]);
     assert_eq!(forbidden(&found, &["pack", "wgpu"]), ["lang"]);
 }
+
+/// Crates whose comments hold no examples say so, which spares rustdoc a pass over each of them.
+#[test]
+fn examples_in_comments_are_run() {
+    for package in &metadata().packages {
+        let library = package.targets.iter().find(|target| target.is_lib()).expect("a library");
+        let folder = library.src_path.parent().expect("src");
+        assert!(
+            library.doctest || !has_example(folder.as_std_path()),
+            "`{}`: `doctest = false`",
+            package.name
+        );
+    }
+}
+
+/// Whether a comment holds Rust that rustdoc would run.
+fn has_example(folder: &std::path::Path) -> bool {
+    std::fs::read_dir(folder).expect("a folder of sources").any(|entry| {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            return has_example(&path);
+        }
+        let text = std::fs::read_to_string(&path).unwrap_or_default();
+        let is_rust = path.extension().is_some_and(|extension| extension == "rs");
+        is_rust && holds_example(&text)
+    })
+}
+
+fn holds_example(text: &str) -> bool {
+    let comments = text.lines().filter_map(|line| {
+        let line = line.trim_start();
+        line.strip_prefix("///").or_else(|| line.strip_prefix("//!"))
+    });
+    // Every second fence closes a block.
+    let fences = comments.filter_map(|line| line.trim_start().strip_prefix("```"));
+    fences.step_by(2).any(|kind| ["", "rust", "no_run", "should_panic"].contains(&kind.trim()))
+}
+
+#[test]
+fn an_example_is_seen() {
+    assert!(holds_example("/// ```text\n/// x\n/// ```\n/// ```no_run\n/// f();\n/// ```\n"));
+    assert!(!holds_example("/// ```text\n/// x\n/// ```\nlet a = \"```\";\n"));
+}
