@@ -188,6 +188,19 @@ where
             return if error.use_stderr() { USAGE } else { OK };
         }
     };
+    let wanted = match &cli.command {
+        Command::Build(args) => args.threads,
+        _ => None,
+    };
+    if let Err(error) = host::start_pool(wanted) {
+        let report = ReportArgs {
+            error_format: ErrorFormat::default(),
+            color: Color::default(),
+            max_errors: 1,
+        };
+        report.reporter().failure(&error.to_string());
+        return IO;
+    }
     match cli.command {
         Command::Build(args) => build::build(&args),
         Command::Check(args) => build::check(&args),

@@ -12,7 +12,7 @@ use crate::film::Film;
 use crate::gpu::{Adapter, GpuError, Ready, adapters};
 use crate::job::Job;
 use crate::render::{DeviceChoice, RenderError, render};
-use crate::run::Run;
+use crate::run::{Framing, Run};
 use crate::scene::{Scene, Setup};
 use crate::schedule::Stop;
 use crate::trust::{FULL, Trust, Wanted, is_same, judge, relink};
@@ -352,9 +352,9 @@ impl<'a> Bench<'a> {
         let reference = Some(Arc::new(Reference::of(&film)));
         let measure = Some(Measure { reference, ..Measure::default() });
         let second = Job { measure, seed: job.seed ^ OTHER_NOISE, ..job.clone() };
-        let run = Run::new(&second, control, None, None);
+        let run = new_run(&second, control)?;
         other.render(&scene.setup(&second).with_kernel(text), &run)?;
-        let convergence = run.finish().convergence;
+        let convergence = run.finish().and_then(|finished| finished.convergence);
         let last = convergence.and_then(|convergence| convergence.points.last().copied());
         Ok(last.and_then(|point| point.versus).and_then(|versus| versus.z))
     }
@@ -366,10 +366,14 @@ fn timed(
     job: &Job,
     control: &Control,
 ) -> Result<(Duration, Film), AblationError> {
-    let run = Run::new(job, control, None, None);
+    let run = new_run(job, control)?;
     ready.render(setup, &run)?;
-    let finished = run.finish();
+    let finished = run.finish().ok_or(RenderError::Salvaged)?;
     Ok((finished.elapsed, finished.film))
+}
+
+fn new_run<'a>(job: &Job, control: &'a Control) -> Result<Run<'a>, RenderError> {
+    Ok(Run::new(job, control, None, Framing::default())?)
 }
 
 /// Pixels whose bits are not the same.

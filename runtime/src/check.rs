@@ -167,7 +167,7 @@ pub fn replay(scene: &Scene, job: &Job, at: BadSample) -> Result<[Sample; 2], Ch
     room(&setup)?;
     let frame = frame(&setup, job);
     let pixel = [at.x, at.y];
-    Ok([
+    let mut pair = [
         path::single::sample(
             &mut path::single::open(&setup, &frame),
             pixel,
@@ -182,7 +182,12 @@ pub fn replay(scene: &Scene, job: &Job, at: BadSample) -> Result<[Sample; 2], Ch
             job.seed,
             true,
         ),
-    ])
+    ];
+    let (scale, center) = (scene.settings().scale(), scene.settings().center());
+    for step in pair.iter_mut().flat_map(|sample| &mut sample.steps) {
+        *step = step.in_world(scale, center);
+    }
+    Ok(pair)
 }
 
 fn room(setup: &Setup<'_>) -> Result<(), CheckError> {

@@ -17,6 +17,7 @@
 
 use crate::film::{Counters, Film};
 use crate::job::{Job, MAX_PIXELS};
+use crate::memory::NoMemory;
 use crate::output::{Identity, parse_bad, parse_ranges, ranges_text};
 use crate::region::{Rect, SampleRange};
 use crate::scene::Scene;
@@ -24,7 +25,7 @@ use files::{FileError, ShowPath as _};
 use pack::abi::BATCH;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::io::{self, Read as _};
+use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -56,13 +57,11 @@ pub struct Checkpoint {
 #[derive(Debug, Error)]
 pub enum CheckpointError {
     /// The file cannot be read.
-    #[error("cannot read {}: {source}", path.shown())]
-    Io {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The file is larger than the memory.
+    #[error(transparent)]
+    Memory(#[from] NoMemory),
     /// Not the beginning of a checkpoint, or one of another layout.
     #[error("{} is not a checkpoint of this rtr", path.shown())]
     NotOne {
@@ -110,10 +109,13 @@ impl Checkpoint {
 
     /// The checkpoint in `path`; `None` when there is no such file.
     pub fn read(path: &Path) -> Result<Option<Self>, CheckpointError> {
-        let bytes = match read_limited(path) {
+        let most = (HEADER + MAX_TEXT) as u64 + 24 * MAX_PIXELS;
+        let bytes = match files::read(path, most) {
             Ok(bytes) => bytes,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-            Err(source) => return Err(CheckpointError::Io { path: path.to_owned(), source }),
+            Err(FileError::Io { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
+                return Ok(None);
+            }
+            Err(error) => return Err(error.into()),
         };
         decode(&bytes).map(Some).map_err(|fault| fault.of(path))
     }
@@ -188,32 +190,19 @@ fn checksum(head: &[u8], text: &[u8], sums: &[u8]) -> blake3::Hash {
     hasher.finalize()
 }
 
-/// The whole file, if it is not longer than any checkpoint.
-fn read_limited(path: &Path) -> io::Result<Vec<u8>> {
-    let most = (HEADER + MAX_TEXT) as u64 + 24 * MAX_PIXELS;
-    let file = std::fs::File::open(path)?;
-    let len = file.metadata()?.len();
-    if len > most {
-        return Err(io::Error::other("it is longer than any checkpoint"));
-    }
-    let mut bytes = Vec::new();
-    let capacity = usize::try_from(len).map_err(|_| io::ErrorKind::OutOfMemory)?;
-    bytes.try_reserve_exact(capacity).map_err(|_| io::ErrorKind::OutOfMemory)?;
-    file.take(most).read_to_end(&mut bytes)?;
-    Ok(bytes)
-}
-
 /// What is wrong with the bytes.
 enum Fault {
     NotOne,
     Damaged(&'static str),
     Rtr(String),
+    Memory(NoMemory),
 }
 
 impl Fault {
     fn of(self, path: &Path) -> CheckpointError {
         let path = path.to_owned();
         match self {
+            Self::Memory(error) => error.into(),
             Self::NotOne => CheckpointError::NotOne { path },
             Self::Damaged(what) => CheckpointError::Damaged { path, what },
             Self::Rtr(found) => {
@@ -249,10 +238,12 @@ fn decode(bytes: &[u8]) -> Result<Checkpoint, Fault> {
         Some(&RTR) => {}
         found => return Err(Fault::Rtr((*found.unwrap_or(&"none")).to_owned())),
     }
-    parse(&lines, sums).ok_or(Fault::Damaged("its text is malformed"))
+    let parsed = parse(&lines, sums).ok_or(Fault::Damaged("its text is malformed"))?;
+    parsed.map_err(Fault::Memory)
 }
 
-fn parse(lines: &BTreeMap<&str, &str>, bytes: &[u8]) -> Option<Checkpoint> {
+/// `None`: malformed.
+fn parse(lines: &BTreeMap<&str, &str>, bytes: &[u8]) -> Option<Result<Checkpoint, NoMemory>> {
     let number = |name: &str| lines.get(name)?.parse::<u64>().ok();
     let small = |name: &str| lines.get(name)?.parse::<u32>().ok();
     let numbers = |name: &str, by: char| -> Option<Vec<u32>> {
@@ -266,7 +257,10 @@ fn parse(lines: &BTreeMap<&str, &str>, bytes: &[u8]) -> Option<Checkpoint> {
     if !fits || bytes.len() as u64 != 24 * crop.pixels() {
         return None;
     }
-    let mut film = Film::new(image_size, crop);
+    let mut film = match Film::try_new(image_size, crop) {
+        Ok(film) => film,
+        Err(error) => return Some(Err(error)),
+    };
     film.ranges = parse_ranges(lines.get("done")?)?;
     film.counts.fill(film.ranges.iter().map(|range| range.count()).sum());
     bytemuck::cast_slice_mut(&mut film.sums).copy_from_slice(bytes);
@@ -289,13 +283,13 @@ fn parse(lines: &BTreeMap<&str, &str>, bytes: &[u8]) -> Option<Checkpoint> {
     let device = (*lines.get("device")?).to_owned();
     let seconds = lines.get("seconds")?.parse().ok().filter(|s: &f64| *s >= 0.0)?;
     let seconds = f64::min(seconds, 1e12);
-    Checkpoint::can_hold(&film, samples).then_some(Checkpoint {
+    Checkpoint::can_hold(&film, samples).then_some(Ok(Checkpoint {
         identity,
         samples,
         film,
         device,
         seconds,
-    })
+    }))
 }
 
 #[cfg(test)]

@@ -47,6 +47,15 @@ pub fn run(args: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> ExitC
             return code(if usage { Exit::Usage } else { Exit::Done });
         }
     };
+    let wanted = match &args.command {
+        Some(Command::Merge(_)) => None,
+        Some(Command::Bench(bench)) => bench.threads,
+        Some(Command::Check(check)) => check.threads,
+        None => args.render.threads,
+    };
+    if let Err(error) = host::start_pool(wanted) {
+        return code(Console::new(false).fail(&error, Exit::World));
+    }
     let exit = match &args.command {
         Some(Command::Merge(merge)) => merge_command(merge),
         Some(Command::Bench(bench)) => bench::command(bench),
@@ -66,7 +75,7 @@ fn code(exit: Exit) -> ExitCode {
 
 fn list_devices() -> Exit {
     let console = Console::new(false);
-    let threads = rayon::current_num_threads();
+    let threads = host::threads();
     console.result(&format!("cpu: CPU kernel ({threads} threads)"));
     #[cfg(feature = "gpu")]
     {

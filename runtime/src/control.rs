@@ -1,6 +1,9 @@
 //! What a run and its owner tell each other while it goes on: progress, notes, the wish to stop.
 
+use crate::render::Outcome;
+use crate::run::Shared;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Shared between a run and whoever watches it. Counters only grow.
 pub struct Control {
@@ -11,6 +14,10 @@ pub struct Control {
     rays: AtomicU64,
     /// See `break_block`; 0 is never.
     broken_block: AtomicU64,
+    /// See `stall_block`; 0 is never.
+    stalled_block: AtomicU64,
+    /// The run, while it goes on.
+    run: Mutex<Option<Arc<Shared>>>,
     /// See `lose_device`.
     lost_after: AtomicU64,
     losses: AtomicU64,
@@ -49,6 +56,8 @@ impl Control {
             before: AtomicU64::new(0),
             rays: AtomicU64::new(0),
             broken_block: AtomicU64::new(0),
+            stalled_block: AtomicU64::new(0),
+            run: Mutex::new(None),
             lost_after: AtomicU64::new(0),
             losses: AtomicU64::new(0),
             untimed: AtomicBool::new(false),
@@ -67,6 +76,29 @@ impl Control {
         self.cancel.load(Ordering::Relaxed)
     }
 
+    /// Whether the run should have ended for its time limit: 10 % or one second ago, whatever is longer.
+    #[must_use]
+    pub fn is_overdue(&self) -> bool {
+        self.run().is_some_and(|run| run.is_overdue())
+    }
+
+    /// Takes what is complete out of a run that does not end, because a block of the kernel or a driver
+    /// does not come back, and saves it where the run was to be saved. It waits for neither. `None` when
+    /// there is no run, or it has just ended by itself. The run is over with that: should it come back
+    /// after all, it gives `RenderError::Salvaged`.
+    #[must_use]
+    pub fn salvage(&self) -> Option<Outcome> {
+        self.run()?.salvage(self)
+    }
+
+    fn run(&self) -> Option<Arc<Shared>> {
+        self.run.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    pub(crate) fn set_run(&self, run: Option<Arc<Shared>>) {
+        *self.run.lock().unwrap_or_else(PoisonError::into_inner) = run;
+    }
+
     /// How far the run is.
     #[must_use]
     pub fn progress(&self) -> Progress {
@@ -83,6 +115,12 @@ impl Control {
     #[doc(hidden)]
     pub fn break_block(&self, n: u64) {
         self.broken_block.store(n, Ordering::Relaxed);
+    }
+
+    /// For tests: the `n`th block from now, counted from 1, never comes back; on a GPU the `n`th submission.
+    #[doc(hidden)]
+    pub fn stall_block(&self, n: u64) {
+        self.stalled_block.store(n, Ordering::Relaxed);
     }
 
     /// For tests: the next `times` GPU devices are lost after `n` tiles each.
@@ -107,6 +145,16 @@ impl Control {
     pub(crate) fn breaks_now(&self) -> bool {
         let left = |n: u64| n.checked_sub(1);
         self.broken_block.fetch_update(Ordering::Relaxed, Ordering::Relaxed, left) == Ok(1)
+    }
+
+    /// Never comes back if the block that begins now is the one to stall.
+    pub(crate) fn stall_if_asked(&self) {
+        let left = |n: u64| n.checked_sub(1);
+        if self.stalled_block.fetch_update(Ordering::Relaxed, Ordering::Relaxed, left) == Ok(1) {
+            loop {
+                std::thread::park();
+            }
+        }
     }
 
     /// Whether a device that has rendered `n` tiles is to be lost now.

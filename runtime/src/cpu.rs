@@ -61,10 +61,16 @@ impl<'a> Inputs<'a> {
     }
 }
 
-/// Renders the tile of the frame: one `FilmPixel`, two words, for each pixel.
+/// Renders the tile of the frame: one `FilmPixel`, two words, for each pixel. Whether it came to the end of it,
+/// which it does unless `is_over` says so after a pixel.
 macro_rules! tile_function {
     ($name:ident, $kernel:ident) => {
-        fn $name(inputs: Inputs<'_>, size: [u32; 2], film: &mut [UVec4]) {
+        fn $name(
+            inputs: Inputs<'_>,
+            size: [u32; 2],
+            film: &mut [UVec4],
+            is_over: &dyn Fn() -> bool,
+        ) -> bool {
             let mut kernel = kernel::$kernel::Kernel::new(kernel::$kernel::Bindings {
                 frame_words: inputs.frame,
                 film_words: film,
@@ -77,16 +83,20 @@ macro_rules! tile_function {
             });
             for y in 0..size[1] {
                 for x in 0..size[0] {
+                    if is_over() {
+                        return false;
+                    }
                     kernel.render(UVec3::new(x, y, 0));
                 }
             }
+            true
         }
     };
 }
 tile_function!(render_f32, f32);
 tile_function!(render_f64, f64);
 
-type RenderTile = fn(Inputs<'_>, [u32; 2], &mut [UVec4]);
+type RenderTile = fn(Inputs<'_>, [u32; 2], &mut [UVec4], &dyn Fn() -> bool) -> bool;
 
 /// Renders until the run has nothing left.
 pub(crate) fn render(setup: &Setup<'_>, job: &Job, run: &Run<'_>) -> Result<(), CpuError> {
@@ -131,16 +141,18 @@ pub(crate) fn render_item(
     check_stack(setup)?;
     let Rect { y, w, h, .. } = item.tile;
     let mut pixels = vec![FilmPixel::default(); w as usize * h as usize];
+    let is_over = || run.is_broken_off();
     let render = || {
-        pixels.par_chunks_mut(w as usize).zip(y..y + h).for_each(|(row, y)| {
+        pixels.par_chunks_mut(w as usize).zip(y..y + h).all(|(row, y)| {
             let tile = Rect { y, h: 1, ..item.tile };
             let frame = setup.frame(&WorkItem { tile, ..*item });
-            render_f32(Inputs::new(setup, &frame), [w, 1], bytemuck::cast_slice_mut(row));
-        });
+            render_f32(Inputs::new(setup, &frame), [w, 1], bytemuck::cast_slice_mut(row), &is_over)
+        })
     };
     // As in `worker`.
     match catch_unwind(AssertUnwindSafe(render)) {
-        Ok(()) => run.deposit(item, &pixels),
+        Ok(true) => run.deposit(item, &pixels),
+        Ok(false) => run.give_back(*item),
         Err(panic) => run.fail(item, panic_text(panic.as_ref())),
     }
     Ok(())
@@ -157,13 +169,16 @@ fn worker(tile: RenderTile, setup: &Setup<'_>, run: &Run<'_>) {
         let inputs = Inputs::new(setup, &frame);
         let film = bytemuck::cast_slice_mut(&mut pixels);
         let size = [item.tile.w, item.tile.h];
+        let is_over = || run.is_broken_off();
         let render = || {
             assert!(!run.control().breaks_now(), "broken for a test");
-            tile(inputs, size, film);
+            run.control().stall_if_asked();
+            tile(inputs, size, film, &is_over)
         };
         // Only `pixels` is written, and a failed block is not read.
         match catch_unwind(AssertUnwindSafe(render)) {
-            Ok(()) => run.deposit(&item, &pixels),
+            Ok(true) => run.deposit(&item, &pixels),
+            Ok(false) => run.give_back(item),
             Err(panic) => run.fail(&item, panic_text(panic.as_ref())),
         }
     }
@@ -178,7 +193,7 @@ pub(crate) fn panic_text(panic: &(dyn Any + Send)) -> String {
 
 /// One line for the user.
 pub(crate) fn name(job: &Job) -> String {
-    let threads = job.threads.filter(|n| *n > 0).unwrap_or_else(rayon::current_num_threads);
+    let threads = job.threads.filter(|n| *n > 0).unwrap_or_else(host::threads);
     let plural = if threads == 1 { "" } else { "s" };
     format!("CPU kernel ({}, {threads} thread{plural})", job.precision.name())
 }

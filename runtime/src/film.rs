@@ -5,6 +5,7 @@
 //! evenly sampled at every moment. It does not know devices or files.
 
 use crate::convergence::{REPLICATES, REPLICATES_U32, luminance, moments};
+use crate::memory::{NoMemory, zeros};
 use crate::region::{Rect, SampleRange, insert_range};
 use crate::schedule::WorkItem;
 use pack::abi::FilmPixel;
@@ -94,16 +95,38 @@ impl Film {
     /// A film without samples.
     #[must_use]
     pub fn new(image_size: [u32; 2], region: Rect) -> Self {
-        let n = usize::try_from(region.pixels()).expect("a film fits the address space");
+        Self::try_new(image_size, region).expect("there is memory; where not, use `try_new`")
+    }
+
+    /// A film without samples, when there is memory for it.
+    pub fn try_new(image_size: [u32; 2], region: Rect) -> Result<Self, NoMemory> {
+        let n = region.pixels();
+        Ok(Self { sums: zeros(n)?, counts: zeros(n)?, ..Self::without_pixels(image_size, region) })
+    }
+
+    /// What is left of a film whose pixels were taken.
+    fn without_pixels(image_size: [u32; 2], region: Rect) -> Self {
         Self {
             image_size,
             region,
             ranges: Vec::new(),
-            sums: vec![[0.0; 3]; n],
-            counts: vec![0; n],
+            sums: Vec::new(),
+            counts: Vec::new(),
             counters: Counters::default(),
             variance: Vec::new(),
         }
+    }
+
+    /// A copy, when there is memory for it.
+    pub(crate) fn try_clone(&self) -> Result<Self, NoMemory> {
+        Ok(Self {
+            ranges: self.ranges.clone(),
+            sums: copied(&self.sums)?,
+            counts: copied(&self.counts)?,
+            counters: self.counters,
+            variance: copied(&self.variance)?,
+            ..Self::without_pixels(self.image_size, self.region)
+        })
     }
 
     /// Pictures of independent noise whose mean this is.
@@ -151,6 +174,13 @@ impl Film {
     }
 }
 
+fn copied<T: Copy>(from: &[T]) -> Result<Vec<T>, NoMemory> {
+    let mut to = Vec::new();
+    to.try_reserve_exact(from.len()).map_err(|_| NoMemory { bytes: size_of_val(from) as u64 })?;
+    to.extend_from_slice(from);
+    Ok(to)
+}
+
 /// One batch on its way into the film: `f32` sums of the whole region.
 struct Plane {
     samples: SampleRange,
@@ -173,18 +203,55 @@ pub(crate) struct Accumulator {
     lumas: Vec<[f64; REPLICATES]>,
     /// Samples behind each of them.
     per_replicate: u32,
+    /// Batches that may be open at once.
+    most_open: usize,
 }
 
+/// Bytes of open batches, unless a single round of batches takes more: a block that hangs must not make
+/// the others fill the memory with batches that never end.
+const MOST_OPEN: usize = 1 << 28;
+
 impl Accumulator {
-    pub(crate) fn new(film: Film) -> Self {
-        let (open, spare, lumas) = (BTreeMap::new(), Vec::new(), Vec::new());
-        Self { film, open, spare, lumas, per_replicate: 0 }
+    /// With room for a first batch.
+    pub(crate) fn new(film: Film) -> Result<Self, NoMemory> {
+        Self::with(film, Vec::new(), 1)
     }
 
     /// Keeps the replicates apart too, and adds whole rounds of them only.
-    pub(crate) fn in_rounds(mut self) -> Self {
-        self.lumas = vec![[0.0; REPLICATES]; self.film.sums.len()];
-        self
+    pub(crate) fn in_rounds(film: Film) -> Result<Self, NoMemory> {
+        let lumas = zeros(film.region.pixels())?;
+        Self::with(film, lumas, REPLICATES)
+    }
+
+    fn with(film: Film, lumas: Vec<[f64; REPLICATES]>, first: usize) -> Result<Self, NoMemory> {
+        let n = film.region.pixels();
+        let spare = (0..first).map(|_| zeros(n)).collect::<Result<_, _>>()?;
+        let each = film.sums.len() * size_of::<[f32; 3]>();
+        let most_open = (MOST_OPEN / each.max(1)).max(first);
+        Ok(Self { film, open: BTreeMap::new(), spare, lumas, per_replicate: 0, most_open })
+    }
+
+    /// What is complete, and nothing of it stays here.
+    pub(crate) fn take(&mut self) -> Self {
+        let Film { image_size, region, .. } = self.film;
+        let film = Film::without_pixels(image_size, region);
+        let nothing = Self {
+            film,
+            open: BTreeMap::new(),
+            spare: Vec::new(),
+            lumas: Vec::new(),
+            per_replicate: 0,
+            most_open: 0,
+        };
+        std::mem::replace(self, nothing)
+    }
+
+    /// Whether another batch may be opened now; otherwise when one that is open has ended.
+    pub(crate) fn has_room(&mut self) -> bool {
+        if self.spare.is_empty() && self.open.len() < self.most_open {
+            self.spare.extend(zeros(self.film.region.pixels()));
+        }
+        !self.spare.is_empty()
     }
 
     /// Sums of luminance of each replicate, and the samples behind each sum.
@@ -201,10 +268,10 @@ impl Accumulator {
         &self.film
     }
 
-    /// Announces a batch. Batches must be announced in ascending order, before their first tile.
+    /// Announces a batch, for which there `has_room`. Batches must be announced in ascending order,
+    /// before their first tile.
     pub(crate) fn open(&mut self, samples: SampleRange, replicate: u32) {
-        let n = self.film.sums.len();
-        let sums = self.spare.pop().unwrap_or_else(|| vec![[0.0; 3]; n]);
+        let sums = self.spare.pop().expect("whoever opens a batch has asked for room");
         let left = self.film.region.pixels();
         let plane = Plane { samples, sums, done: Vec::new(), left, counters: Counters::default() };
         self.open.insert((samples.start, replicate), plane);
@@ -362,8 +429,9 @@ mod tests {
     fn the_order_of_tiles_does_not_change_the_film() {
         let batches: Vec<_> = range(0, 64).batches().collect();
         let run = |order: &[usize]| {
-            let mut sum = Accumulator::new(Film::new([20, 10], REGION));
+            let mut sum = Accumulator::new(Film::new([20, 10], REGION)).unwrap();
             for batch in &batches {
+                assert!(sum.has_room());
                 sum.open(*batch, 0);
             }
             for &i in order {
@@ -381,8 +449,9 @@ mod tests {
 
     #[test]
     fn an_unfinished_batch_is_left_out() {
-        let mut sum = Accumulator::new(Film::new([20, 10], REGION));
+        let mut sum = Accumulator::new(Film::new([20, 10], REGION)).unwrap();
         for batch in range(0, 32).batches() {
+            assert!(sum.has_room());
             sum.open(batch, 0);
         }
         sum.deposit(&item(range(0, 16), REGION), &tile(REGION, range(0, 16)));
@@ -393,7 +462,7 @@ mod tests {
 
     #[test]
     fn tiles_of_a_first_batch_that_never_ended_are_kept_and_marked() {
-        let mut sum = Accumulator::new(Film::new([20, 10], REGION));
+        let mut sum = Accumulator::new(Film::new([20, 10], REGION)).unwrap();
         sum.open(range(0, 16), 0);
         sum.deposit(&item(range(0, 16), halves()[1]), &tile(halves()[1], range(0, 16)));
         let film = sum.finish();
@@ -403,7 +472,7 @@ mod tests {
 
     #[test]
     fn a_given_up_tile_does_not_hold_the_others_back() {
-        let mut sum = Accumulator::new(Film::new([20, 10], REGION));
+        let mut sum = Accumulator::new(Film::new([20, 10], REGION)).unwrap();
         sum.open(range(0, 16), 0);
         sum.give_up(&item(range(0, 16), halves()[0]));
         sum.deposit(&item(range(0, 16), halves()[1]), &tile(halves()[1], range(0, 16)));
@@ -413,7 +482,7 @@ mod tests {
     #[test]
     fn the_first_bad_sample_is_the_topmost_of_the_earliest_batch() {
         let run = |order: [usize; 2]| {
-            let mut sum = Accumulator::new(Film::new([20, 10], REGION));
+            let mut sum = Accumulator::new(Film::new([20, 10], REGION)).unwrap();
             sum.open(range(0, 16), 0);
             for i in order {
                 let mut pixels = tile(halves()[i], range(0, 16));
@@ -430,10 +499,27 @@ mod tests {
     }
 
     #[test]
+    fn batches_that_do_not_end_are_not_joined_by_ever_more() {
+        let side = 1 << 13;
+        let film = Film::new([side; 2], Rect::whole([side; 2]));
+        // 805 MB a batch, of which the memory is not touched.
+        let mut sum = Accumulator::new(film).unwrap();
+        assert!(sum.has_room());
+        sum.open(range(0, 16), 0);
+        assert!(!sum.has_room());
+        let mut small = Accumulator::new(Film::new([20, 10], REGION)).unwrap();
+        for batch in range(0, 16 * 99).batches() {
+            assert!(small.has_room());
+            small.open(batch, 0);
+        }
+    }
+
+    #[test]
     fn only_whole_rounds_of_replicates_count() {
-        let mut sum = Accumulator::new(Film::new([20, 10], REGION)).in_rounds();
+        let mut sum = Accumulator::in_rounds(Film::new([20, 10], REGION)).unwrap();
         for (samples, last) in [(range(0, 1), 4), (range(1, 2), 3)] {
             for replicate in 0..4 {
+                assert!(sum.has_room());
                 sum.open(samples, replicate);
             }
             for replicate in 0..last {

@@ -1,6 +1,9 @@
 //! How much memory a film takes, and whether that much is free: before rendering, not in the middle of it.
 //!
-//! How much is free `pack::memory` says; where nothing is known, nothing is refused.
+//! Linux promises memory that it does not have and kills whoever uses it, so an allocation that succeeds says
+//! nothing. It does say what is free, for the machine and for the group that a process is in. Elsewhere
+//! nothing is known, and nothing is refused. A limit of the process (`ulimit -v`) is another matter: what does
+//! not fit into that is refused however small it is.
 
 use crate::convergence::REPLICATES;
 use crate::job::Job;
@@ -17,7 +20,7 @@ const MEASURED: u64 = (size_of::<f64>() * (REPLICATES + 1)) as u64;
 
 /// A film that does not fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("a film of {pixels} pixels takes {} of memory while it is rendered, and {} are free: render less of it with --crop or --size", gigabytes(*need), gigabytes(*free))]
+#[error("a film of {pixels} pixels takes {} of memory while it is rendered, and {} are free: render less of it with --crop or --size", amount(*need), amount(*free))]
 pub struct TooLarge {
     /// Pixels of the film.
     pub pixels: u64,
@@ -25,6 +28,21 @@ pub struct TooLarge {
     pub need: u64,
     /// Bytes that are free.
     pub free: u64,
+}
+
+/// The system gives no memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("the system gives no {} of memory: render less at once with --crop or --size", amount(*bytes))]
+pub struct NoMemory {
+    /// Bytes that were asked for.
+    pub bytes: u64,
+}
+
+/// `n` zeros, whose memory is not touched before it is used.
+pub(crate) fn zeros<T: bytemuck::Zeroable>(n: u64) -> Result<Vec<T>, NoMemory> {
+    let error = NoMemory { bytes: n.saturating_mul(size_of::<T>() as u64) };
+    let n = usize::try_from(n).map_err(|_| error)?;
+    bytemuck::try_zeroed_vec(n).map_err(|()| error)
 }
 
 /// Bytes of memory that the film of `job` takes while it is rendered; `saved`: with a copy of it that is written to
@@ -39,27 +57,53 @@ pub fn film_bytes(job: &Job, saved: bool) -> u64 {
     job.crop.pixels() * pixel
 }
 
+/// Bytes of a pixel while it is written, at most: means, planes of an EXR with residuals, and the file.
+const WRITTEN: u64 = 24 + 24 + 24 + 24;
+/// Bytes of other things that a run needs.
+const REST: u64 = 32 << 20;
+
+/// What is free: on the machine, and of what this process may have.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Free {
+    /// Bytes that this process can use without making others swap, where the system tells.
+    machine: Option<u64>,
+    /// Bytes that it may still ask for, where it is limited.
+    limit: Option<u64>,
+}
+
 /// What is to be said of a film before it is made; nothing of one that most machines have room for.
 ///
 /// # Errors
-/// When it is large, and larger than what is `free`.
-pub(crate) fn announce(
-    job: &Job,
-    saved: bool,
-    free: Option<u64>,
-) -> Result<Option<String>, TooLarge> {
+/// When it is large, and larger than what is free; when it does not fit into the limit of the process, be it while
+/// it is rendered or while it is written.
+pub(crate) fn announce(job: &Job, saved: bool, free: Free) -> Result<Option<String>, TooLarge> {
     let (need, pixels) = (film_bytes(job, saved), job.crop.pixels());
+    if let Some(free) = free.limit {
+        let need = need.max(pixels * (KEPT + WRITTEN)) + REST;
+        if need > free {
+            return Err(TooLarge { pixels, need, free });
+        }
+    }
+    let free = free.machine;
     if need < LARGE {
         return Ok(None);
     }
     match free {
         Some(free) if need > free => Err(TooLarge { pixels, need, free }),
-        _ => Ok(Some(format!("the film takes {} of memory while it is rendered", gigabytes(need)))),
+        _ => Ok(Some(format!("the film takes {} of memory while it is rendered", amount(need)))),
     }
 }
 
-fn gigabytes(bytes: u64) -> String {
+fn amount(bytes: u64) -> String {
+    if bytes < 1_000_000_000 {
+        return format!("{} MB", bytes / 1_000_000);
+    }
     format!("{:.1} GB", bytes as f64 / 1e9)
+}
+
+/// What is free now.
+pub(crate) fn free() -> Free {
+    Free { machine: host::machine(), limit: host::room().map(|room| room.free) }
 }
 
 #[cfg(test)]
@@ -90,15 +134,16 @@ mod tests {
     fn large_films_are_announced_and_those_that_do_not_fit_are_refused() {
         let large = job(16_384, None);
         assert_eq!(film_bytes(&large, false), 40 << 28);
-        let said = announce(&large, false, Some(11 << 30)).expect("it fits");
+        let free = |machine: u64| Free { machine: Some(machine), limit: None };
+        let said = announce(&large, false, free(11 << 30)).expect("it fits");
         assert_eq!(said.as_deref(), Some("the film takes 10.7 GB of memory while it is rendered"));
         assert_eq!(
-            announce(&large, false, None),
+            announce(&large, false, Free::default()),
             Ok(said),
             "where nothing is known nothing is refused"
         );
         let error =
-            announce(&large, false, Some(4_000_000_000)).expect_err("it does not fit").to_string();
+            announce(&large, false, free(4_000_000_000)).expect_err("it does not fit").to_string();
         let expected = "a film of 268435456 pixels takes 10.7 GB of memory while it is rendered, and \
             4.0 GB are free: render less of it with --crop or --size";
         assert_eq!(error, expected);
@@ -106,8 +151,22 @@ mod tests {
         // Four more numbers of double precision, their variance, and three more batches.
         assert_eq!(film_bytes(&job(1, Some(Measure::default())), true), 40 + 40 + 36);
         // Small ones are not worth a word, and are never refused; a crop counts by its own pixels.
-        assert_eq!(announce(&job(1920, None), true, Some(1 << 20)), Ok(None));
+        assert_eq!(announce(&job(1920, None), true, free(1 << 20)), Ok(None));
         let part = Job { crop: Rect { x: 0, y: 0, w: 16, h: 16 }, ..large };
-        assert_eq!(announce(&part, true, Some(1 << 20)), Ok(None));
+        assert_eq!(announce(&part, true, free(1 << 20)), Ok(None));
+    }
+
+    #[test]
+    fn a_limit_of_the_process_is_never_passed_however_small_the_film() {
+        let limited = |limit: u64| Free { machine: None, limit: Some(limit) };
+        let job = job(1920, None);
+        let most = 1920 * 1920 * (28 + 96) + (32 << 20);
+        assert_eq!(announce(&job, false, limited(most)), Ok(None));
+        let error = announce(&job, false, limited(most - 1)).expect_err("no room to write it");
+        assert!(
+            error.to_string().contains("takes 490 MB of memory while it is rendered, and 490 MB"),
+            "{error}"
+        );
+        assert!(zeros::<u64>(1 << 60).is_err() && zeros::<u64>(u64::MAX).is_err());
     }
 }

@@ -29,7 +29,7 @@ pub struct Picture {
 }
 
 /// What is known about a picture beside its pixels; all of it is stored in the EXR.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Meta {
     /// Hexadecimal name of what was rendered, from the pack; parts of one picture share it.
     pub render_id: String,
@@ -63,6 +63,9 @@ pub enum OutputError {
         /// The encoder's words.
         message: String,
     },
+    /// The file cannot be opened, or is none.
+    #[error(transparent)]
+    Open(files::FileError),
     /// The file cannot be read as an EXR image.
     #[error("cannot read {}: {message}", path.shown())]
     Read {

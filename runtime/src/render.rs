@@ -5,9 +5,10 @@ use crate::convergence::Convergence;
 use crate::cpu;
 use crate::film::Film;
 use crate::job::{Job, JobError};
-use crate::memory::{self, TooLarge};
+use crate::mark::Mark;
+use crate::memory::{self, NoMemory, TooLarge};
 use crate::output::{Meta, Picture};
-use crate::run::{Run, TileFailure};
+use crate::run::{Framing, Run, Shared, TileFailure};
 use crate::saver::{Saver, Session};
 use crate::scene::Scene;
 use crate::schedule::Stop;
@@ -52,6 +53,12 @@ pub enum RenderError {
     /// The film does not fit into memory.
     #[error(transparent)]
     Memory(#[from] TooLarge),
+    /// The system gives less memory than it says that there is.
+    #[error(transparent)]
+    NoMemory(#[from] NoMemory),
+    /// `Control::salvage` has taken what was complete.
+    #[error("the run was ended from outside")]
+    Salvaged,
     /// No adapter is what was asked for.
     #[error("{0}")]
     NoDevice(String),
@@ -72,6 +79,8 @@ pub struct Outcome {
     pub elapsed: Duration,
     /// Whether a checkpoint was written.
     pub saved: bool,
+    /// The checkpoint of this run: the one that it wrote last, or the one that it goes on from.
+    pub checkpoint: Option<Mark>,
     /// The error curve, of a run that was measured.
     pub convergence: Option<Convergence>,
 }
@@ -114,62 +123,59 @@ pub fn render_session(
     let Session { from, keep } = session;
     // A run that is measured has four pictures to keep, which no checkpoint holds.
     let (from, keep) = if job.measure.is_some() { (None, None) } else { (from, keep) };
-    if let Some(text) = memory::announce(job, keep.is_some(), pack::memory::free())? {
+    if let Some(text) = memory::announce(job, keep.is_some(), memory::free())? {
         control.note(&text);
     }
-    let saver = keep.as_ref().map(|keep| Saver::new(keep, scene, job, from.as_ref()));
-    let mut names: Vec<String> = Vec::new();
-    let mut before = Duration::ZERO;
+    let mut frame = Framing {
+        meta: meta(scene, job),
+        saver: keep.map(|keep| Saver::new(keep, scene, job, from.as_ref())),
+        ..Framing::default()
+    };
     let film = from.map(|from| {
-        before = Duration::try_from_secs_f64(from.seconds).unwrap_or_default();
-        names = from.device.split(" + ").map(str::to_owned).collect();
+        frame.before = Duration::try_from_secs_f64(from.seconds).unwrap_or_default();
+        frame.devices = from.device.split(" + ").map(str::to_owned).collect();
         from.film
     });
-    let run = Run::new(job, control, film, saver.as_ref());
-    let backends = Backends {
-        scene,
-        job,
-        #[cfg(feature = "gpu")]
-        choice,
-        saver: saver.as_ref(),
-    };
+    let run = Run::new(job, control, film, frame)?;
     let note = |text: &str| control.note(text);
-    let device_error = std::thread::scope(|scope| {
-        if let Some(saver) = &saver {
-            scope.spawn(|| saver.work(&note));
+    let (finished, device_error) = std::thread::scope(|scope| {
+        if run.shared().saver().is_some() {
+            let shared: &Shared = run.shared();
+            let work = move || shared.saver().into_iter().for_each(|saver| saver.work(&note));
+            let thread = std::thread::Builder::new().name("rtr-saver".to_owned());
+            if let Err(error) = thread.spawn_scoped(scope, work) {
+                note(&format!("warning: no checkpoints while it renders: {error}"));
+            }
         }
-        let error = backends.render(&device, &run, &mut names);
-        if let Some(saver) = &saver {
+        let backends = Backends {
+            scene,
+            job,
+            #[cfg(feature = "gpu")]
+            choice,
+        };
+        let error = backends.render(&device, &run);
+        // Before the last checkpoint is waited for: from here on nothing can hang but a disk.
+        let finished = run.finish();
+        if let Some(saver) = run.shared().saver() {
             saver.close();
         }
-        error
+        (finished, error)
     });
-    let finished = run.finish();
-    let well = matches!(finished.stop, Stop::Complete | Stop::TimeLimit | Stop::ErrorReached);
-    if let (Some(saver), false) = (&saver, well) {
-        saver.last(&finished.film, finished.elapsed, &note);
-    }
-    let elapsed = before + finished.elapsed;
-    let meta = Meta {
+    let finished = finished.ok_or(RenderError::Salvaged)?;
+    Ok(run.shared().outcome(finished, device_error, &note))
+}
+
+/// What is known of a picture before it is rendered.
+fn meta(scene: &Scene, job: &Job) -> Meta {
+    Meta {
         render_id: scene.render_id(),
         seed: job.seed,
         estimator: job.estimator,
         precision: job.precision.name().to_owned(),
-        device: names.join(" + "),
-        seconds: elapsed.as_secs_f64(),
         exposure: scene.settings().exposure,
         tone_map: scene.settings().tone_map,
-        complete: finished.stop == Stop::Complete && finished.failures.is_empty(),
-    };
-    Ok(Outcome {
-        picture: Picture { film: finished.film, meta },
-        stop: finished.stop,
-        failures: finished.failures,
-        device_error,
-        elapsed,
-        saved: saver.is_some_and(|saver| saver.has_written()),
-        convergence: finished.convergence,
-    })
+        ..Meta::default()
+    }
 }
 
 /// What the backends are given.
@@ -178,19 +184,18 @@ struct Backends<'a> {
     job: &'a Job,
     #[cfg(feature = "gpu")]
     choice: &'a DeviceChoice,
-    saver: Option<&'a Saver<'a>>,
 }
 
 impl Backends<'_> {
     /// Renders on the device; with `auto`, the CPU finishes what a GPU could not. Gives what became
     /// of the device when nothing went on.
-    fn render(&self, device: &Selected, run: &Run<'_>, names: &mut Vec<String>) -> Option<String> {
+    fn render(&self, device: &Selected, run: &Run<'_>) -> Option<String> {
         let setup = self.scene.setup(self.job);
         match device {
             Selected::Cpu => {}
             #[cfg(feature = "gpu")]
             Selected::Gpu(adapter) => {
-                self.begin(adapter.describe(), run, names);
+                begin(adapter.describe(), run);
                 let error = gpu::render(adapter, &setup, self.job, run).err()?;
                 if *self.choice != DeviceChoice::Auto {
                     run.abort();
@@ -199,21 +204,16 @@ impl Backends<'_> {
                 run.note(&format!("{error}; the CPU goes on"));
             }
         }
-        self.begin(cpu::name(self.job), run, names);
+        begin(cpu::name(self.job), run);
         let error = cpu::render(&setup, self.job, run).err()?;
         run.abort();
         Some(error.to_string())
     }
+}
 
-    fn begin(&self, name: String, run: &Run<'_>, names: &mut Vec<String>) {
-        run.note(&format!("device: {name}"));
-        if names.last() != Some(&name) {
-            names.push(name);
-        }
-        if let Some(saver) = self.saver {
-            saver.device(names.join(" + "));
-        }
-    }
+fn begin(name: String, run: &Run<'_>) {
+    run.note(&format!("device: {name}"));
+    run.device(name);
 }
 
 enum Selected {

@@ -7,11 +7,15 @@ use crate::control::Control;
 use crate::convergence::{Convergence, Moment, REPLICATES_U32, Times, Tracker};
 use crate::film::{Accumulator, Film};
 use crate::job::Job;
+use crate::memory::NoMemory;
+use crate::output::{Meta, Picture};
 use crate::region::{Rect, SampleRange};
+use crate::render::Outcome;
 use crate::saver::Saver;
-use crate::schedule::{Claim, Scheduler, Stop, TileSize, WorkItem};
+use crate::schedule::{Claim, Scheduler, Stop, TileSize, WorkItem, slack};
 use pack::abi::FilmPixel;
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// A tile that could not be rendered.
@@ -25,15 +29,38 @@ pub struct TileFailure {
     pub message: String,
 }
 
-/// The state of a run, shared by the threads of its backend.
+/// A run, as the threads of its backend see it.
 pub(crate) struct Run<'a> {
+    shared: Arc<Shared>,
+    control: &'a Control,
+    strict: bool,
+}
+
+/// The state of a run. It borrows nothing: what is complete can be taken out of it whatever became of
+/// the threads that work on it.
+pub(crate) struct Shared {
     state: Mutex<State>,
     /// Told whenever an item has ended.
     ended: Condvar,
-    control: &'a Control,
     started: Instant,
-    strict: bool,
-    saver: Option<&'a Saver<'a>>,
+    /// Microseconds since `started` after which items are broken off; all ones: never.
+    deadline: AtomicU64,
+    /// And after which the run should have ended.
+    overdue: AtomicU64,
+    frame: Framing,
+}
+
+/// What a picture is framed in, and where the run is saved.
+#[derive(Default)]
+pub(crate) struct Framing {
+    /// What is known of the picture before it is rendered.
+    pub(crate) meta: Meta,
+    /// Time of the runs before this one.
+    pub(crate) before: Duration,
+    /// Devices of the runs before this one.
+    pub(crate) devices: Vec<String>,
+    /// `None`: it is not saved.
+    pub(crate) saver: Option<Saver>,
 }
 
 struct State {
@@ -50,6 +77,10 @@ struct State {
     #[cfg(feature = "gpu")]
     device: Option<Duration>,
     tracker: Option<Tracker>,
+    /// Devices that rendered it, in order.
+    devices: Vec<String>,
+    /// Whether what is complete was taken; the rest is of no use to anybody.
+    taken: bool,
 }
 
 /// What a run leaves behind.
@@ -60,6 +91,8 @@ pub(crate) struct Finished {
     pub(crate) elapsed: Duration,
     /// The error curve, of a run that was measured.
     pub(crate) convergence: Option<Convergence>,
+    /// Devices that rendered it, in order.
+    pub(crate) devices: Vec<String>,
 }
 
 impl<'a> Run<'a> {
@@ -68,9 +101,12 @@ impl<'a> Run<'a> {
         job: &Job,
         control: &'a Control,
         film: Option<Film>,
-        saver: Option<&'a Saver<'a>>,
-    ) -> Self {
-        let film = film.unwrap_or_else(|| Film::new(job.image_size, job.crop));
+        frame: Framing,
+    ) -> Result<Self, NoMemory> {
+        let film = match film {
+            Some(film) => film,
+            None => Film::try_new(job.image_size, job.crop)?,
+        };
         let rest = match film.ranges.last() {
             Some(done) => SampleRange::new(done.end, job.samples.end),
             None => Some(job.samples),
@@ -78,13 +114,14 @@ impl<'a> Run<'a> {
         let total = job.crop.pixels() * u64::from(job.spp());
         control.begin(total, film.total_samples());
         let mut scheduler = Scheduler::new(job.crop, rest, job.time_limit);
-        let mut sum = Accumulator::new(film);
-        let mut tracker = None;
-        if let Some(measure) = &job.measure {
-            scheduler = scheduler.in_rounds(REPLICATES_U32);
-            sum = sum.in_rounds();
-            tracker = Some(Tracker::new(measure.clone(), job.crop.w));
-        }
+        let (sum, tracker) = match &job.measure {
+            None => (Accumulator::new(film)?, None),
+            Some(measure) => {
+                scheduler = scheduler.in_rounds(REPLICATES_U32);
+                let tracker = Tracker::new(measure.clone(), job.crop.w);
+                (Accumulator::in_rounds(film)?, Some(tracker))
+            }
+        };
         let (failures, first) = (Vec::new(), None);
         let (last, readback) = (Duration::ZERO, Duration::ZERO);
         let state = State {
@@ -97,20 +134,44 @@ impl<'a> Run<'a> {
             #[cfg(feature = "gpu")]
             device: Some(Duration::ZERO),
             tracker,
+            devices: frame.devices.clone(),
+            taken: false,
         };
-        Self {
+        let shared = Arc::new(Shared {
             state: Mutex::new(state),
             ended: Condvar::new(),
-            control,
             started: Instant::now(),
-            strict: job.strict,
-            saver,
-        }
+            deadline: AtomicU64::new(u64::MAX),
+            overdue: AtomicU64::new(u64::MAX),
+            frame,
+        });
+        control.set_run(Some(Arc::clone(&shared)));
+        Ok(Self { shared, control, strict: job.strict })
     }
 
-    /// No code panics while it holds the lock; a poisoned one would still hold whole batches.
+    /// Its state, which does not depend on the threads that work on it.
+    pub(crate) fn shared(&self) -> &Arc<Shared> {
+        &self.shared
+    }
+
     fn lock(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+        self.shared.lock()
+    }
+
+    /// Whether items are to be broken off now, rather than rendered to their end.
+    pub(crate) fn is_broken_off(&self) -> bool {
+        self.control.is_cancelled() || self.shared.is_past(&self.shared.deadline)
+    }
+
+    /// The device that renders from now on.
+    pub(crate) fn device(&self, name: String) {
+        let mut state = self.lock();
+        if state.devices.last() != Some(&name) {
+            state.devices.push(name);
+        }
+        if let Some(saver) = &self.shared.frame.saver {
+            saver.device(state.devices.join(" + "));
+        }
     }
 
     /// The next tile of about this size; `Wait` when there may be more later.
@@ -120,11 +181,19 @@ impl<'a> Run<'a> {
     }
 
     fn claim_locked(&self, state: &mut State, size: TileSize<'_>) -> Claim {
+        if state.taken {
+            return Claim::Done;
+        }
         if self.control.is_cancelled() {
             state.scheduler.stop(Stop::Cancelled);
         }
-        let now = self.started.elapsed();
-        let first = *state.first.get_or_insert(now);
+        let now = self.shared.started.elapsed();
+        let first = *state.first.get_or_insert_with(|| {
+            self.shared.limit(now, &state.scheduler);
+            now
+        });
+        let has_room = state.sum.has_room();
+        state.scheduler.hold(!has_room);
         let claim = state.scheduler.claim(now.saturating_sub(first), size);
         if let Claim::FirstOf(item) = claim {
             state.sum.open(item.samples, item.replicate);
@@ -141,7 +210,7 @@ impl<'a> Run<'a> {
                 Claim::Done => return None,
                 Claim::Wait => {
                     // The timeout makes a cancel from outside seen.
-                    let wait = self.ended.wait_timeout(state, Duration::from_millis(50));
+                    let wait = self.shared.ended.wait_timeout(state, Duration::from_millis(50));
                     state = wait.unwrap_or_else(PoisonError::into_inner).0;
                 }
             }
@@ -151,11 +220,14 @@ impl<'a> Run<'a> {
     /// Takes the pixels of a claimed item, row by row.
     pub(crate) fn deposit(&self, item: &WorkItem, pixels: &[FilmPixel]) {
         let mut state = self.lock();
-        let began = self.started.elapsed();
+        if state.taken {
+            return;
+        }
+        let began = self.shared.started.elapsed();
         state.scheduler.finished(item);
         if !item.probe {
             state.sum.deposit(item, pixels);
-            let ended = self.started.elapsed();
+            let ended = self.shared.started.elapsed();
             state.last = ended;
             state.readback += ended.saturating_sub(began);
             self.track(&mut state);
@@ -164,12 +236,12 @@ impl<'a> Run<'a> {
             }
             let rays = pixels.iter().map(|pixel| u64::from(pixel.rays)).sum();
             self.control.advance(item.cost(), rays);
-            if let Some(saver) = self.saver {
-                saver.offer(state.sum.film(), self.started.elapsed());
+            if let Some(saver) = &self.shared.frame.saver {
+                saver.offer(state.sum.film(), self.shared.started.elapsed());
             }
         }
         drop(state);
-        self.ended.notify_all();
+        self.shared.ended.notify_all();
     }
 
     /// Tells a point of the error curve when a round has become whole and one is due.
@@ -189,10 +261,9 @@ impl<'a> Run<'a> {
     }
 
     /// A claimed item was not rendered and may be claimed again.
-    #[cfg(feature = "gpu")]
     pub(crate) fn give_back(&self, item: WorkItem) {
         self.lock().scheduler.give_back(item);
-        self.ended.notify_all();
+        self.shared.ended.notify_all();
     }
 
     /// A submission has ended, which took `own` by the device's own clock.
@@ -205,6 +276,9 @@ impl<'a> Run<'a> {
     /// A claimed item cannot be rendered. The pass goes on without it and is the last one.
     pub(crate) fn fail(&self, item: &WorkItem, message: String) {
         let mut state = self.lock();
+        if state.taken {
+            return;
+        }
         state.scheduler.finished(item);
         state.scheduler.stop(Stop::Failed);
         if !item.probe {
@@ -212,7 +286,7 @@ impl<'a> Run<'a> {
         }
         state.failures.push(TileFailure { tile: item.tile, sample: item.samples.start, message });
         drop(state);
-        self.ended.notify_all();
+        self.shared.ended.notify_all();
     }
 
     /// Ends the run now.
@@ -235,22 +309,112 @@ impl<'a> Run<'a> {
         self.control.progress().done
     }
 
-    pub(crate) fn finish(self) -> Finished {
+    /// Takes what is complete; `None` when that was done already.
+    pub(crate) fn finish(&self) -> Option<Finished> {
+        self.control.set_run(None);
+        self.shared.take()
+    }
+}
+
+impl Shared {
+    /// No code panics while it holds the lock; a poisoned one would still hold whole batches.
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Sets the times that follow from the limit, `first` being that of the first claim.
+    fn limit(&self, first: Duration, scheduler: &Scheduler) {
+        let micros = |time: Duration| u64::try_from(time.as_micros()).unwrap_or(u64::MAX);
+        if let (Some(deadline), Some(limit)) = (scheduler.deadline(), scheduler.limit()) {
+            self.deadline.store(micros(first + deadline), Ordering::Relaxed);
+            self.overdue.store(micros(first + limit + slack(limit)), Ordering::Relaxed);
+        }
+    }
+
+    fn is_past(&self, time: &AtomicU64) -> bool {
+        let time = time.load(Ordering::Relaxed);
+        time != u64::MAX && self.started.elapsed() >= Duration::from_micros(time)
+    }
+
+    pub(crate) fn is_overdue(&self) -> bool {
+        self.is_past(&self.overdue)
+    }
+
+    pub(crate) fn saver(&self) -> Option<&Saver> {
+        self.frame.saver.as_ref()
+    }
+
+    /// See `Control::salvage`.
+    pub(crate) fn salvage(&self, control: &Control) -> Option<Outcome> {
+        let cancelled = control.is_cancelled();
+        let why = if cancelled { Stop::Cancelled } else { Stop::TimeLimit };
+        let mut state = self.lock();
+        if !cancelled && !state.scheduler.is_under_way() {
+            return None;
+        }
+        state.scheduler.stop(why);
+        drop(state);
+        let finished = self.take()?;
+        let error = "the kernel or the driver did not come back in time";
+        let error = (!cancelled).then(|| error.to_owned());
+        Some(self.outcome(finished, error, &|text| control.note(text)))
+    }
+
+    fn take(&self) -> Option<Finished> {
         let elapsed = self.started.elapsed();
-        let mut state = self.state.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let mut state = self.lock();
+        if std::mem::replace(&mut state.taken, true) {
+            return None;
+        }
         let stop = state.scheduler.why();
-        let convergence = state.tracker.take().map(|tracker| {
-            let (sums, samples) = state.sum.lumas();
-            let compile = state.first.unwrap_or(elapsed).as_secs_f64();
-            let readback = state.readback.as_secs_f64();
-            #[cfg(feature = "gpu")]
-            let device = state.device.filter(|time| !time.is_zero()).map(|time| time.as_secs_f64());
-            #[cfg(not(feature = "gpu"))]
-            let device = None;
+        let (sum, failures) = (state.sum.take(), std::mem::take(&mut state.failures));
+        let (tracker, devices) = (state.tracker.take(), std::mem::take(&mut state.devices));
+        let compile = state.first.unwrap_or(elapsed).as_secs_f64();
+        let readback = state.readback.as_secs_f64();
+        #[cfg(feature = "gpu")]
+        let device = state.device.filter(|time| !time.is_zero()).map(|time| time.as_secs_f64());
+        #[cfg(not(feature = "gpu"))]
+        let device = None;
+        drop(state);
+        let convergence = tracker.map(|tracker| {
+            let (sums, samples) = sum.lumas();
             let times = Times { compile, readback, device, ..Times::default() };
             tracker.finish(sums, samples, times)
         });
-        Finished { film: state.sum.finish(), stop, failures: state.failures, elapsed, convergence }
+        Some(Finished { film: sum.finish(), stop, failures, elapsed, convergence, devices })
+    }
+
+    /// What a run leaves, framed; its last checkpoint is written if it did not end well.
+    pub(crate) fn outcome(
+        &self,
+        finished: Finished,
+        device_error: Option<String>,
+        note: &dyn Fn(&str),
+    ) -> Outcome {
+        let Finished { mut film, stop, failures, elapsed, convergence, devices } = finished;
+        let well = matches!(stop, Stop::Complete | Stop::TimeLimit | Stop::ErrorReached);
+        let well = well && device_error.is_none();
+        let saver = self.saver();
+        if let (Some(saver), false) = (saver, well) {
+            film = saver.last(film, elapsed, note);
+        }
+        let elapsed = self.frame.before + elapsed;
+        let meta = Meta {
+            device: devices.join(" + "),
+            seconds: elapsed.as_secs_f64(),
+            complete: stop == Stop::Complete && failures.is_empty(),
+            ..self.frame.meta.clone()
+        };
+        Outcome {
+            picture: Picture { film, meta },
+            stop,
+            failures,
+            device_error,
+            elapsed,
+            saved: saver.is_some_and(Saver::has_written),
+            checkpoint: saver.and_then(Saver::mark),
+            convergence,
+        }
     }
 }
 

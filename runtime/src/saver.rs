@@ -2,18 +2,25 @@
 //!
 //! The run offers its film after every tile; a copy is taken only when one is due and another batch
 //! is whole, so rendering waits for a copy in memory and never for a disk. What cannot be written is
-//! told once and tried again the next time.
+//! told once and tried again the next time. A checkpoint that is not of this run is kept aside, never
+//! replaced.
 
 use crate::checkpoint::Checkpoint;
 use crate::film::Film;
 use crate::job::Job;
+use crate::mark::{Mark, make_way};
+use crate::memory::NoMemory;
 use crate::output::Identity;
 use crate::region::SampleRange;
 use crate::scene::Scene;
 use files::ShowPath as _;
+use std::error::Error;
 use std::path::PathBuf;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
+
+/// How long the end of a run waits for a checkpoint that is being written.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Where and how often a run is saved.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,13 +36,14 @@ pub struct Keep {
 pub struct Session {
     /// What an earlier run left; it must be of this run, see `Checkpoint::check`.
     pub from: Option<Checkpoint>,
-    /// Where this run is saved; `None`: nowhere.
+    /// Where this run is saved; `None`: nowhere. What is there already is kept under another name, unless
+    /// the run goes on `from` a checkpoint: then that is the one.
     pub keep: Option<Keep>,
 }
 
 /// Saves one run.
-pub(crate) struct Saver<'a> {
-    keep: &'a Keep,
+pub(crate) struct Saver {
+    keep: Keep,
     identity: Identity,
     samples: SampleRange,
     state: Mutex<State>,
@@ -52,6 +60,8 @@ struct State {
     device: String,
     /// Seconds of the runs before this one.
     before: f64,
+    /// The checkpoint of this run as it is on the disk.
+    own: Option<Mark>,
     written: bool,
     failed: bool,
 }
@@ -59,13 +69,13 @@ struct State {
 /// What the thread has to do.
 enum Task {
     Nothing,
-    Write(Box<Checkpoint>),
+    Write(Result<Box<Checkpoint>, NoMemory>),
     /// It is at it.
     UnderWay,
 }
 
-impl<'a> Saver<'a> {
-    pub(crate) fn new(keep: &'a Keep, scene: &Scene, job: &Job, from: Option<&Checkpoint>) -> Self {
+impl Saver {
+    pub(crate) fn new(keep: Keep, scene: &Scene, job: &Job, from: Option<&Checkpoint>) -> Self {
         let state = State {
             next: Instant::now() + keep.every,
             end: from.and_then(|from| from.film.ranges.last()).map_or(0, |range| range.end),
@@ -73,6 +83,7 @@ impl<'a> Saver<'a> {
             over: false,
             device: String::new(),
             before: from.map_or(0.0, |from| from.seconds),
+            own: from.and_then(|_| Mark::of(&keep.path)),
             written: false,
             failed: false,
         };
@@ -101,26 +112,38 @@ impl<'a> Saver<'a> {
             return;
         }
         if self.is_news(&state, film) {
-            let checkpoint = self.checkpoint(&state, film.clone(), elapsed);
-            state.task = Task::Write(Box::new(checkpoint));
+            let copy = film.try_clone();
+            state.task =
+                Task::Write(copy.map(|film| Box::new(self.checkpoint(&state, film, elapsed))));
             drop(state);
             self.wake.notify_all();
         }
     }
 
-    /// Saves what a run that did not end well has left, in this thread.
-    pub(crate) fn last(&self, film: &Film, elapsed: Duration, note: &dyn Fn(&str)) {
+    /// Saves what a run that did not end well has left, in this thread, and gives it back.
+    pub(crate) fn last(&self, film: Film, elapsed: Duration, note: &dyn Fn(&str)) -> Film {
         let state = self.lock();
-        if self.is_news(&state, film) {
-            let checkpoint = self.checkpoint(&state, film.clone(), elapsed);
-            drop(state);
-            self.write(&checkpoint, note);
+        let busy = |state: &mut State| matches!(state.task, Task::UnderWay);
+        // A disk that hangs is not waited for.
+        let wait = self.wake.wait_timeout_while(state, PATIENCE, busy);
+        let state = wait.unwrap_or_else(PoisonError::into_inner).0;
+        if matches!(state.task, Task::UnderWay) || !self.is_news(&state, &film) {
+            return film;
         }
+        let checkpoint = self.checkpoint(&state, film, elapsed);
+        drop(state);
+        self.write(&checkpoint, note);
+        checkpoint.film
     }
 
     /// Whether this run has written a checkpoint.
     pub(crate) fn has_written(&self) -> bool {
         self.lock().written
+    }
+
+    /// The checkpoint of this run, written by it or by the one that it goes on from.
+    pub(crate) fn mark(&self) -> Option<Mark> {
+        self.lock().own.clone()
     }
 
     fn is_news(&self, state: &State, film: &Film) -> bool {
@@ -146,10 +169,14 @@ impl<'a> Saver<'a> {
                 Task::Write(checkpoint) => {
                     state.task = Task::UnderWay;
                     drop(state);
-                    self.write(&checkpoint, note);
+                    match checkpoint {
+                        Ok(checkpoint) => self.write(&checkpoint, note),
+                        Err(error) => self.warn(&error, note),
+                    }
                     state = self.lock();
                     state.task = Task::Nothing;
                     state.next = Instant::now() + self.keep.every;
+                    self.wake.notify_all();
                 }
                 _ if state.over => return,
                 _ => state = self.wake.wait(state).unwrap_or_else(PoisonError::into_inner),
@@ -164,19 +191,30 @@ impl<'a> Saver<'a> {
     }
 
     fn write(&self, checkpoint: &Checkpoint, note: &dyn Fn(&str)) {
-        let result = checkpoint.write(&self.keep.path);
+        let path = &self.keep.path;
+        match make_way(path, self.mark().as_ref()) {
+            Ok(None) => {}
+            Ok(Some(aside)) => {
+                let (path, aside) = (path.shown(), aside.shown());
+                note(&format!(
+                    "{path} is of another run and is {aside} now; to go on with that one: --resume={aside}"
+                ));
+            }
+            Err(error) => return self.warn(&error, note),
+        }
+        if let Err(error) = checkpoint.write(path) {
+            return self.warn(&error, note);
+        }
         let mut state = self.lock();
-        match result {
-            Ok(()) => {
-                state.written = true;
-                state.end = checkpoint.film.ranges.last().map_or(0, |range| range.end);
-            }
-            Err(error) if !state.failed => {
-                state.failed = true;
-                let path = self.keep.path.shown();
-                note(&format!("warning: no checkpoint in {path}: {error}; rendering goes on"));
-            }
-            Err(_) => {}
+        state.own = Mark::of(path);
+        state.written = true;
+        state.end = checkpoint.film.ranges.last().map_or(0, |range| range.end);
+    }
+
+    fn warn(&self, error: &dyn Error, note: &dyn Fn(&str)) {
+        if !std::mem::replace(&mut self.lock().failed, true) {
+            let path = self.keep.path.shown();
+            note(&format!("warning: no checkpoint in {path}: {error}; rendering goes on"));
         }
     }
 }

@@ -2,17 +2,26 @@
 //!
 //! With a time limit it measures a few probe tiles first and then starts only passes that are
 //! expected to end in time; the last one may hold fewer samples than a batch, so the result is
-//! always the picture of a sample range `a..b` and can be repeated exactly. It does not render and
-//! reads no clock: the caller says what time it is.
+//! the picture of a sample range `a..b` and can be repeated exactly. A pass that takes longer than it was
+//! expected to is broken off a little after the limit. What it has counts only when there is no other:
+//! where not even one sample of every pixel fits, some pixels have it and the others have none. It does
+//! not render and reads no clock: the caller says what time it is.
 
 use crate::region::{Rect, SampleRange, Tiler};
 use pack::abi::BATCH;
 use std::time::Duration;
 
-/// Probe tiles before a run with a time limit.
+/// Probe tiles of a round, before a run with a time limit.
 const PROBES: u32 = 16;
-/// Side of a probe tile in pixels.
-const PROBE_SIDE: u32 = 16;
+/// Side of a probe tile of the first round in pixels; it doubles from round to round.
+const PROBE_SIDE: u32 = 8;
+/// A round of probes that took this share of the limit is good enough, and none that takes four times as
+/// long is begun.
+const PROBED: f64 = 0.02;
+/// Share of the region that the probes of a round may have.
+const PROBED_PIXELS: u64 = 4;
+/// Of what probes promise, the share that the first pass may have: they are few and small.
+const TRUST: f64 = 0.85;
 
 /// A tile of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,6 +94,12 @@ pub(crate) struct Scheduler {
     returned: Vec<WorkItem>,
     limit: Option<Duration>,
     probes: Vec<WorkItem>,
+    /// Side of the probes of this round.
+    probe_side: u32,
+    /// Whether no further pass may begin now.
+    is_held: bool,
+    /// Whether nothing is handed out any more.
+    is_over: bool,
     started: Option<Duration>,
     /// Cost claimed and neither finished nor returned.
     under_way: u64,
@@ -98,7 +113,7 @@ impl Scheduler {
     /// Without `samples` there is nothing to do.
     pub(crate) fn new(region: Rect, samples: Option<SampleRange>, limit: Option<Duration>) -> Self {
         let probed = samples.filter(|_| limit.is_some());
-        let probes = probed.map_or_else(Vec::new, |samples| probes(region, samples));
+        let probes = probed.map_or_else(Vec::new, |samples| probes(region, samples, PROBE_SIDE));
         Self {
             region,
             replicates: 1,
@@ -107,6 +122,9 @@ impl Scheduler {
             returned: Vec::new(),
             limit,
             probes,
+            probe_side: PROBE_SIDE,
+            is_held: false,
+            is_over: false,
             started: None,
             under_way: 0,
             finished: 0,
@@ -125,7 +143,11 @@ impl Scheduler {
     /// The next tile, of about as many pixels as `size` says where each has that many samples. `now` is the time
     /// since the run began.
     pub(crate) fn claim(&mut self, now: Duration, size: TileSize<'_>) -> Claim {
-        if matches!(self.stop, Some(Stop::Cancelled)) {
+        if self.deadline().is_some_and(|deadline| now >= deadline) {
+            self.stop(Stop::TimeLimit);
+            self.is_over = true;
+        }
+        if self.is_over {
             return Claim::Done;
         }
         let claim = self.next(now, size);
@@ -135,9 +157,28 @@ impl Scheduler {
         claim
     }
 
+    /// Whether somebody has an item and has neither finished nor returned it.
+    pub(crate) fn is_under_way(&self) -> bool {
+        self.under_way > 0
+    }
+
+    /// The time limit.
+    pub(crate) fn limit(&self) -> Option<Duration> {
+        self.limit
+    }
+
+    /// When the run is broken off, counted as `now` is.
+    pub(crate) fn deadline(&self) -> Option<Duration> {
+        self.limit.map(|limit| limit + slack(limit).mul_f64(0.6))
+    }
+
+    /// While it is held no pass begins: `claim` says `Wait` instead.
+    pub(crate) fn hold(&mut self, is_held: bool) {
+        self.is_held = is_held;
+    }
+
     fn next(&mut self, now: Duration, size: TileSize<'_>) -> Claim {
-        if let Some(item) = self.probes.pop() {
-            self.started.get_or_insert(now);
+        if let Some(item) = self.next_probe(now) {
             return Claim::Work(item);
         }
         if let Some(item) = self.returned.pop() {
@@ -150,6 +191,9 @@ impl Scheduler {
                     return Claim::Wait;
                 }
                 self.end_probes(now);
+                if let Some(item) = self.next_probe(now) {
+                    return Claim::Work(item);
+                }
             }
             return self.start_pass(now, size);
         }
@@ -178,15 +222,41 @@ impl Scheduler {
         item
     }
 
+    /// A probe of this round, unless those that have ended took long enough.
+    fn next_probe(&mut self, now: Duration) -> Option<WorkItem> {
+        let item = self.probes.pop()?;
+        let began = *self.started.get_or_insert(now);
+        let enough = 4.0 * PROBED * self.limit.unwrap_or_default().as_secs_f64();
+        if self.finished > 0 && now.saturating_sub(began).as_secs_f64() > enough {
+            self.probes.clear();
+            return None;
+        }
+        Some(item)
+    }
+
+    /// Takes the rate of a round of probes, or makes another one of larger tiles: small ones say little
+    /// about a large film, on a GPU nothing at all.
     fn end_probes(&mut self, now: Duration) {
         let seconds = now.saturating_sub(self.started.unwrap_or(now)).as_secs_f64();
-        self.probe_rate = (self.finished as f64 / seconds.max(1e-6)).max(1.0);
+        let rate = (self.finished as f64 / seconds.max(1e-6)).max(1.0);
         self.finished = 0;
         self.started = None;
+        let side = 2 * self.probe_side;
+        let cost = u64::from(PROBES * side * side);
+        let limit = self.limit.unwrap_or_default().as_secs_f64();
+        if let Some(rest) = self.rest
+            && seconds < PROBED * limit
+            && cost <= self.region.pixels() / PROBED_PIXELS
+        {
+            self.probe_side = side;
+            self.probes = probes(self.region, rest, side);
+        } else {
+            self.probe_rate = rate;
+        }
     }
 
     fn start_pass(&mut self, now: Duration, size: TileSize<'_>) -> Claim {
-        let Some(rest) = self.rest.filter(|_| self.stop.is_none()) else {
+        let Some(rest) = self.rest.filter(|_| self.stop.is_none() && !self.is_held) else {
             return self.ended();
         };
         let mut pass = self.first_part(rest);
@@ -206,6 +276,9 @@ impl Scheduler {
     }
 
     fn begin_pass(&mut self, samples: SampleRange, replicate: u32, size: TileSize<'_>) -> Claim {
+        if self.is_held {
+            return self.ended();
+        }
         let mut tiler = Tiler::new(self.region);
         let tile = tiler.next(size(samples.count())).expect("a region has pixels");
         self.pass = Some(Pass { samples, replicate, tiler });
@@ -223,7 +296,8 @@ impl Scheduler {
         SampleRange { start: batch.start, end }
     }
 
-    /// What of the last pass still fits. The very first one always has at least one sample.
+    /// What of the last pass still fits. The very first one always has at least one sample; it is broken
+    /// off when time is up.
     fn part_in_time(&self, pass: SampleRange, fits: u64) -> Option<SampleRange> {
         let first = self.pass.is_none();
         if self.replicates > 1 {
@@ -243,7 +317,7 @@ impl Scheduler {
         let seconds = self.started.map_or(0.0, |from| now.saturating_sub(from).as_secs_f64());
         let measured = self.finished as f64 / seconds.max(1e-9);
         let enough = self.finished >= self.region.pixels();
-        let rate = if enough { measured } else { self.probe_rate };
+        let rate = if enough { measured } else { TRUST * self.probe_rate };
         let cost = time.as_secs_f64() * rate - self.under_way as f64;
         // Saturates; negative is 0.
         #[expect(clippy::cast_possible_truncation, reason = "saturates on purpose")]
@@ -258,7 +332,6 @@ impl Scheduler {
     }
 
     /// A claimed item was not rendered and waits for another try.
-    #[cfg(any(feature = "gpu", test))]
     pub(crate) fn give_back(&mut self, item: WorkItem) {
         self.under_way -= item.cost();
         if item.probe {
@@ -273,6 +346,7 @@ impl Scheduler {
         if self.stop.is_none() || why == Stop::Cancelled {
             self.stop = Some(why);
         }
+        self.is_over |= why == Stop::Cancelled;
     }
 
     /// Why the run ended, once `claim` has said `Done`.
@@ -281,10 +355,15 @@ impl Scheduler {
     }
 }
 
+/// How much longer than `limit` a run may take: 10 %, or a second.
+pub(crate) fn slack(limit: Duration) -> Duration {
+    (limit / 10).max(Duration::from_secs(1))
+}
+
 /// Tiles spread over the region, one sample each.
-fn probes(region: Rect, samples: SampleRange) -> Vec<WorkItem> {
+fn probes(region: Rect, samples: SampleRange, side: u32) -> Vec<WorkItem> {
     let samples = SampleRange { start: samples.start, end: samples.start + 1 };
-    let side = |len: u32| PROBE_SIDE.min(len);
+    let side = |len: u32| side.min(len);
     let at = |len: u32, share: u32, of: u32| {
         u32::try_from(u64::from(len - side(len)) * u64::from(share) / u64::from(of)).unwrap_or(0)
     };
@@ -343,12 +422,61 @@ mod tests {
     fn a_time_limit_ends_with_a_part_of_a_batch_in_time() {
         let mut scheduler =
             Scheduler::new(REGION, Some(range(0, 1000)), Some(Duration::from_secs(1)));
-        // 2048 pixels at 10 us: a sample of all takes 20.48 ms, the probes 41 ms.
-        let (items, end) = run(&mut scheduler, 1e-5);
+        // 2048 pixels at 11 us: a sample of all takes 22.5 ms, the probes 11 ms.
+        let (items, end) = run(&mut scheduler, 1.1e-5);
         assert!((0.9..=1.0).contains(&end.as_secs_f64()), "{end:?}");
         let last = items.last().unwrap().samples;
         assert_eq!((last.start, scheduler.why()), (32, Stop::TimeLimit));
-        assert_eq!(last.count(), 14);
+        assert_eq!(last.count(), 11);
+    }
+
+    #[test]
+    fn a_film_that_is_too_large_for_one_sample_ends_in_time_all_the_same() {
+        let region = Rect { x: 0, y: 0, w: 16_384, h: 16_384 };
+        for (seconds, limit) in [(1e-6, 2), (1e-5, 2), (1e-3, 2), (1e-4, 60)] {
+            let limit = Duration::from_secs(limit);
+            let mut scheduler = Scheduler::new(region, Some(range(0, 64)), Some(limit));
+            let (items, end) = run(&mut scheduler, seconds);
+            let real: Vec<_> = items.iter().filter(|item| !item.probe).collect();
+            assert!(real.iter().all(|item| item.samples == range(0, 1)));
+            assert_eq!(scheduler.why(), Stop::TimeLimit);
+            // A tile of 1024 pixels at 1 ms takes a second; a run looks at its deadline more often.
+            let tile = Duration::from_secs_f64(1024.0 * seconds);
+            assert!(end >= limit && end < limit + slack(limit) + tile, "{end:?}");
+            let probed = items.len() - real.len();
+            let cost: u64 = items.iter().take(probed).map(WorkItem::cost).sum();
+            assert!(cost as f64 * seconds <= 0.13 * limit.as_secs_f64(), "{cost} {seconds}");
+        }
+    }
+
+    #[test]
+    fn a_pass_that_takes_longer_than_expected_is_broken_off() {
+        let limit = Duration::from_secs(2);
+        let mut scheduler = Scheduler::new(REGION, Some(range(0, 1 << 20)), Some(limit));
+        let mut now = ZERO;
+        while let Claim::Work(item) | Claim::FirstOf(item) = scheduler.claim(now, &|_| 64) {
+            // From the second pass on a hundred times as slow as before.
+            let seconds = if item.samples.start < 16 { 1e-5 } else { 1e-3 };
+            now += Duration::from_secs_f64(item.cost() as f64 * seconds);
+            scheduler.finished(&item);
+        }
+        assert_eq!(scheduler.why(), Stop::TimeLimit);
+        // Tiles of 64 pixels and 16 samples take a second each.
+        assert!(now >= limit && now < limit + Duration::from_secs(2), "{now:?}");
+    }
+
+    #[test]
+    fn while_it_is_held_no_pass_begins() {
+        let mut scheduler = Scheduler::new(REGION, Some(range(0, 32)), None);
+        let Claim::FirstOf(first) = scheduler.claim(ZERO, &|_| 1024) else { panic!("no work") };
+        scheduler.hold(true);
+        let Claim::Work(second) = scheduler.claim(ZERO, &|_| 1024) else { panic!("no work") };
+        assert_eq!(scheduler.claim(ZERO, &|_| 1024), Claim::Wait);
+        scheduler.finished(&first);
+        scheduler.finished(&second);
+        scheduler.hold(false);
+        let Claim::FirstOf(item) = scheduler.claim(ZERO, &|_| 1024) else { panic!("no work") };
+        assert_eq!(item.samples, range(16, 32));
     }
 
     #[test]
@@ -455,7 +583,9 @@ mod tests {
     fn probes_lie_inside_any_region() {
         for (w, h) in [(1, 1), (16, 16), (17, 3), (3840, 2160)] {
             let region = Rect { x: 5, y: 7, w, h };
-            for probe in probes(region, range(9, 10)) {
+            for probe in
+                [8, 16, 1024].into_iter().flat_map(|side| probes(region, range(9, 10), side))
+            {
                 let t = probe.tile;
                 assert!(t.x >= 5 && t.y >= 7 && t.x + t.w <= 5 + w && t.y + t.h <= 7 + h);
             }

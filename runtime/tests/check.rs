@@ -112,6 +112,27 @@ fn a_trace_names_materials_and_the_lines_that_declare_them() {
 }
 
 #[test]
+fn a_trace_tells_places_in_the_world_in_metres() {
+    // The walls lie at y = 7, the camera is 5 m above them.
+    let scene = WALLS
+        .replace("at = (-1, 0, 0)m", "at = (99, 7, 3)m")
+        .replace("at = (1, 0, 0)m", "at = (101, 7, 3)m")
+        .replace("from = (0, 5, 0)m, to = (0, 0, 0)m", "from = (100, 12, 3)m, to = (100, 7, 3)m");
+    for ray in first_ray(&scene, 1) {
+        let numbers = |after: &str| -> Vec<f64> {
+            let text = ray.split(after).nth(1).expect("it is said");
+            let text = text.trim_start_matches('(').split([')', 'm']).next().expect("text");
+            text.split_whitespace().map(|n| n.parse().expect("a number")).collect()
+        };
+        let (from, along, at) = (numbers(" from "), numbers(" along "), numbers(" at "));
+        for (found, expected) in from.iter().zip([100.0, 12.0, 3.0]) {
+            assert!((found - expected).abs() < 1e-4, "{ray}");
+        }
+        assert!((from[1] + at[0] * along[1] - 7.0).abs() < 1e-4, "{ray}");
+    }
+}
+
+#[test]
 fn wrong_arguments_are_usage() {
     let folder = folder();
     for args in [

@@ -213,11 +213,58 @@ fn a_run_that_was_done_only_writes_the_picture() {
     }
 }
 
+/// A run without `--resume` replaces no checkpoint but its own, whatever becomes of it.
+#[test]
+fn a_checkpoint_of_another_run_is_kept_aside_and_can_be_gone_on_from() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    let read = |name: &str| std::fs::read(at(name)).ok();
+    let whole = rtr(folder.path(), &["--spp", SPP, "-o", "whole.exr", "--quiet"]);
+    assert_eq!(whole.0, Some(0), "{}", whole.1);
+    killed(folder.path(), &["--spp", SPP]);
+    let first = read("a.exr.checkpoint").expect("it is there");
+    // Another one is killed with a checkpoint of its own.
+    let args = ["--spp", SPP, "--threads", "1", "--checkpoint-every", "20ms", "-o", "a.exr"];
+    let mut child =
+        command(folder.path(), &args).stderr(Stdio::null()).spawn().expect("rtr starts");
+    let start = Instant::now();
+    while !(at("a.exr.checkpoint.1").is_file() && at("a.exr.checkpoint").is_file()) {
+        assert!(start.elapsed() < Duration::from_mins(2), "no checkpoint is written");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    child.kill().expect("it can be killed");
+    child.wait().expect("it was killed");
+    assert_eq!(read("a.exr.checkpoint.1").as_ref(), Some(&first));
+    let second = read("a.exr.checkpoint").expect("it is there");
+    // A third one comes to its end, with checkpoints, and says what it keeps.
+    let (code, log) = rtr(folder.path(), &args);
+    assert_eq!(code, Some(0), "{log}");
+    let line = "a.exr.checkpoint is of another run and is a.exr.checkpoint.2 now; \
+                to go on with that one: --resume=a.exr.checkpoint.2";
+    assert!(log.contains(line), "{log}");
+    let left = ["a.exr.checkpoint", "a.exr.checkpoint.1", "a.exr.checkpoint.2"].map(read);
+    assert_eq!(left, [None, Some(first), Some(second)], "only its own is removed");
+    // Either can be gone on from, and goes with the picture.
+    for name in ["a.exr.checkpoint.1", "a.exr.checkpoint.2"] {
+        let resume = format!("--resume={name}");
+        let (code, log) = rtr(folder.path(), &["--spp", SPP, "-o", "a.exr", &resume]);
+        assert_eq!(code, Some(0), "{log}");
+        assert!(log.contains(&format!("going on from {name}: ")), "{log}");
+        assert_same(&film(folder.path(), "a.exr"), &film(folder.path(), "whole.exr"));
+        assert!(!at(name).exists());
+        let (code, log) = rtr(folder.path(), &["--spp", SPP, "-o", "a.exr", &resume]);
+        assert_eq!((code, log.lines().count()), (Some(3), 1), "{log}");
+        assert!(log.starts_with(&format!("error: cannot read {name}: ")), "{log}");
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn an_interrupt_leaves_a_checkpoint_unless_none_is_wanted() {
     let folder = folder();
-    for (every, expected) in [("1h", true), ("never", false)] {
+    for (every, signal, expected) in
+        [("1h", "-INT", true), ("never", "-TERM", false), ("1h", "-HUP", true)]
+    {
         let mut child = command(folder.path(), &["--spp", "1000000", "-o", "b.png"])
             .args(["--checkpoint-every", every])
             .stderr(Stdio::piped())
@@ -228,7 +275,7 @@ fn an_interrupt_leaves_a_checkpoint_unless_none_is_wanted() {
         assert!(lines.any(|line| line.expect("text").starts_with("device: ")));
         std::thread::sleep(Duration::from_millis(800));
         let pid = child.id().to_string();
-        Command::new("kill").args(["-INT", &pid]).status().expect("kill starts");
+        Command::new("kill").args([signal, &pid]).status().expect("kill starts");
         let log: Vec<String> = lines.map(|line| line.expect("text")).collect();
         let log = log.join("\n");
         assert_eq!(child.wait().expect("it ends").code(), Some(130), "{log}");

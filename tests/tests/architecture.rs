@@ -6,14 +6,15 @@ use cargo_metadata::{DependencyKind, Metadata, MetadataCommand};
 
 /// Crate, what it may use when it runs, what only its build script may use.
 const ARROWS: &[(&str, &[&str], &[&str])] = &[
+    ("host", &[], &[]),
     ("lang", &[], &[]),
     ("files", &[], &[]),
     ("pack", &["files"], &[]),
     ("native", &["naga"], &[]),
     ("shaders", &["pack", "naga"], &[]),
-    ("compiler", &["lang", "shaders", "pack", "files"], &[]),
+    ("compiler", &["host", "lang", "shaders", "pack", "files"], &[]),
     ("commit", &[], &[]),
-    ("runtime", &["pack", "files", "commit", "wgpu"], &["pack", "shaders", "native"]),
+    ("runtime", &["host", "pack", "files", "commit", "wgpu"], &["pack", "shaders", "native"]),
     ("scenes", &["compiler", "runtime", "files"], &[]),
 ];
 

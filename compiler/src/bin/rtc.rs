@@ -1,7 +1,5 @@
 //! Wires the command line of the compiler.
 
-use std::process::ExitCode;
-
-fn main() -> ExitCode {
-    ExitCode::from(compiler::cli::run(std::env::args_os()))
+fn main() -> std::process::ExitCode {
+    host::run(|| std::process::ExitCode::from(compiler::cli::run(std::env::args_os())))
 }

@@ -63,8 +63,8 @@ pub(super) struct BuildArgs {
     #[arg(long)]
     no_cache: bool,
     /// Threads to use [default: all].
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
+    #[arg(long, value_name = "N", value_parser = parse_threads)]
+    pub(super) threads: Option<usize>,
     #[command(flatten)]
     report: ReportArgs,
 }
@@ -75,6 +75,13 @@ pub(super) struct CheckArgs {
     scene: SceneArgs,
     #[command(flatten)]
     report: ReportArgs,
+}
+
+fn parse_threads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(n @ 1..=4096) => Ok(n),
+        _ => Err("a number from 1 to 4096".to_owned()),
+    }
 }
 
 pub(super) fn build(args: &BuildArgs) -> u8 {

@@ -108,13 +108,13 @@ fn listed(paths: &[&Path]) -> String {
     }
 }
 
-/// Number of Ctrl-C so far. The first ends watching once the compilation under way is done, the
+/// Number of Ctrl-C, SIGTERM and SIGHUP so far. The first ends watching once the compilation under way is done, the
 /// second ends the process.
 fn interrupts() -> Arc<AtomicU32> {
     let count = Arc::new(AtomicU32::new(0));
     let counter = Arc::clone(&count);
-    // A process that has a handler already keeps it: then an interrupt is not ours to handle.
-    let _ = ctrlc::set_handler(move || {
+    // Without it an interrupt ends the process at once, which leaves every file as it was.
+    let _ = host::on_interrupt(move || {
         if counter.fetch_add(1, Ordering::Relaxed) > 0 {
             std::process::exit(130);
         }

@@ -33,7 +33,7 @@ impl Budget {
     /// not say what is free.
     #[must_use]
     pub fn usual() -> Self {
-        pack::memory::free().map_or(Self::UNLIMITED, |free| Self::of(free / 4 * 3))
+        host::free().map_or(Self::UNLIMITED, |free| Self::of(free / 4 * 3))
     }
 
     /// Bytes that are left.

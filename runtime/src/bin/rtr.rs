@@ -1,5 +1,6 @@
 //! Wires the command line.
 
 fn main() -> std::process::ExitCode {
-    runtime::cli::run(std::env::args_os())
+    host::without_device_select();
+    host::run(|| runtime::cli::run(std::env::args_os()))
 }

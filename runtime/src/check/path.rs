@@ -5,11 +5,12 @@
 pub struct Step {
     /// Towards a light, rather than the path's next segment.
     pub shadow: bool,
-    /// Where it starts, normalised units.
+    /// Where it starts, metres, world space.
     pub origin: [f64; 3],
     /// Its direction, unit.
     pub dir: [f64; 3],
-    /// Distance to what it met, normalised units; that of the light where a shadow ray met nothing.
+    /// Distance to what it met, metres; that of the light where a shadow ray met nothing, infinite where
+    /// there is nothing.
     pub t: f64,
     /// What it met: primitive and instance, as the kernel numbers them; `None`: nothing.
     pub hit: Option<[u32; 2]>,
@@ -36,6 +37,17 @@ pub struct Sample {
     pub way: u64,
     /// Every ray, when they were asked for.
     pub steps: Vec<Step>,
+}
+
+impl Step {
+    /// In the world, of which the kernel's space shows `scale` times what is around `center`.
+    pub(super) fn in_world(self, scale: f64, center: [f64; 3]) -> Self {
+        // The kernel's own number for a ray that meets nothing.
+        let t = if self.t < 1e29 { self.t / scale } else { f64::INFINITY };
+        let [x, y, z] = self.origin;
+        let origin = [x / scale + center[0], y / scale + center[1], z / scale + center[2]];
+        Self { t, origin, ..self }
+    }
 }
 
 impl Sample {

@@ -16,6 +16,7 @@ Examples:
   rtr scene.pack --samples 32..64 -o b.exr   ... the other half there,
   rtr merge a.exr b.exr -o c.exr -o c.png    and both together
   rtr scene.pack -o a.png --resume        go on after Ctrl-C, a crash or a power cut
+  rtr scene.pack -o a.png --resume=a.png.checkpoint.1   ... from a checkpoint that was kept aside
   rtr scene.pack --until-error 0.01 --plot error.svg   until the error is 1 %, with its curve
   rtr scene.pack --until-error p95:0.05 --time 5m      until all but 5 % of the pixels are good
   rtr scene.pack --report error.csv --reference ref.exr   measured against a converged picture
@@ -233,7 +234,8 @@ pub(super) struct RenderArgs {
     /// Seed of the image, instead of the scene's.
     #[arg(long, value_name = "N")]
     pub(super) seed: Option<u32>,
-    /// Stop after this time, such as 60s, 1m30s or 500ms; the picture is evenly sampled.
+    /// Stop after this time of rendering, such as 60s, 1m30s or 500ms, give or take 10 % or a second; the
+    /// picture is evenly sampled, unless that is too short for one sample of every pixel.
     #[arg(long, value_name = "TIME", value_parser = parse_duration)]
     pub(super) time: Option<Duration>,
     /// Where to write; .exr and .png may both be given; `-` is standard output [default: the pack's name in the
@@ -247,15 +249,18 @@ pub(super) struct RenderArgs {
     #[arg(long, conflicts_with = "output")]
     pub(super) scene_output: bool,
     /// Go on from the checkpoint of an earlier run with the same arguments; without one, begin. The
-    /// picture is the same, bit for bit, as if nothing had happened.
-    #[arg(long, conflicts_with_all = MEASURING)]
-    pub(super) resume: bool,
+    /// picture is the same, bit for bit, as if nothing had happened. With FILE, go on from that one, such
+    /// as NAME.checkpoint.1.
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
+    #[arg(conflicts_with_all = MEASURING)]
+    pub(super) resume: Option<Option<PathBuf>>,
     /// Render again whenever the pack changes, until Ctrl-C: an unfinished picture is dropped, a
     /// broken pack is reported and waited out.
     #[arg(long, conflicts_with = "resume", conflicts_with_all = MEASURING)]
     pub(super) watch: bool,
     /// Time between two checkpoints, such as 60s or 5m, or `never`. They lie beside the first
-    /// output, as NAME.checkpoint, also after Ctrl-C, and are removed when the picture is complete.
+    /// output, as NAME.checkpoint, also after Ctrl-C, and are removed when the picture is complete. One
+    /// that another run left there is kept as NAME.checkpoint.1.
     #[arg(long, default_value = "60s", value_name = "TIME", value_parser = parse_every)]
     pub(super) checkpoint_every: Every,
     /// Threads of the CPU kernel [default: one for each logical CPU].
@@ -283,6 +288,9 @@ pub(super) struct RenderArgs {
     /// Wanted duration of one GPU submission, at most 1s.
     #[arg(long, default_value = "100ms", value_name = "TIME", value_parser = parse_duration)]
     pub(super) submission: Duration,
+    /// A block that never comes back, for tests.
+    #[arg(long, hide = true, default_value = "0")]
+    pub(super) stall_block: u64,
     /// Estimator, for tests.
     #[arg(long, hide = true, default_value = "mis")]
     pub(super) estimator: Estimator,

@@ -93,8 +93,13 @@ fn one(args: &BenchArgs, console: &Console, run: u32, side: &mut Side<'_>) -> Re
     let control = Control::default();
     let over = AtomicBool::new(false);
     let watched = Watched { spp: job.spp(), limit: job.time_limit, change: None };
+    let rescue = || {
+        if control.is_cancelled() {
+            console.give_up();
+        }
+    };
     let outcome = std::thread::scope(|scope| {
-        let watcher = scope.spawn(|| console.watch(&control, &watched, &over));
+        let watcher = scope.spawn(|| console.watch(&control, &watched, &over, &rescue));
         let outcome = render(&side.scene, &job, &DeviceChoice::parse(&args.device), &control);
         over.store(true, Ordering::Relaxed);
         watcher.thread().unpark();

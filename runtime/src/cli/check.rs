@@ -118,6 +118,9 @@ fn replay(args: &CheckArgs, console: &Console, scene: &Scene, job: &Job, at: Bad
     console.result(&format!("pixel {},{}, sample {}, seed {}", at.x, at.y, at.sample, job.seed));
     if args.trace {
         let names = Names::new(scene);
+        console.result(
+            "rays start in metres, world space; distances are metres, directions unit vectors",
+        );
         let n = single.steps.len().max(double.steps.len());
         for i in 0..n {
             let pair = [&single, &double].map(|sample| sample.steps.get(i));
@@ -139,14 +142,19 @@ fn replay(args: &CheckArgs, console: &Console, scene: &Scene, job: &Job, at: Bad
     Exit::Done
 }
 
-/// Names of materials, as the pack's manifest knows them.
+/// Names of materials, as the pack's manifest knows them, and how exactly its places are told.
 struct Names {
     manifest: Option<pack::Manifest>,
+    /// Decimals of a metre; seven in the kernel's space, where everything is smaller than 1.
+    decimals: usize,
 }
 
 impl Names {
     fn new(scene: &Scene) -> Self {
-        Self { manifest: scene.pack().manifest().ok() }
+        let digits = (7.0 + scene.settings().scale().log10()).ceil();
+        #[expect(clippy::cast_possible_truncation, reason = "at most 17")]
+        let decimals = digits.clamp(0.0, 17.0) as usize;
+        Self { manifest: scene.pack().manifest().ok(), decimals }
     }
 
     /// `clay (scene.rts:12)`, or the number where there is no name.
@@ -170,10 +178,11 @@ impl Names {
             _ => format!(", sphere {}", prim & 0x7fff_ffff),
         });
         let vector = |[x, y, z]: [f64; 3]| format!("({x:.7} {y:.7} {z:.7})");
-        let far = if step.t < 1e29 { format!(" at {:.7}", step.t) } else { String::new() };
+        let n = self.decimals;
+        let [x, y, z] = step.origin;
+        let far = if step.t.is_finite() { format!(" at {:.n$} m", step.t) } else { String::new() };
         format!(
-            "{kind} from {} along {} meets {met}{part}{far}; throughput {}, radiance {}",
-            vector(step.origin),
+            "{kind} from ({x:.n$} {y:.n$} {z:.n$}) along {} meets {met}{part}{far}; throughput {}, radiance {}",
             vector(step.dir),
             vector(step.throughput),
             vector(step.radiance),

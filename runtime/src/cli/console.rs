@@ -14,6 +14,9 @@ use std::time::{Duration, Instant};
 
 /// How often the terminal is refreshed and an interrupt is looked for.
 const TICK: Duration = Duration::from_millis(100);
+/// From an interrupt to the end of a run that does not end by itself: two seconds less what it takes to
+/// write.
+const PATIENCE: Duration = Duration::from_millis(1200);
 /// Between two plain lines.
 const LINE: Duration = Duration::from_secs(5);
 
@@ -100,29 +103,48 @@ impl Console {
         exit
     }
 
-    /// Passes an interrupt on, and shows nothing, until `over` is set.
+    /// Passes an interrupt on, and shows nothing, until `over` is set; ends the process when nothing
+    /// comes of it.
     #[cfg(feature = "gpu")]
     pub(super) fn pass_interrupts(&self, control: &Control, over: &AtomicBool) {
-        let before = interrupts().load(Ordering::Relaxed);
+        let mut interrupt = Interrupt::default();
         while !over.load(Ordering::Relaxed) {
-            if interrupts().load(Ordering::Relaxed) != before && !control.is_cancelled() {
-                control.cancel();
+            if interrupt.pass_on(control) {
                 self.note("interrupted: telling what is complete (again to quit at once)");
+            }
+            if interrupt.is_ignored() {
+                self.give_up();
             }
             std::thread::park_timeout(TICK);
         }
         self.bar.finish_and_clear();
     }
 
-    /// Shows progress and passes interrupts on until `over` is set.
-    pub(super) fn watch(&self, control: &Control, watched: &Watched<'_>, over: &AtomicBool) {
+    /// Ends the process although something hangs.
+    pub(super) fn give_up(&self) -> ! {
+        self.bar.finish_and_clear();
+        self.warn("warning: the kernel or the driver does not come back");
+        quit(Exit::Interrupted)
+    }
+
+    /// Shows progress and passes interrupts on until `over` is set. `rescue` is called, again and again,
+    /// while a run does not end that should have.
+    pub(super) fn watch(
+        &self,
+        control: &Control,
+        watched: &Watched<'_>,
+        over: &AtomicBool,
+        rescue: &dyn Fn(),
+    ) {
         let started = Instant::now();
-        let before = interrupts().load(Ordering::Relaxed);
+        let mut interrupt = Interrupt::default();
         let mut last_line = started;
         while !over.load(Ordering::Relaxed) {
-            if interrupts().load(Ordering::Relaxed) != before && !control.is_cancelled() {
-                control.cancel();
+            if interrupt.pass_on(control) {
                 self.note("interrupted: writing what is complete (again to quit at once)");
+            }
+            if interrupt.is_ignored() || control.is_overdue() {
+                rescue();
             }
             if let Some(change) = watched.change
                 && !control.is_cancelled()
@@ -200,22 +222,52 @@ pub(super) fn duration_text(duration: Duration) -> String {
     }
 }
 
-/// Number of Ctrl-C so far. The first lets a run write what is complete, the second ends the
-/// process.
+/// An interrupt on its way to a run.
+#[derive(Default)]
+struct Interrupt {
+    passed: Option<Instant>,
+}
+
+impl Interrupt {
+    /// Cancels the run when there was an interrupt; true when that is news.
+    fn pass_on(&mut self, control: &Control) -> bool {
+        let is_news = self.passed.is_none() && is_interrupted();
+        if is_news {
+            self.passed = Some(Instant::now());
+            control.cancel();
+        }
+        is_news
+    }
+
+    /// Whether the run should have ended by now.
+    fn is_ignored(&self) -> bool {
+        self.passed.is_some_and(|passed| passed.elapsed() >= PATIENCE)
+    }
+}
+
+/// Number of Ctrl-C, SIGTERM and SIGHUP so far. The first lets a run write what is complete, the second
+/// ends the process.
 fn interrupts() -> &'static Arc<AtomicU32> {
     static COUNT: std::sync::OnceLock<Arc<AtomicU32>> = std::sync::OnceLock::new();
     static HANDLER: Once = Once::new();
     let count = COUNT.get_or_init(Arc::default);
     HANDLER.call_once(|| {
         let count = Arc::clone(count);
-        // A process that already has a handler keeps it: then an interrupt is not ours to handle.
-        let _ = ctrlc::set_handler(move || {
+        // Without it an interrupt ends the process at once.
+        let _ = host::on_interrupt(move || {
             if count.fetch_add(1, Ordering::Relaxed) > 0 {
-                std::process::exit(Exit::Interrupted as i32);
+                quit(Exit::Interrupted);
             }
         });
     });
     count
+}
+
+/// Ends the process now, whatever hangs.
+pub(super) fn quit(exit: Exit) -> ! {
+    // Lines are written when they end; there is nobody to tell if that fails.
+    let _ = std::io::stdout().flush();
+    host::exit_now(exit as u8)
 }
 
 /// Whether there was a Ctrl-C since `reset_interrupts`.
@@ -223,7 +275,7 @@ pub(super) fn is_interrupted() -> bool {
     interrupts().load(Ordering::Relaxed) > 0
 }
 
-/// Makes the next Ctrl-C a first one again.
+/// Makes the next Ctrl-C a first one again, and has them counted from now on.
 pub(super) fn reset_interrupts() {
     interrupts().store(0, Ordering::Relaxed);
 }

@@ -2,16 +2,17 @@
 
 use super::Exit;
 use super::args::{Every, PrecisionArg, RenderArgs};
-use super::console::{Console, Watched, duration_text, mrays, reset_interrupts};
+use super::console::{Console, Watched, duration_text, mrays, quit, reset_interrupts};
 use super::measure;
 use super::outputs::{Claim, Output, Use, outputs, prove, room, save, with_extension};
 use super::watch::Change;
 use crate::checkpoint::{Checkpoint, CheckpointError};
 use crate::control::Control;
 use crate::job::{Job, Precision};
+use crate::mark::Mark;
 use crate::output;
 use crate::region::SampleRange;
-use crate::render::{DeviceChoice, Outcome, render_session};
+use crate::render::{DeviceChoice, Outcome, RenderError, render_session};
 use crate::saver::{Keep, Session};
 use crate::scene::Scene;
 use crate::schedule::Stop;
@@ -61,11 +62,12 @@ pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
             return Exit::World;
         }
     };
-    let checkpoint = checkpoint_path(&outputs);
+    let checkpoint = checkpoint_path(args, &outputs);
     if let Err(exit) = prove_all(args, &console, &job, &outputs, &checkpoint) {
         return exit;
     }
     let load = began.elapsed();
+    let resumed = args.resume.as_ref().and_then(|_| Mark::of(&checkpoint));
     let from = match earlier(args, &console, &checkpoint, &scene, &job) {
         Ok(from) => from,
         Err(error) => return console.fail(&error, Exit::World),
@@ -83,8 +85,9 @@ pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
         Every::After(every) if !args.watch => Some(Keep { path: checkpoint, every }),
         _ => None,
     };
-    let plan = Plan { scene: &scene, job: &job, outputs: &outputs, change, load };
-    run(args, &console, &plan, Session { from, keep })
+    let (scene, job, outputs) = (&scene, &job, &outputs);
+    let plan = Plan { args, console: &console, scene, job, outputs, change, load, resumed };
+    run(&plan, Session { from, keep })
 }
 
 /// Everything that this run reads and writes.
@@ -141,42 +144,87 @@ fn job(args: &RenderArgs, scene: &Scene) -> Job {
 
 /// What is rendered, and where it goes.
 struct Plan<'a> {
+    args: &'a RenderArgs,
+    console: &'a Console,
     scene: &'a Scene,
     job: &'a Job,
     outputs: &'a [Output],
     change: Option<&'a Change>,
     /// Time that opening the pack took.
     load: Duration,
+    /// The checkpoint that the run goes on from.
+    resumed: Option<Mark>,
 }
 
-fn run(args: &RenderArgs, console: &Console, plan: &Plan<'_>, session: Session) -> Exit {
-    let Plan { scene, job, outputs, change, load } = *plan;
+fn run(plan: &Plan<'_>, session: Session) -> Exit {
+    let Plan { args, console, scene, job, change, .. } = *plan;
     if change.is_none() {
         reset_interrupts();
     }
     let notes = console.clone();
     let control = Control::new(move |text| notes.note(text));
+    control.stall_block(args.stall_block);
     let watched = Watched { spp: job.spp(), limit: job.time_limit, change };
     let over = AtomicBool::new(false);
+    let rescue = || rescue(plan, &control);
     let outcome = std::thread::scope(|scope| {
-        let watcher = scope.spawn(|| console.watch(&control, &watched, &over));
+        let watch = || console.watch(&control, &watched, &over, &rescue);
+        let watcher = std::thread::Builder::new().name("rtr-watch".to_owned());
+        let watcher = match watcher.spawn_scoped(scope, watch) {
+            Ok(watcher) => watcher,
+            Err(error) => return Err(Failure::Thread(error)),
+        };
         let choice = DeviceChoice::parse(&args.device);
         let outcome = render_session(scene, job, &choice, &control, session);
+        while matches!(outcome, Err(RenderError::Salvaged)) {
+            // What was complete is being written, and the process ends with that.
+            std::thread::park();
+        }
         over.store(true, Ordering::Relaxed);
         watcher.thread().unpark();
-        outcome
+        outcome.map_err(Failure::Render)
     });
-    let outcome = match outcome {
-        Ok(outcome) => outcome,
-        Err(error) => return console.fail(&error, Exit::World),
-    };
+    match outcome {
+        Ok(outcome) => conclude(plan, &outcome),
+        Err(error) => console.fail(&error, Exit::World),
+    }
+}
+
+/// A run that gives nothing.
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error("cannot start a thread: {0}; raise the limit of this process (ulimit -u, -v)")]
+    Thread(std::io::Error),
+    #[error(transparent)]
+    Render(RenderError),
+}
+
+/// Writes what is complete of a run that hangs, and ends the process. Comes back when it has ended.
+fn rescue(plan: &Plan<'_>, control: &Control) {
+    if let Some(outcome) = control.salvage() {
+        if outcome.stop == Stop::Cancelled {
+            let text =
+                "warning: the kernel or the driver does not come back; what is complete is written";
+            plan.console.warn(text);
+        }
+        quit(conclude(plan, &outcome));
+    }
+    // Nothing has begun: the driver hangs.
+    if control.progress().total == 0 {
+        plan.console.give_up();
+    }
+}
+
+/// Writes the picture and says how the run ended.
+fn conclude(plan: &Plan<'_>, outcome: &Outcome) -> Exit {
+    let Plan { args, console, scene, job, outputs, change, load, .. } = *plan;
     if outcome.stop == Stop::Cancelled && change.is_some_and(Change::has_come) {
         return Exit::Done;
     }
-    report(console, &outcome, job);
+    report(console, outcome, job);
     if outcome.film().samples().1 == 0 {
         console.warn("error: no sample was complete, nothing is written");
-        return exit(&outcome).unwrap_or(Exit::World);
+        return exit(outcome).unwrap_or(Exit::World);
     }
     let residual = residual(args) || !outcome.picture.meta.complete;
     let (mut failed, began) = (None, Instant::now());
@@ -189,30 +237,39 @@ fn run(args: &RenderArgs, console: &Console, plan: &Plan<'_>, session: Session) 
         failed = written.err().or(failed);
     }
     let times = measure::Outside { load, write: began.elapsed() };
-    if let Some(exit) = measure::write(args, console, scene, job, &outcome, &times) {
+    if let Some(exit) = measure::write(args, console, scene, job, outcome, &times) {
         failed = Some(exit);
     }
-    let exit = failed.or_else(|| exit(&outcome)).unwrap_or(Exit::Done);
-    settle(&checkpoint_path(outputs), args, console, &outcome, exit);
+    let exit = failed.or_else(|| exit(outcome)).unwrap_or(Exit::Done);
+    settle(plan, outcome, exit);
     exit
 }
 
-/// Removes the checkpoint of a picture that is done, or says how to go on.
-fn settle(path: &Path, args: &RenderArgs, console: &Console, outcome: &Outcome, exit: Exit) {
-    let ours = outcome.saved || args.resume;
-    if exit == Exit::Done && ours {
-        if let Err(error) = std::fs::remove_file(path)
-            && error.kind() != std::io::ErrorKind::NotFound
-        {
-            console.warn(&format!("warning: cannot remove {}: {error}", path.shown()));
+/// Removes the checkpoint of a picture that is done, if it is the one that this run wrote or went on from;
+/// or says how to go on.
+fn settle(plan: &Plan<'_>, outcome: &Outcome, exit: Exit) {
+    let Some(own) = outcome.checkpoint.as_ref().or(plan.resumed.as_ref()) else { return };
+    let (path, console) = (own.path().shown(), plan.console);
+    if exit == Exit::Done {
+        if let Err(error) = own.remove() {
+            console.warn(&format!("warning: cannot remove {path}: {error}"));
         }
-    } else if ours && path.is_file() {
-        console.note(&format!("to go on, run the same with --resume ({})", path.shown()));
+    } else if own.is_there() {
+        let named = plan.args.resume.as_ref().is_some_and(Option::is_some);
+        let (flag, of) = if named {
+            (format!("--resume={path}"), String::new())
+        } else {
+            ("--resume".to_owned(), format!(" ({path})"))
+        };
+        console.note(&format!("to go on, run the same with {flag}{of}"));
     }
 }
 
-/// Beside the first output that is a file: `a.png.checkpoint`.
-fn checkpoint_path(outputs: &[Output]) -> PathBuf {
+/// The one that is named, or beside the first output that is a file: `a.png.checkpoint`.
+fn checkpoint_path(args: &RenderArgs, outputs: &[Output]) -> PathBuf {
+    if let Some(Some(path)) = &args.resume {
+        return path.clone();
+    }
     let file = outputs.iter().find(|output| !files::is_stream(&output.path));
     with_extension(file.map_or(Path::new("picture"), |output| &output.path), "checkpoint")
 }
@@ -225,16 +282,23 @@ fn earlier(
     scene: &Scene,
     job: &Job,
 ) -> Result<Option<Checkpoint>, CheckpointError> {
-    if !args.resume {
+    let Some(named) = &args.resume else {
         if path.is_file() && !args.watch {
             let path = path.shown();
-            console.note(&format!("{path} is of an unfinished run; --resume would go on with it"));
+            console.note(&format!(
+                "{path} is of an unfinished run; --resume would go on with it, this run keeps it as it is"
+            ));
         }
         return Ok(None);
-    }
+    };
     let from = Checkpoint::read(path)?;
     match &from {
         Some(from) => from.check(path, scene, job)?,
+        None if named.is_some() => {
+            let (action, path) = ("read", path.to_owned());
+            let source = std::io::ErrorKind::NotFound.into();
+            return Err(files::FileError::Io { action, path, source }.into());
+        }
         None => console.note(&format!("there is no {}, so this run begins", path.shown())),
     }
     Ok(from)
@@ -291,7 +355,14 @@ fn report(console: &Console, outcome: &Outcome, job: &Job) {
         counters.rays,
         counters.depth,
     ));
-    if least != most {
+    if outcome.stop == Stop::TimeLimit && least == 0 && most > 0 {
+        let done = film.counts.iter().filter(|n| **n > 0).count();
+        let share = 100.0 * done as f64 / film.counts.len().max(1) as f64;
+        console.warn(&format!(
+            "warning: the time was enough for {share:.1} % of the pixels, the others are black; give it \
+             more, or render less with --size or --crop"
+        ));
+    } else if least != most {
         console.warn(&format!("warning: pixels have between {least} and {most} samples"));
     }
     if let Some(error) = &outcome.device_error {

@@ -132,6 +132,7 @@ impl Device {
         tally: &mut Tally,
     ) -> Result<(), GpuError> {
         let Some(oldest) = under_way.front_mut() else { return Ok(()) };
+        run.control().stall_if_asked();
         let waited = self.wait(oldest.index.clone());
         self.fault()?;
         waited?;

@@ -120,13 +120,14 @@ fn attributes_of(picture: &Picture) -> Vec<(Text, AttributeValue)> {
 /// Reads what `encode_exr` made.
 pub fn read_exr(path: &Path) -> Result<Picture, OutputError> {
     check_claims(path)?;
+    let file = files::open_regular(path).map_err(OutputError::Open)?;
     let image = ::exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
         .all_channels()
         .first_valid_layer()
         .all_attributes()
-        .from_file(path)
+        .from_unbuffered(file)
         .map_err(|error| OutputError::Read { path: path.to_owned(), message: error.to_string() })?;
     let foreign = |message: String| OutputError::Foreign { path: path.to_owned(), message };
     let fields = Fields { layer: &image.layer_data.attributes };
@@ -139,7 +140,7 @@ pub fn read_exr(path: &Path) -> Result<Picture, OutputError> {
 fn check_claims(path: &Path) -> Result<(), OutputError> {
     let read = |message: String| OutputError::Read { path: path.to_owned(), message };
     let foreign = |message: String| OutputError::Foreign { path: path.to_owned(), message };
-    let file = files::open_regular(path).map_err(OutputError::Write)?;
+    let file = files::open_regular(path).map_err(OutputError::Open)?;
     let length = file.metadata().map_err(|error| read(error.to_string()))?.len();
     let meta = MetaData::read_from_buffered(BufReader::new(file), false)
         .map_err(|error| read(error.to_string()))?;
@@ -207,7 +208,8 @@ fn parse_film(
     if !region.fits(image_size) {
         return Err("the data window lies outside the display window".to_owned());
     }
-    let mut film = Film { ranges, counters, ..Film::new(image_size, region) };
+    let film = Film::try_new(image_size, region).map_err(|error| error.to_string())?;
+    let mut film = Film { ranges, counters, ..film };
     let find = |name: &str| layer.channel_data.list.iter().find(|c| c.name.eq(name));
     if let Some(FlatSamples::F32(variance)) = find(VARIANCE).map(|channel| &channel.sample_data) {
         film.variance = variance.iter().map(|v| f64::from(*v)).collect();

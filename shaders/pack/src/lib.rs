@@ -33,7 +33,6 @@ mod header;
 mod kind;
 pub mod manifest;
 mod map;
-pub mod memory;
 mod reader;
 mod table;
 mod writer;

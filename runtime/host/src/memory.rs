@@ -1,12 +1,20 @@
 //! How much memory there is for this process, as far as the system tells.
 //!
 //! Linux promises memory that it does not have and kills whoever uses it, so an allocation that succeeds says
-//! nothing. It does say what is free: for the machine, for the group that a process is in, and of the address
-//! space that a process may have (`ulimit -v`). Elsewhere nothing is known.
+//! nothing. It does say what is free: for the machine, for the group that a process is in, and of the memory that a
+//! process may have (`ulimit -v`). Elsewhere nothing is known.
+
+use crate::limit::room;
 
 /// Bytes that this process can use without making others swap, and without being refused.
 #[must_use]
 pub fn free() -> Option<u64> {
+    machine().into_iter().chain(room().map(|room| room.free)).min()
+}
+
+/// Bytes that the machine, or the group that this process is in, has left.
+#[must_use]
+pub fn machine() -> Option<u64> {
     let read = |path: &str| std::fs::read_to_string(path).ok();
     let machine = read("/proc/meminfo").and_then(|text| kilobytes(&text, "MemAvailable:"));
     let number = |path: &str| read(path)?.trim().parse::<u64>().ok();
@@ -15,10 +23,7 @@ pub fn free() -> Option<u64> {
     let cache = read("/sys/fs/cgroup/memory.stat").map_or(0, |text| reclaimable(&text));
     let group =
         limit.zip(used).map(|(limit, used)| limit.saturating_sub(used.saturating_sub(cache)));
-    let most = read("/proc/self/limits").and_then(|text| address_space(&text));
-    let taken = read("/proc/self/status").and_then(|text| kilobytes(&text, "VmSize:"));
-    let process = most.zip(taken).map(|(most, taken)| most.saturating_sub(taken));
-    [machine, group, process].into_iter().flatten().min()
+    machine.into_iter().chain(group).min()
 }
 
 /// Bytes of files that `memory.stat` counts as used, though they are given back when memory is short.
@@ -36,12 +41,6 @@ fn kilobytes(text: &str, name: &str) -> Option<u64> {
     line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
 }
 
-/// The soft limit of the address space in `/proc/self/limits`; `None` when there is none.
-fn address_space(limits: &str) -> Option<u64> {
-    let line = limits.lines().find_map(|line| line.strip_prefix("Max address space"))?;
-    line.split_whitespace().next()?.parse().ok()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -56,10 +55,6 @@ mod tests {
             assert_eq!(available(text), None, "{text}");
         }
         assert_eq!(reclaimable("anon 5\nfile 9\nactive_file 3\ninactive_file 4\nkernel x\n"), 7);
-        let limits =
-            "Limit  Soft Limit  Hard Limit  Units\nMax address space  4096000  unlimited  bytes\n";
-        assert_eq!(address_space(limits), Some(4_096_000));
-        assert_eq!(address_space(&limits.replace("4096000", "unlimited")), None);
         if cfg!(target_os = "linux") {
             assert!(free().is_some_and(|bytes| bytes > 0));
         }
