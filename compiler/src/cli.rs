@@ -10,6 +10,7 @@ mod explain;
 mod files;
 mod fmt;
 mod inspect;
+mod mapped;
 mod outputs;
 mod record;
 mod show;

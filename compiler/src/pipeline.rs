@@ -68,6 +68,8 @@ pub struct Compiled {
     pub memory: Option<Memory>,
     /// What is left of each thing; `None` also where that is in the cache.
     pub roster: Option<EncodedRoster>,
+    /// The mapped pack that some of it was taken from; it must not have changed when a pack is written of it.
+    pub source: Option<pack::Witness>,
     /// What was taken over from earlier compilations.
     pub reused: Reused,
     /// What took how long.
@@ -163,6 +165,7 @@ fn complete(
     let recipe_id = context.recipe_id();
     let trees = Share { reused: lowered.trees.loaded, all: lowered.trees.groups };
     let reused = Reused { texts: sources.ids().count(), geometry, trees, ..reuse.counts() };
+    let source = earlier.and_then(|(pack, _)| pack.witness());
     let before = earlier.map(|(_, memory)| memory);
     let (memory, roster) = Memory::of(essence, &files, &mut lowered, before);
     Ok(Compiled {
@@ -174,6 +177,7 @@ fn complete(
         files,
         memory,
         roster,
+        source,
         reused,
         phases: clock.phases,
     })
@@ -245,7 +249,8 @@ impl Compiled {
             .records(&lowered.textures)
             .sky_table(&lowered.sky_table)
             .kernel(&self.kernel.text)
-            .recipe_id(self.recipe_id);
+            .recipe_id(self.recipe_id)
+            .taken_from(self.source.clone());
         let format = pack::abi::TextureFormat::Rgba8Srgb as u32;
         if lowered.textures.iter().any(|texture| texture.format == format) {
             writer.srgb_table(srgb);

@@ -20,8 +20,17 @@ fn limits_are_one_line_and_no_panic() {
     let rtc = env!("CARGO_BIN_EXE_rtc");
     let mut refused = 0;
     let limits = [
-        "-v 20000", "-v 60000", "-v 100000", "-v 150000", "-v 250000", "-v 500000", "-d 20000",
-        "-s 64", "-s 32", "-n 3", "-n 8",
+        "-v 20000",
+        "-v 60000",
+        "-v 100000",
+        "-v 150000",
+        "-v 250000",
+        "-v 500000",
+        "-d 20000",
+        "-s 64",
+        "-s 32",
+        "-n 3",
+        "-n 8",
     ];
     for limit in limits {
         for command in ["build a.rts -o a.pack --no-cache", "check a.rts"] {

@@ -24,6 +24,7 @@ pub struct Control {
     /// See `ignore_timestamps`.
     untimed: AtomicBool,
     note: Box<dyn Fn(&str) + Send + Sync>,
+    gate: Box<dyn Fn() -> bool + Send + Sync>,
 }
 
 /// How far a run is.
@@ -62,7 +63,15 @@ impl Control {
             losses: AtomicU64::new(0),
             untimed: AtomicBool::new(false),
             note: Box::new(note),
+            gate: Box::new(|| true),
         }
+    }
+
+    /// `gate` is asked, by any thread, before each checkpoint is written, and may take its time. What was rendered is
+    /// kept only if it says yes.
+    #[must_use]
+    pub fn gated(self, gate: impl Fn() -> bool + Send + Sync + 'static) -> Self {
+        Self { gate: Box::new(gate), ..self }
     }
 
     /// Asks the run to end soon, with every complete batch.
@@ -163,6 +172,11 @@ impl Control {
         let left = |times: u64| times.checked_sub(1);
         n >= self.lost_after.load(Ordering::Relaxed)
             && self.losses.fetch_update(Ordering::Relaxed, Ordering::Relaxed, left).is_ok()
+    }
+
+    /// Whether what was rendered so far may be kept.
+    pub(crate) fn may_keep(&self) -> bool {
+        (self.gate)()
     }
 
     pub(crate) fn note(&self, text: &str) {

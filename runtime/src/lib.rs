@@ -9,7 +9,7 @@
 //! use runtime::{Control, DeviceChoice, Job, Scene, render};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let scene = Scene::new(pack::Pack::open("scene.pack", pack::MapMode::Map)?);
+//! let scene = Scene::new(pack::Pack::read("scene.pack")?);
 //! let job = Job::of_scene(&scene);
 //! let outcome = render(&scene, &job, &DeviceChoice::Cpu, &Control::default())?;
 //! runtime::output::write("scene.exr".as_ref(), &outcome.picture, false)?;

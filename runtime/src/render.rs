@@ -137,14 +137,13 @@ pub fn render_session(
         from.film
     });
     let run = Run::new(job, control, film, frame)?;
-    let note = |text: &str| control.note(text);
     let (finished, device_error) = std::thread::scope(|scope| {
         if run.shared().saver().is_some() {
             let shared: &Shared = run.shared();
-            let work = move || shared.saver().into_iter().for_each(|saver| saver.work(&note));
+            let work = move || shared.saver().into_iter().for_each(|saver| saver.work(control));
             let thread = std::thread::Builder::new().name("rtr-saver".to_owned());
             if let Err(error) = thread.spawn_scoped(scope, work) {
-                note(&format!("warning: no checkpoints while it renders: {error}"));
+                control.note(&format!("warning: no checkpoints while it renders: {error}"));
             }
         }
         let backends = Backends {
@@ -162,7 +161,7 @@ pub fn render_session(
         (finished, error)
     });
     let finished = finished.ok_or(RenderError::Salvaged)?;
-    Ok(run.shared().outcome(finished, device_error, &note))
+    Ok(run.shared().outcome(finished, device_error, control))
 }
 
 /// What is known of a picture before it is rendered.

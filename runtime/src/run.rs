@@ -357,7 +357,7 @@ impl Shared {
         let finished = self.take()?;
         let error = "the kernel or the driver did not come back in time";
         let error = (!cancelled).then(|| error.to_owned());
-        Some(self.outcome(finished, error, &|text| control.note(text)))
+        Some(self.outcome(finished, error, control))
     }
 
     fn take(&self) -> Option<Finished> {
@@ -389,14 +389,14 @@ impl Shared {
         &self,
         finished: Finished,
         device_error: Option<String>,
-        note: &dyn Fn(&str),
+        control: &Control,
     ) -> Outcome {
         let Finished { mut film, stop, failures, elapsed, convergence, devices } = finished;
         let well = matches!(stop, Stop::Complete | Stop::TimeLimit | Stop::ErrorReached);
         let well = well && device_error.is_none();
         let saver = self.saver();
         if let (Some(saver), false) = (saver, well) {
-            film = saver.last(film, elapsed, note);
+            film = saver.last(film, elapsed, control);
         }
         let elapsed = self.frame.before + elapsed;
         let meta = Meta {

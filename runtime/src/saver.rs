@@ -6,6 +6,7 @@
 //! replaced.
 
 use crate::checkpoint::Checkpoint;
+use crate::control::Control;
 use crate::film::Film;
 use crate::job::Job;
 use crate::mark::{Mark, make_way};
@@ -121,7 +122,7 @@ impl Saver {
     }
 
     /// Saves what a run that did not end well has left, in this thread, and gives it back.
-    pub(crate) fn last(&self, film: Film, elapsed: Duration, note: &dyn Fn(&str)) -> Film {
+    pub(crate) fn last(&self, film: Film, elapsed: Duration, control: &Control) -> Film {
         let state = self.lock();
         let busy = |state: &mut State| matches!(state.task, Task::UnderWay);
         // A disk that hangs is not waited for.
@@ -132,7 +133,7 @@ impl Saver {
         }
         let checkpoint = self.checkpoint(&state, film, elapsed);
         drop(state);
-        self.write(&checkpoint, note);
+        self.write(&checkpoint, control);
         checkpoint.film
     }
 
@@ -162,7 +163,7 @@ impl Saver {
     }
 
     /// Writes what is offered until `close`.
-    pub(crate) fn work(&self, note: &dyn Fn(&str)) {
+    pub(crate) fn work(&self, control: &Control) {
         let mut state = self.lock();
         loop {
             match std::mem::replace(&mut state.task, Task::Nothing) {
@@ -170,8 +171,8 @@ impl Saver {
                     state.task = Task::UnderWay;
                     drop(state);
                     match checkpoint {
-                        Ok(checkpoint) => self.write(&checkpoint, note),
-                        Err(error) => self.warn(&error, note),
+                        Ok(checkpoint) => self.write(&checkpoint, control),
+                        Err(error) => self.warn(&error, control),
                     }
                     state = self.lock();
                     state.task = Task::Nothing;
@@ -190,20 +191,24 @@ impl Saver {
         self.wake.notify_all();
     }
 
-    fn write(&self, checkpoint: &Checkpoint, note: &dyn Fn(&str)) {
+    fn write(&self, checkpoint: &Checkpoint, control: &Control) {
+        // The copy was taken before this is asked, so what is wrong with it is known by now.
+        if !control.may_keep() {
+            return;
+        }
         let path = &self.keep.path;
         match make_way(path, self.mark().as_ref()) {
             Ok(None) => {}
             Ok(Some(aside)) => {
                 let (path, aside) = (path.shown(), aside.shown());
-                note(&format!(
+                control.note(&format!(
                     "{path} is of another run and is {aside} now; to go on with that one: --resume={aside}"
                 ));
             }
-            Err(error) => return self.warn(&error, note),
+            Err(error) => return self.warn(&error, control),
         }
         if let Err(error) = checkpoint.write(path) {
-            return self.warn(&error, note);
+            return self.warn(&error, control);
         }
         let mut state = self.lock();
         state.own = Mark::of(path);
@@ -211,10 +216,10 @@ impl Saver {
         state.end = checkpoint.film.ranges.last().map_or(0, |range| range.end);
     }
 
-    fn warn(&self, error: &dyn Error, note: &dyn Fn(&str)) {
+    fn warn(&self, error: &dyn Error, control: &Control) {
         if !std::mem::replace(&mut self.lock().failed, true) {
             let path = self.keep.path.shown();
-            note(&format!("warning: no checkpoint in {path}: {error}; rendering goes on"));
+            control.note(&format!("warning: no checkpoint in {path}: {error}; rendering goes on"));
         }
     }
 }

@@ -10,7 +10,7 @@ use std::process::ExitCode;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use files::inject::{Lasts, arm};
-use pack::{MapMode, Pack};
+use pack::Pack;
 use runtime::Checkpoint;
 use tempfile::TempDir;
 
@@ -115,9 +115,9 @@ fn is_whole(name: &str, bytes: &[u8]) -> bool {
     };
     let text = || std::str::from_utf8(bytes).unwrap_or_default();
     match Path::new(name).extension().and_then(|e| e.to_str()) {
-        Some("pack") => file(&|path| {
-            Pack::open(path, MapMode::Read).is_ok_and(|pack| pack.verify_hashes().is_ok())
-        }),
+        Some("pack") => {
+            file(&|path| Pack::read(path).is_ok_and(|pack| pack.verify_hashes().is_ok()))
+        }
         Some("exr") => file(&|path| runtime::output::read_exr(path).is_ok()),
         Some("checkpoint") => file(&|path| Checkpoint::read(path).is_ok()),
         Some("png") => image::load_from_memory(bytes).is_ok(),

@@ -5,14 +5,13 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
 use clap::Args;
-use pack::{MapMode, Pack};
 
 use super::compile::{Compilation, compile};
 use super::outputs::Outputs;
 use super::record::{Before, Done, Edited, Job, Record};
 use super::summary::{done, portability, reused_text, timings};
 use super::watch::watch;
-use super::{IO, OK, ReportArgs, SceneArgs, inspect};
+use super::{IO, OK, ReportArgs, SceneArgs, inspect, mapped};
 use crate::bvh::{Layout, Preset};
 use crate::cache::Cache;
 use crate::depfile::depfile;
@@ -210,7 +209,7 @@ fn explained(args: &BuildArgs, output: &Path, reporter: &Reporter) -> u8 {
     if !args.explain_features {
         return OK;
     }
-    match Pack::open(output, MapMode::Map) {
+    match mapped::map(output) {
         Ok(pack) => inspect::report(&pack, reporter),
         Err(error) => {
             reporter.failure(&format!("{}: {error}", output.shown()));

@@ -91,6 +91,10 @@ pub(super) fn compile(
         pipeline::compile_again(what, &sources, &options, known, reuse, &mut diagnostics)
     };
     let taken_over = again();
+    // Whatever came of bytes that were written to meanwhile, it is not what the scene says.
+    if let Ok(Some(Compiled { source: Some(source), .. })) = &taken_over {
+        source.look().map_err(|error| failed(&error.into(), reporter))?;
+    }
     let result = match taken_over {
         Ok(Some(compiled)) => {
             before.iter().flat_map(|(_, edited)| edited.data()).for_each(|path| reuse.read(path));

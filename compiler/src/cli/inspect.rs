@@ -10,9 +10,9 @@ use clap::Args;
 use pack::abi::{Instance, Node, WideNode};
 use pack::bvh::InnerNode;
 use pack::manifest::{Feature, KernelSize};
-use pack::{Checked, Manifest, MapMode, Pack};
+use pack::{Checked, Manifest, Pack};
 
-use super::{BUG, IO, printed};
+use super::{BUG, IO, mapped, printed};
 use crate::bvh::Layout;
 use crate::pipeline::full_kernel_size;
 use crate::report::{Color, ErrorFormat, Reporter};
@@ -28,7 +28,7 @@ pub(super) struct InspectArgs {
 
 pub(super) fn inspect(args: &InspectArgs) -> u8 {
     let reporter = Reporter::new(ErrorFormat::Human, Color::Auto, usize::MAX);
-    let opened = Pack::open(&args.pack, MapMode::Map).and_then(|pack| {
+    let opened = mapped::map(&args.pack).and_then(|pack| {
         if args.verify {
             pack.verify_hashes()?;
         }
@@ -45,16 +45,17 @@ pub(super) fn inspect(args: &InspectArgs) -> u8 {
 
 /// Prints the sections, which features the kernel has, and how large it is.
 pub(super) fn report(pack: &Pack<Checked>, reporter: &Reporter) -> u8 {
-    if !reporter.output(&table(pack)) {
-        return IO;
-    }
-    let manifest = match pack.manifest() {
+    let (table, manifest) = (table(pack), pack.manifest());
+    let manifest = match mapped::unchanged(pack).and(manifest) {
         Ok(manifest) => manifest,
         Err(error) => {
             reporter.failure(&error.to_string());
             return IO;
         }
     };
+    if !reporter.output(&table) {
+        return IO;
+    }
     match full_kernel_size() {
         Ok(full) => printed(reporter, &explanation(&manifest, full)),
         Err(error) => {

@@ -10,10 +10,11 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use pack::{MapMode, Pack};
+use pack::Pack;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
+use super::mapped;
 use crate::cache::Cache;
 use crate::input::Root;
 use crate::lower::Trees;
@@ -124,7 +125,7 @@ impl Job<'_> {
 
     /// The pack of a record, whole and verified.
     fn pack_of(&self, record: &Record) -> Option<Pack> {
-        let pack = Pack::open(self.output, MapMode::Map).ok()?;
+        let pack = mapped::map(self.output).ok()?;
         pack.verify_hashes().ok()?;
         (names(&[pack.render_id(), pack.recipe_id()]) == record.pack).then_some(pack)
     }

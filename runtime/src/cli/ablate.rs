@@ -19,6 +19,8 @@ pub(super) use with_gpu::command;
 mod with_gpu {
     use super::super::args::AblateArg;
     use super::super::console::reset_interrupts;
+    use super::super::guard::{Guard, Verify};
+    use super::super::open::{How, open};
     use super::super::outputs::{Claim, Use, prove, save};
     use super::{Console, Exit, RenderArgs};
     use crate::ablation::{Ablation, AblationError, Event, Measured, Plan, Row, ablate};
@@ -28,7 +30,6 @@ mod with_gpu {
     use crate::render::DeviceChoice;
     use crate::scene::Scene;
     use files::ShowPath as _;
-    use pack::{MapMode, Pack};
     use std::path::Path;
     use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -48,8 +49,7 @@ mod with_gpu {
             console.warn(&format!("error: cannot write {report}: --ablate reports as .json"));
             return Exit::Usage;
         }
-        let mode = if args.no_mmap { MapMode::Read } else { MapMode::Map };
-        let scene = match Pack::open(path, mode) {
+        let scene = match open(path, How::of(args.no_mmap)) {
             Ok(pack) => Scene::new(pack),
             Err(error) => return console.fail_about(path, &error, Exit::World),
         };
@@ -63,9 +63,17 @@ mod with_gpu {
         if let Err(error) = job.check() {
             return console.fail(&error, Exit::Usage);
         }
-        match compare(args, &console, &scene, &job) {
-            Ok(ablation) => conclude(args, &console, &ablation),
-            Err(error) => console.fail(&error, Exit::World),
+        // What is timed is not to wait for hashes.
+        let verify = if args.verify == Verify::Off { Verify::Off } else { Verify::First };
+        let guard = match Guard::new(&console, path, scene.pack(), verify) {
+            Ok(guard) => guard,
+            Err(exit) => return exit,
+        };
+        let control = Control::default();
+        match guard.during(&control, || compare(args, &console, (&scene, &job), &control)) {
+            Ok(Ok(ablation)) => conclude(args, &console, &ablation),
+            Ok(Err(error)) => console.fail(&error, Exit::World),
+            Err(exit) => exit,
         }
     }
 
@@ -89,11 +97,11 @@ mod with_gpu {
     fn compare(
         args: &RenderArgs,
         console: &Console,
-        scene: &Scene,
-        job: &Job,
+        (scene, job): (&Scene, &Job),
+        control: &Control,
     ) -> Result<Ablation, AblationError> {
         reset_interrupts();
-        let (control, over) = (Control::default(), AtomicBool::new(false));
+        let over = AtomicBool::new(false);
         let plan = Plan { rounds: ROUNDS, each: args.ablate == Some(AblateArg::Each) };
         let mut first: Option<Row> = None;
         let mut tell = |event: Event<'_>| {
@@ -108,9 +116,9 @@ mod with_gpu {
             console.result(&line(row, base));
         };
         std::thread::scope(|scope| {
-            let watcher = scope.spawn(|| console.pass_interrupts(&control, &over));
+            let watcher = scope.spawn(|| console.pass_interrupts(control, &over));
             let choice = DeviceChoice::parse(&args.device);
-            let ablation = ablate(scene, job, &choice, plan, &control, &mut tell);
+            let ablation = ablate(scene, job, &choice, plan, control, &mut tell);
             over.store(true, Ordering::Relaxed);
             watcher.thread().unpark();
             ablation

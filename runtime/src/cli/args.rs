@@ -1,5 +1,6 @@
 //! Arguments as clap reads them, and the parsers of their values.
 
+use super::guard::Verify;
 use crate::convergence::Goal;
 use crate::output::Format;
 use crate::region::{Rect, SampleRange};
@@ -212,7 +213,7 @@ pub(super) enum AblateArg {
 #[derive(Clone, Debug, clap::Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch on the command line")]
 pub(super) struct RenderArgs {
-    /// The pack to render.
+    /// The pack to render; - reads it from standard input.
     #[arg(value_name = "SCENE.pack", required_unless_present = "list_devices")]
     pub(super) pack: Option<PathBuf>,
     /// Where to render: auto (best real GPU, else CPU), cpu, gpu, or a part of an adapter's name.
@@ -269,6 +270,9 @@ pub(super) struct RenderArgs {
     /// Read the pack instead of mapping it: for network file systems.
     #[arg(long)]
     pub(super) no_mmap: bool,
+    /// When the bytes of the pack are compared with the hashes in it.
+    #[arg(long, default_value = "background", value_name = "WHEN")]
+    pub(super) verify: Verify,
     /// Stop at the first sample that is not finite.
     #[arg(long)]
     pub(super) strict: bool,

@@ -4,6 +4,8 @@
 use super::Exit;
 use super::args::BenchArgs;
 use super::console::{Console, Watched, reset_interrupts};
+use super::guard::{Guard, Verify};
+use super::open::{How, open};
 use super::outputs::{Claim, Use, prove, save};
 use crate::control::Control;
 use crate::convergence::{Comparison, Measure, Point, Report, Spread, compare};
@@ -13,7 +15,6 @@ use crate::render::{DeviceChoice, render};
 use crate::scene::Scene;
 use crate::schedule::Stop;
 use files::ShowPath as _;
-use pack::{MapMode, Pack};
 use serde::Serialize;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -59,13 +60,19 @@ pub(super) fn command(args: &BenchArgs) -> Exit {
     }
     let mut sides = Vec::new();
     for path in [&args.first, &args.second] {
-        match Pack::open(path, MapMode::Map) {
+        match open(path, How::Map) {
             Ok(pack) => {
                 let scene = Scene::new(pack);
                 sides.push(Side { path, scene, points: Vec::new(), reports: Vec::new() });
             }
             Err(error) => return console.fail_about(path, &error, Exit::World),
         }
+    }
+    let guard = |side: &Side<'_>| {
+        Guard::new(&console, side.path, side.scene.pack(), Verify::First).map(drop)
+    };
+    if let Err(exit) = sides.iter().try_for_each(guard) {
+        return exit;
     }
     for run in 0..args.runs {
         // Who is first changes, so that what warms up or slows down favours neither.
@@ -90,6 +97,7 @@ fn one(args: &BenchArgs, console: &Console, run: u32, side: &mut Side<'_>) -> Re
     job.time_limit = Some(args.time);
     job.threads = args.threads;
     job.measure = Some(Measure::default());
+    let guard = Guard::new(console, side.path, side.scene.pack(), Verify::First)?;
     let control = Control::default();
     let over = AtomicBool::new(false);
     let watched = Watched { spp: job.spp(), limit: job.time_limit, change: None };
@@ -100,12 +108,13 @@ fn one(args: &BenchArgs, console: &Console, run: u32, side: &mut Side<'_>) -> Re
     };
     let outcome = std::thread::scope(|scope| {
         let watcher = scope.spawn(|| console.watch(&control, &watched, &over, &rescue));
-        let outcome = render(&side.scene, &job, &DeviceChoice::parse(&args.device), &control);
+        let choice = DeviceChoice::parse(&args.device);
+        let outcome = guard.during(&control, || render(&side.scene, &job, &choice, &control));
         over.store(true, Ordering::Relaxed);
         watcher.thread().unpark();
         outcome
     });
-    let outcome = outcome.map_err(|error| console.fail(&error, Exit::World))?;
+    let outcome = outcome?.map_err(|error| console.fail(&error, Exit::World))?;
     if outcome.stop == Stop::Cancelled {
         return Err(Exit::Interrupted);
     }

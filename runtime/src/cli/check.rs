@@ -3,20 +3,25 @@
 use super::Exit;
 use super::args::CheckArgs;
 use super::console::Console;
+use super::guard::{Guard, Verify};
+use super::open::{How, open};
 use super::outputs::{Claim, Use, prove, save};
 use crate::check::{self, Report, Sample, Step, Verdict};
+use crate::control::Control;
 use crate::film::BadSample;
 use crate::job::Job;
 use crate::region::SampleRange;
 use crate::scene::Scene;
-use pack::{MapMode, Pack};
 
 pub(super) fn command(args: &CheckArgs) -> Exit {
     let console = Console::new(args.quiet);
-    let mode = if args.no_mmap { MapMode::Read } else { MapMode::Map };
-    let scene = match Pack::open(&args.pack, mode) {
+    let scene = match open(&args.pack, How::of(args.no_mmap)) {
         Ok(pack) => Scene::new(pack),
         Err(error) => return console.fail_about(&args.pack, &error, Exit::World),
+    };
+    let guard = match Guard::new(&console, &args.pack, scene.pack(), Verify::First) {
+        Ok(guard) => guard,
+        Err(exit) => return exit,
     };
     let mut job = Job::of_scene(&scene);
     if let Some(size) = args.size {
@@ -33,7 +38,12 @@ pub(super) fn command(args: &CheckArgs) -> Exit {
             console.warn(&format!("error: pixel {x},{y} is not in the image"));
             return Exit::Usage;
         }
-        return replay(args, &console, &scene, &job, BadSample { x, y, sample: args.sample });
+        let at = BadSample { x, y, sample: args.sample };
+        return match guard.during(&Control::default(), || check::replay(&scene, &job, at)) {
+            Ok(Ok(pair)) => replayed(args, &console, &scene, (&job, at), &pair),
+            Ok(Err(error)) => console.fail(&error, Exit::World),
+            Err(exit) => exit,
+        };
     }
     let inputs = [Use { path: &args.pack, what: "the pack" }];
     let room = 3 * job.crop.pixels();
@@ -41,9 +51,10 @@ pub(super) fn command(args: &CheckArgs) -> Exit {
     if let Err(exit) = prove(&console, &inputs, &heat.collect::<Vec<_>>()) {
         return exit;
     }
-    let report = match check::compare(&scene, &job) {
-        Ok(report) => report,
-        Err(error) => return console.fail(&error, Exit::World),
+    let report = match guard.during(&Control::default(), || check::compare(&scene, &job)) {
+        Ok(Ok(report)) => report,
+        Ok(Err(error)) => return console.fail(&error, Exit::World),
+        Err(exit) => return exit,
     };
     tell(&console, &report);
     if let Some(path) = &args.heat {
@@ -110,11 +121,13 @@ fn tell(console: &Console, report: &Report) {
     }
 }
 
-fn replay(args: &CheckArgs, console: &Console, scene: &Scene, job: &Job, at: BadSample) -> Exit {
-    let [single, double] = match check::replay(scene, job, at) {
-        Ok(pair) => pair,
-        Err(error) => return console.fail(&error, Exit::World),
-    };
+fn replayed(
+    args: &CheckArgs,
+    console: &Console,
+    scene: &Scene,
+    (job, at): (&Job, BadSample),
+    [single, double]: &[Sample; 2],
+) -> Exit {
     console.result(&format!("pixel {},{}, sample {}, seed {}", at.x, at.y, at.sample, job.seed));
     if args.trace {
         let names = Names::new(scene);
@@ -123,7 +136,7 @@ fn replay(args: &CheckArgs, console: &Console, scene: &Scene, job: &Job, at: Bad
         );
         let n = single.steps.len().max(double.steps.len());
         for i in 0..n {
-            let pair = [&single, &double].map(|sample| sample.steps.get(i));
+            let pair = [single, double].map(|sample| sample.steps.get(i));
             let parts = pair[0].map(|step| step.hit) != pair[1].map(|step| step.hit);
             console.result(&format!("ray {i}{}", if parts { ": here they part" } else { "" }));
             for (name, step) in ["f32", "f64"].into_iter().zip(pair) {
@@ -132,7 +145,7 @@ fn replay(args: &CheckArgs, console: &Console, scene: &Scene, job: &Job, at: Bad
             }
         }
     }
-    for (name, sample) in [("f32", &single), ("f64", &double)] {
+    for (name, sample) in [("f32", single), ("f64", double)] {
         let Sample { radiance: [r, g, b], segments, rays, .. } = sample;
         console.result(&format!(
             "{name}: radiance {r:?} {g:?} {b:?}, {segments} segments, {rays} rays"

@@ -3,7 +3,9 @@
 use super::Exit;
 use super::args::{Every, PrecisionArg, RenderArgs};
 use super::console::{Console, Watched, duration_text, mrays, quit, reset_interrupts};
+use super::guard::Guard;
 use super::measure;
+use super::open::{How, is_stdin, open};
 use super::outputs::{Claim, Output, Use, outputs, prove, room, save, with_extension};
 use super::watch::Change;
 use crate::checkpoint::{Checkpoint, CheckpointError};
@@ -17,7 +19,6 @@ use crate::saver::{Keep, Session};
 use crate::scene::Scene;
 use crate::schedule::Stop;
 use files::ShowPath as _;
-use pack::{MapMode, Pack};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -39,13 +40,20 @@ pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
         ));
         return Exit::World;
     }
+    if args.watch && is_stdin(path) {
+        console.warn("error: standard input cannot be watched, name a file");
+        return Exit::Usage;
+    }
     // A mapped file must not change; one that is watched is going to.
-    let mode = if args.no_mmap || args.watch { MapMode::Read } else { MapMode::Map };
-    let scene = match Pack::open(path, mode) {
+    let scene = match open(path, How::of(args.no_mmap || args.watch)) {
         Ok(pack) => Scene::new(pack),
         Err(error) => {
             return console.fail_about(path, &error, Exit::World);
         }
+    };
+    let guard = match Guard::new(&console, path, scene.pack(), args.verify) {
+        Ok(guard) => guard,
+        Err(exit) => return exit,
     };
     let mut job = job(args, &scene);
     if let Err(exit) = measure::prepare(args, &console, &mut job) {
@@ -85,8 +93,9 @@ pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
         Every::After(every) if !args.watch => Some(Keep { path: checkpoint, every }),
         _ => None,
     };
-    let (scene, job, outputs) = (&scene, &job, &outputs);
-    let plan = Plan { args, console: &console, scene, job, outputs, change, load, resumed };
+    let (scene, guard, job, outputs) = (&scene, &guard, &job, &outputs);
+    let console = &console;
+    let plan = Plan { args, console, scene, guard, job, outputs, change, load, resumed };
     run(&plan, Session { from, keep })
 }
 
@@ -147,6 +156,7 @@ struct Plan<'a> {
     args: &'a RenderArgs,
     console: &'a Console,
     scene: &'a Scene,
+    guard: &'a Guard<'a>,
     job: &'a Job,
     outputs: &'a [Output],
     change: Option<&'a Change>,
@@ -157,12 +167,12 @@ struct Plan<'a> {
 }
 
 fn run(plan: &Plan<'_>, session: Session) -> Exit {
-    let Plan { args, console, scene, job, change, .. } = *plan;
+    let Plan { args, console, scene, guard, job, change, .. } = *plan;
     if change.is_none() {
         reset_interrupts();
     }
     let notes = console.clone();
-    let control = Control::new(move |text| notes.note(text));
+    let control = Control::new(move |text| notes.note(text)).gated(guard.gate());
     control.stall_block(args.stall_block);
     let watched = Watched { spp: job.spp(), limit: job.time_limit, change };
     let over = AtomicBool::new(false);
@@ -172,42 +182,57 @@ fn run(plan: &Plan<'_>, session: Session) -> Exit {
         let watcher = std::thread::Builder::new().name("rtr-watch".to_owned());
         let watcher = match watcher.spawn_scoped(scope, watch) {
             Ok(watcher) => watcher,
-            Err(error) => return Err(Failure::Thread(error)),
+            Err(error) => return Err(Failure::Thread(ThreadError(error))),
         };
         let choice = DeviceChoice::parse(&args.device);
-        let outcome = render_session(scene, job, &choice, &control, session);
-        while matches!(outcome, Err(RenderError::Salvaged)) {
-            // What was complete is being written, and the process ends with that.
-            std::thread::park();
-        }
+        let outcome = guard.during(&control, || {
+            let outcome = render_session(scene, job, &choice, &control, session);
+            while matches!(outcome, Err(RenderError::Salvaged)) {
+                // What was complete is being written, and the process ends with that.
+                std::thread::park();
+            }
+            if outcome.is_err() {
+                guard.abandon();
+            }
+            outcome
+        });
         over.store(true, Ordering::Relaxed);
         watcher.thread().unpark();
-        outcome.map_err(Failure::Render)
+        outcome.map_err(Failure::Pack)
     });
     match outcome {
-        Ok(outcome) => conclude(plan, &outcome),
-        Err(error) => console.fail(&error, Exit::World),
+        Ok(Ok(outcome)) => conclude(plan, &outcome),
+        Ok(Err(error)) => console.fail(&error, Exit::World),
+        Err(Failure::Pack(exit)) => exit,
+        Err(Failure::Thread(error)) => console.fail(&error, Exit::World),
     }
 }
 
 /// A run that gives nothing.
-#[derive(Debug, thiserror::Error)]
 enum Failure {
-    #[error("cannot start a thread: {0}; raise the limit of this process (ulimit -u, -v)")]
-    Thread(std::io::Error),
-    #[error(transparent)]
-    Render(RenderError),
+    Thread(ThreadError),
+    /// The pack is to blame, and that has been said.
+    Pack(Exit),
 }
+
+/// The system gives no thread.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot start a thread: {0}; raise the limit of this process (ulimit -u, -v)")]
+struct ThreadError(std::io::Error);
 
 /// Writes what is complete of a run that hangs, and ends the process. Comes back when it has ended.
 fn rescue(plan: &Plan<'_>, control: &Control) {
+    // A kernel may hang because the pack is damaged. Then its guard ends the process.
+    if !control.may_keep() {
+        return;
+    }
     if let Some(outcome) = control.salvage() {
         if outcome.stop == Stop::Cancelled {
             let text =
                 "warning: the kernel or the driver does not come back; what is complete is written";
             plan.console.warn(text);
         }
-        quit(conclude(plan, &outcome));
+        quit(plan.guard.settle().err().unwrap_or_else(|| conclude(plan, &outcome)));
     }
     // Nothing has begun: the driver hangs.
     if control.progress().total == 0 {

@@ -116,12 +116,45 @@ pub enum PackError {
     /// The manifest cannot be read or written.
     #[error("META: {0}")]
     Manifest(String),
+    /// More bytes than there is room for.
+    #[error("the pack has {len} bytes, and {most} fit into memory")]
+    TooLarge {
+        /// Bytes of the pack.
+        len: u64,
+        /// Most that are read.
+        most: u64,
+    },
+    /// A mapped file is not what it was when it was opened.
+    #[error("the file changed while it was in use: {how}")]
+    Altered {
+        /// In which way.
+        how: Alteration,
+    },
     /// A section's bytes are not those that were written.
     #[error("section {kind}: the bytes do not match their hash, the file is damaged")]
     Hash {
         /// Which section.
         kind: Kind,
     },
+}
+
+/// What became of a mapped file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Alteration {
+    /// Cut off or extended.
+    #[error("it has {now} bytes, it had {then}")]
+    Length {
+        /// Bytes now.
+        now: u64,
+        /// Bytes when it was opened.
+        then: u64,
+    },
+    /// Written to in place.
+    #[error("it was written to")]
+    Written,
+    /// The system cannot give its bytes any more.
+    #[error("it can no longer be read")]
+    Lost,
 }
 
 impl PackError {

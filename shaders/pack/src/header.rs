@@ -110,17 +110,29 @@ pub(crate) fn render_id(features: u64, entries: &[Entry]) -> [u8; 32] {
 
 /// First 128 bits of the BLAKE3 hash of a section, computed on all threads when it is large.
 pub(crate) fn section_hash(bytes: &[u8]) -> [u8; 16] {
+    section_hash_unless(bytes, &|| false).expect("nobody gives up")
+}
+
+/// As [`section_hash`]; `None` soon after `given_up` says so.
+pub(crate) fn section_hash_unless(bytes: &[u8], given_up: &dyn Fn() -> bool) -> Option<[u8; 16]> {
     // Below this size the threads cost more than they save.
     const PARALLEL_FROM: usize = 128 << 10;
+    // Between two looks; some milliseconds. A power of two, as trees of BLAKE3 are cut best.
+    const PIECE: usize = 16 << 20;
     let mut hasher = blake3::Hasher::new();
-    if bytes.len() < PARALLEL_FROM {
-        hasher.update(bytes);
-    } else {
-        hasher.update_rayon(bytes);
+    for piece in bytes.chunks(PIECE) {
+        if given_up() {
+            return None;
+        }
+        if piece.len() < PARALLEL_FROM {
+            hasher.update(piece);
+        } else {
+            hasher.update_rayon(piece);
+        }
     }
     let mut short = [0; 16];
     short.copy_from_slice(&hasher.finalize().as_bytes()[..16]);
-    short
+    Some(short)
 }
 
 #[cfg(test)]

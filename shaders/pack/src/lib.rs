@@ -22,6 +22,7 @@
 compile_error!("packs are little-endian and read in place; this machine is big-endian");
 
 pub mod abi;
+mod bus;
 pub mod bvh;
 mod check;
 mod contents;
@@ -38,12 +39,12 @@ mod table;
 mod writer;
 
 pub use describe::{SectionRow, describe};
-pub use error::{PackError, Place};
+pub use error::{Alteration, PackError, Place};
 pub use fault::{BvhFault, ElementFault, HeaderFault, SectionFault};
 pub use header::{FORMAT_MAJOR, FORMAT_MINOR, MAGIC, layout_id};
 pub use kind::{Kind, MAX_INSTANCES, PackRecord, SECTIONS, SectionSpec};
 pub use manifest::Manifest;
-pub use map::MapMode;
+pub use map::Witness;
 pub use reader::{Checked, Pack, Section, Unchecked};
 pub use writer::PackWriter;
 

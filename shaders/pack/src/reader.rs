@@ -4,16 +4,18 @@
 //! passed every rule but the hashes: indices lie inside their tables, the tree is a tree, numbers
 //! are finite. It does not know what a device does with the records.
 
+use std::io::Read;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::Path;
 
 use crate::abi::{Camera, RenderSettings, Sky};
 use crate::check;
 use crate::contents::Contents;
 use crate::error::PackError;
-use crate::header::{Entry, section_hash};
+use crate::header::{Entry, section_hash_unless};
 use crate::kind::{Kind, PackRecord};
 use crate::manifest::Manifest;
-use crate::map::{Bytes, MapMode};
+use crate::map::{Bytes, Witness};
 use crate::table::{self, Table, entry_range};
 
 /// State of a pack that nobody has looked at: it has no accessors.
@@ -57,11 +59,6 @@ impl Pack<Unchecked> {
         Self { bytes: Bytes::from_vec(bytes), state: Unchecked(()) }
     }
 
-    /// Opens a file of which only the header has been looked at.
-    pub fn open_unchecked(path: &Path, mode: MapMode) -> Result<Self, PackError> {
-        Ok(Self { bytes: Bytes::open(path, mode)?, state: Unchecked(()) })
-    }
-
     /// Checks every rule but the hashes, at about the speed of memory.
     pub fn check(self) -> Result<Pack<Checked>, PackError> {
         let table = table::check(self.bytes.as_slice())?;
@@ -72,9 +69,43 @@ impl Pack<Unchecked> {
 }
 
 impl Pack<Checked> {
-    /// Opens and checks a file.
-    pub fn open(path: impl AsRef<Path>, mode: MapMode) -> Result<Self, PackError> {
-        Pack::open_unchecked(path.as_ref(), mode)?.check()
+    /// Reads a file into memory and checks it. Nothing that becomes of the file matters afterwards.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, PackError> {
+        Self::of(Bytes::read(path.as_ref())?)
+    }
+
+    /// Reads a pack of at most `most` bytes into memory, from anything that gives bytes, to its end; and checks it.
+    pub fn receive(from: impl Read, most: u64) -> Result<Self, PackError> {
+        Self::of(Bytes::receive(from, most)?)
+    }
+
+    /// Maps a file and checks it: pages are loaded when they are first touched.
+    ///
+    /// # Safety
+    ///
+    /// Nobody writes to the file or shortens it before the pack and its witnesses are dropped: what is borrowed from
+    /// the pack would change. What replaces the file under its name, as our own writer does, is no harm.
+    ///
+    /// A caller cannot forbid that to other processes. It must be content with what is left when they do it all the
+    /// same: the crate reads nothing from the mapping but plain numbers, for which every pattern of bits is a value,
+    /// and indexes only what it has measured itself; bytes that are gone become zeros and not SIGBUS; and
+    /// [`Self::witness`] tells. So it asks the witness before anything that was read counts, and ends if it fails.
+    #[expect(unsafe_code, reason = "mapping a file cannot be safe, see above")]
+    pub unsafe fn map(path: impl AsRef<Path>) -> Result<Self, PackError> {
+        // SAFETY: the caller's promise is the same.
+        let bytes = unsafe { Bytes::map(path.as_ref()) }?;
+        let witness = bytes.witness();
+        // A file that is being written to breaks some rule, but that is not what is wrong with it.
+        let altered = || witness.as_ref().and_then(|witness| witness.look().err());
+        match catch_unwind(AssertUnwindSafe(|| Self::of(bytes))) {
+            Ok(checked) => checked.map_err(|error| altered().unwrap_or(error)),
+            // Rules rely on what was checked before them.
+            Err(panic) => Err(altered().unwrap_or_else(|| resume_unwind(panic))),
+        }
+    }
+
+    fn of(bytes: Bytes) -> Result<Self, PackError> {
+        Pack { bytes, state: Unchecked(()) }.check()
     }
 
     /// Checks bytes that are in memory.
@@ -124,7 +155,8 @@ impl Pack<Checked> {
     #[must_use]
     pub fn kernel(&self) -> &str {
         let bytes = self.section_bytes(Kind::KERNEL).unwrap_or_default();
-        std::str::from_utf8(bytes).expect("a checked pack has UTF-8 in KERNEL")
+        // It was UTF-8 when it was checked, and is unless a mapped file was written to.
+        std::str::from_utf8(bytes).unwrap_or_default()
     }
 
     /// The manifest, decoded now; the empty one when there is none. An error here does not make the
@@ -174,13 +206,45 @@ impl Pack<Checked> {
         self.bytes.release();
     }
 
+    /// Who knows whether the file of a mapped pack has changed; `None` of a pack in memory.
+    #[must_use]
+    pub fn witness(&self) -> Option<Witness> {
+        self.bytes.witness()
+    }
+
     /// Reads every byte and compares it with the stored hashes: finds damage that the rules allow,
     /// such as a flipped bit in a colour.
     pub fn verify_hashes(&self) -> Result<(), PackError> {
+        self.verify_hashes_unless(&|| false).map(|_| ())
+    }
+
+    /// As [`Self::verify_hashes`], but gives up soon after `given_up` says so. Whether all was verified.
+    pub fn verify_hashes_unless(
+        &self,
+        given_up: &(dyn Fn() -> bool + Sync),
+    ) -> Result<bool, PackError> {
         for section in self.sections() {
-            if section_hash(section.bytes) != section.hash {
-                return Err(PackError::Hash { kind: section.kind });
+            match section_hash_unless(section.bytes, given_up) {
+                None => return Ok(false),
+                Some(hash) if hash == section.hash => {}
+                Some(_) => {
+                    // Other bytes than those that were opened are not the same as damaged ones.
+                    self.witness().map_or(Ok(()), |witness| witness.look())?;
+                    return Err(PackError::Hash { kind: section.kind });
+                }
             }
+        }
+        Ok(true)
+    }
+
+    /// The last word on a mapped file, after everything was read from it and before that counts: fails if it may have
+    /// been written to since it was opened. Of a pack in memory nothing can be wrong.
+    pub fn settle(&self) -> Result<(), PackError> {
+        let Some(witness) = self.witness() else { return Ok(()) };
+        witness.look_closely()?;
+        if witness.is_in_doubt() {
+            self.verify_hashes()?;
+            witness.look()?;
         }
         Ok(())
     }

@@ -48,6 +48,14 @@ pub(crate) fn check_header(head: &[u8], file_len: u64) -> Result<Header, PackErr
     fault.map_or(Ok(header), |fault| Err(fault.into()))
 }
 
+/// The length that a header says, of which everything else is judged; `head` as in [`check_header`].
+pub(crate) fn header_says(head: &[u8]) -> Result<u64, PackError> {
+    // A header that is too short has no length to say; `check_header` tells what it is instead.
+    let whole = head.get(..HEADER_LEN).map(bytemuck::pod_read_unaligned::<Header>);
+    let len = whole.map_or(head.len() as u64, |header| header.file_len);
+    check_header(head, len).map(|header| header.file_len)
+}
+
 fn header_fault(header: &Header, file_len: u64) -> Option<HeaderFault> {
     if header.endian != ENDIAN_TAG {
         return Some(HeaderFault::Endian { found: header.endian });

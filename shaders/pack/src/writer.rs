@@ -21,6 +21,7 @@ use crate::header::{
 };
 use crate::kind::{Kind, PackRecord, SectionSpec};
 use crate::manifest::Manifest;
+use crate::map::Witness;
 use crate::reader::Section;
 use crate::{check, features};
 
@@ -30,6 +31,8 @@ pub struct PackWriter<'a> {
     sections: Vec<(Kind, Payload<'a>)>,
     /// Hashes of sections that are known.
     hashes: Vec<(Kind, [u8; 16])>,
+    /// Of mapped packs that bytes are taken from.
+    sources: Vec<Witness>,
     recipe_id: [u8; 32],
 }
 
@@ -108,6 +111,13 @@ impl<'a> PackWriter<'a> {
         self.bytes(section.kind, section.bytes)
     }
 
+    /// Says that what is written was made of the bytes of a mapped pack. If its file changes before everything is
+    /// written, nothing is.
+    pub fn taken_from(&mut self, source: Option<Witness>) -> &mut Self {
+        self.sources.extend(source);
+        self
+    }
+
     /// Adds the manifest.
     pub fn manifest(&mut self, manifest: &Manifest) -> Result<&mut Self, PackError> {
         let bytes = manifest.encode()?;
@@ -132,8 +142,14 @@ impl<'a> PackWriter<'a> {
     /// Writes the file under a temporary name beside `path`, then renames it: whoever has the old
     /// file mapped keeps the old bytes, and nobody ever sees half a pack. Returns the pack's `render_id`.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<[u8; 32], PackError> {
-        let plan = self.plan()?;
-        files::write(path.as_ref(), |out| plan.stream(out))?;
+        // Whatever fails because a source has changed is told as that.
+        let altered = || self.sources.iter().find_map(|source| source.look().err());
+        let plan = self.plan().map_err(|error| altered().unwrap_or(error))?;
+        let written = files::write(path.as_ref(), |out| {
+            let streamed = plan.stream(out);
+            altered().map_or(streamed, |error| Err(io::Error::other(error.to_string())))
+        });
+        written.map_err(|error| altered().unwrap_or(error.into()))?;
         Ok(plan.header.render_id)
     }
 

@@ -488,10 +488,11 @@ fn every_rule_has_a_bad_pack() {
         [header_cases(), name_cases(), range_cases(), relation_cases(), word_cases(), tree_cases()];
     let seen: Vec<String> =
         cases.iter().flatten().map(|(mutation, _)| format!("{:?}", error(mutation))).collect();
-    // Shown by tests of their own, here and in `files.rs`, `round_trip.rs`, `bad_skies.rs`, `bad_lights.rs` and
-    // `bad_instances.rs`.
+    // Shown by tests of their own, here and in `files.rs`, `round_trip.rs`, `bad_skies.rs`, `bad_lights.rs`,
+    // `bad_instances.rs` and `changes.rs`.
     let files = ["Io", "NotAFile", "SceneSource", "Manifest", "Hash", "Layout"];
-    let elsewhere = [files.as_slice(), &LIGHTS, &INSTANCES].concat();
+    let changes = ["TooLarge", "Altered", "Length", "Written", "Lost"];
+    let elsewhere = [files.as_slice(), &changes, &LIGHTS, &INSTANCES].concat();
     let mut rules = 0;
     for line in concat!(include_str!("../src/error.rs"), include_str!("../src/fault.rs")).lines() {
         // Variants are the lines indented by four that begin with a capital letter.

@@ -3,8 +3,8 @@
 mod common;
 
 use common::sound::assert_sound;
-use common::{Draft, Scene, get32, put32};
-use pack::{Kind, MapMode, Pack, PackError};
+use common::{Draft, Scene, WAYS, get32, map, put32};
+use pack::{Kind, Pack, PackError};
 
 fn open(bytes: &[u8]) -> Result<Pack, PackError> {
     Pack::from_bytes(bytes.to_vec())
@@ -68,6 +68,56 @@ fn every_flipped_bit_of_header_and_table_is_refused_or_means_nothing() {
     }
     // The minor version, the recipe, and the hash of a section that does not render.
     assert_eq!(accepted, (2 + 32 + 16) * 8);
+}
+
+/// Any single bit, wherever it is: refused, or every byte that renders is as it was.
+#[test]
+fn a_flipped_bit_is_refused_or_changes_nothing_that_renders() {
+    let scene = Scene::full();
+    let (bytes, mut random) = (scene.bytes(), Random(3));
+    let original = open(&bytes).unwrap();
+    let draft = Draft::new(&bytes);
+    let inside = |at: usize| {
+        draft.sections.iter().any(|(entry, section)| {
+            let start = common::index64(entry, 16);
+            (start..start + section.len()).contains(&at)
+        })
+    };
+    let head = 128 + 64 * get32(&bytes, 32) as usize;
+    let padding: Vec<usize> = (head..bytes.len()).filter(|at| !inside(*at)).collect();
+    let sections: Vec<usize> = (head..bytes.len()).filter(|at| inside(*at)).collect();
+    assert!(!padding.is_empty() && sections.len() > 1000);
+    let mut tries: Vec<usize> = (0..head * 8).collect();
+    tries.extend((0..1000).map(|_| padding[random.below(padding.len())] * 8 + random.below(8)));
+    tries.extend((0..4000).map(|_| sections[random.below(sections.len())] * 8 + random.below(8)));
+    let (mut by_rules, mut by_hashes, mut accepted) = (0, 0, 0);
+    for bit in tries {
+        let mut flipped = bytes.clone();
+        flipped[bit / 8] ^= 1 << (bit % 8);
+        let pack = match open(&flipped) {
+            Ok(pack) => pack,
+            Err(error) => {
+                assert_clear(&error);
+                by_rules += 1;
+                continue;
+            }
+        };
+        if let Err(error) = pack.verify_hashes() {
+            assert_clear(&error);
+            by_hashes += 1;
+            continue;
+        }
+        accepted += 1;
+        assert!(bit / 8 < head, "bit {bit} of the contents was accepted");
+        assert_eq!(pack.render_id(), original.render_id());
+        assert_eq!(pack.features(), original.features());
+        for (new, old) in pack.sections().zip(original.sections()) {
+            assert_eq!((new.kind, new.bytes), (old.kind, old.bytes));
+        }
+    }
+    // The minor version and the recipe, which name the format and the inputs, and render nothing.
+    assert_eq!(accepted, (2 + 32) * 8);
+    assert!(by_rules > 8000 && by_hashes > 100, "{by_rules} by rules, {by_hashes} by hashes");
 }
 
 /// A small generator, so that the test is the same everywhere (Steele et al. 2014, `SplitMix64`).
@@ -173,8 +223,8 @@ fn foreign_files_are_named_for_what_they_are() {
     for (bytes, expected) in cases {
         assert_eq!(open(bytes).unwrap_err().to_string(), expected);
         std::fs::write(&path, bytes).unwrap();
-        for mode in [MapMode::Map, MapMode::Read] {
-            assert_eq!(Pack::open(&path, mode).unwrap_err().to_string(), expected);
+        for open in WAYS {
+            assert_eq!(open(&path).unwrap_err().to_string(), expected);
         }
     }
 }
@@ -182,8 +232,8 @@ fn foreign_files_are_named_for_what_they_are() {
 #[test]
 fn directories_are_not_packs() {
     let dir = tempfile::tempdir().unwrap();
-    for mode in [MapMode::Map, MapMode::Read] {
-        let text = Pack::open(dir.path(), mode).unwrap_err().to_string();
+    for open in WAYS {
+        let text = open(dir.path()).unwrap_err().to_string();
         // Windows refuses to open a directory at all.
         assert!(text.ends_with(" is not a regular file") || text.starts_with("cannot open "));
     }
@@ -208,7 +258,7 @@ fn another_major_format_is_refused_politely() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("future.pack");
     std::fs::write(&path, FROZEN).unwrap();
-    assert_eq!(Pack::open(&path, MapMode::Map).unwrap_err().to_string(), expected);
+    assert_eq!(map(&path).unwrap_err().to_string(), expected);
 }
 
 /// The error does not depend on how many threads looked for it.

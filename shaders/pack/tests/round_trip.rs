@@ -4,9 +4,9 @@ mod common;
 
 use std::fs;
 
-use common::{Draft, Scene, manifest};
+use common::{Draft, Scene, WAYS, manifest, map};
 use pack::abi::{Light, Material, Node, Sphere, Texture, TriShade, Triangle};
-use pack::{Kind, Manifest, MapMode, Pack, PackWriter, describe, features};
+use pack::{Kind, Manifest, Pack, PackWriter, describe, features};
 
 fn assert_same(pack: &Pack, scene: &Scene) {
     assert_eq!(pack.render(), &scene.render);
@@ -44,8 +44,8 @@ fn mapped_and_read_files_are_equal() {
     let scene = Scene::full();
     scene.writer().write(&path).unwrap();
     assert_eq!(fs::read(&path).unwrap(), scene.bytes());
-    let mapped = Pack::open(&path, MapMode::Map).unwrap();
-    let read = Pack::open(&path, MapMode::Read).unwrap();
+    let mapped = map(&path).unwrap();
+    let read = Pack::read(&path).unwrap();
     assert_same(&mapped, &scene);
     assert_same(&read, &scene);
     assert_eq!(describe(&mapped), describe(&read));
@@ -57,11 +57,11 @@ fn released_pages_are_gone_and_come_back() {
     let path = dir.path().join("released.pack");
     let bytes = Scene::full().bytes();
     fs::write(&path, &bytes).unwrap();
-    for mode in [MapMode::Map, MapMode::Read] {
-        let pack = Pack::open(&path, mode).unwrap();
+    for open in WAYS {
+        let pack = open(&path).unwrap();
         let sections: Vec<Vec<u8>> = pack.sections().map(|s| s.bytes.to_vec()).collect();
         #[cfg(target_os = "linux")]
-        assert_eq!(resident(&path).is_some_and(|kib| kib > 0), mode == MapMode::Map);
+        assert_eq!(resident(&path).is_some_and(|kib| kib > 0), pack.witness().is_some());
         pack.release_pages();
         #[cfg(target_os = "linux")]
         assert_eq!(resident(&path).unwrap_or(0), 0);
@@ -85,10 +85,10 @@ fn a_mapped_pack_survives_being_written_again() {
     let path = dir.path().join("scene.pack");
     let scene = Scene::full();
     scene.writer().write(&path).unwrap();
-    let old = Pack::open(&path, MapMode::Map).unwrap();
+    let old = map(&path).unwrap();
     Scene::empty().writer().write(&path).unwrap();
     assert_same(&old, &scene);
-    assert_same(&Pack::open(&path, MapMode::Map).unwrap(), &Scene::empty());
+    assert_same(&map(&path).unwrap(), &Scene::empty());
     let names: Vec<_> = fs::read_dir(dir.path()).unwrap().map(|f| f.unwrap()).collect();
     assert_eq!(names.len(), 1, "no temporary file stays");
 }
@@ -285,6 +285,6 @@ fn a_folder_that_is_not_there_is_named() {
     let path = dir.path().join("nowhere").join("scene.pack");
     let text = Scene::empty().writer().write(&path).unwrap_err().to_string();
     assert!(text.starts_with("cannot create ") && text.contains("scene.pack: "), "{text}");
-    let text = Pack::open(&path, MapMode::Map).unwrap_err().to_string();
+    let text = map(&path).unwrap_err().to_string();
     assert!(text.starts_with("cannot open ") && text.contains("scene.pack: "), "{text}");
 }

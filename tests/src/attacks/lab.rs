@@ -94,6 +94,12 @@ impl Lab {
         Ok(Self { rtc, rtr, folder: tempfile::tempdir()? })
     }
 
+    /// The built `rtr`.
+    #[must_use]
+    pub fn rtr(&self) -> &Path {
+        &self.rtr
+    }
+
     pub(super) fn at(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }

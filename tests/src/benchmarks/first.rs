@@ -10,12 +10,11 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use compiler::bvh::Layout;
-use pack::{MapMode, Pack};
 use runtime::{Control, DeviceChoice, Job, SampleRange, Scene, render};
 
 use super::packs::Packs;
 use super::{Outcome, ROUNDS, SCENES, median};
-use crate::console;
+use crate::{console, mapped};
 
 /// First argument of the process that renders.
 pub(super) const CHILD: &str = "first-pixel";
@@ -26,7 +25,7 @@ const PICTURE: &str = "picture";
 /// In the process that renders. Returns the exit code.
 pub(super) fn child(mut arguments: impl Iterator<Item = String>) -> u8 {
     let Some(path) = arguments.next() else { return 2 };
-    let Ok(pack) = Pack::open(path, MapMode::Map) else { return 3 };
+    let Ok(pack) = mapped::map(path) else { return 3 };
     let scene = Scene::new(pack);
     let mut job = Job::of_scene(&scene);
     job.samples = SampleRange { start: 0, end: 1 };
@@ -78,7 +77,7 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
     );
     for name in SCENES {
         let path = packs.of(name, Layout::Wide)?;
-        let [width, height] = Pack::open(&path, MapMode::Map)?.render().image_size;
+        let [width, height] = mapped::map(&path)?.render().image_size;
         let mut times = Vec::new();
         for _ in 0..ROUNDS {
             times.push(once(&path)?);

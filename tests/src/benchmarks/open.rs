@@ -5,10 +5,10 @@ use std::time::Instant;
 
 use compiler::bvh::Layout;
 use cpu_time::ProcessTime;
-use pack::{MapMode, Pack};
 
 use super::packs::Packs;
 use super::{Outcome, SCENES, median};
+use crate::mapped;
 
 /// More than elsewhere: it is over soon.
 const ROUNDS: usize = 9;
@@ -32,7 +32,7 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
             let (mut walls, mut cpus) = (Vec::new(), Vec::new());
             for _ in 0..ROUNDS {
                 let (cpu, wall) = (ProcessTime::now(), Instant::now());
-                let pack = pool.install(|| Pack::open(&path, MapMode::Map))?;
+                let pack = pool.install(|| mapped::map(&path))?;
                 walls.push(wall.elapsed().as_secs_f64());
                 cpus.push(cpu.elapsed().as_secs_f64());
                 drop(pack);

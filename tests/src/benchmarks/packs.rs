@@ -5,11 +5,10 @@ use std::error::Error;
 use std::path::PathBuf;
 
 use compiler::bvh::Layout;
-use pack::{MapMode, Pack};
 use runtime::Scene;
 use tempfile::TempDir;
 
-use crate::scene;
+use crate::{mapped, scene};
 
 /// Those that were asked for.
 pub struct Packs {
@@ -44,6 +43,6 @@ impl Packs {
         name: &'static str,
         layout: Layout,
     ) -> Result<Scene, Box<dyn Error>> {
-        Ok(Scene::new(Pack::open(self.of(name, layout)?, MapMode::Map)?))
+        Ok(Scene::new(mapped::map(self.of(name, layout)?)?))
     }
 }

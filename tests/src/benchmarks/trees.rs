@@ -5,14 +5,14 @@ use std::fmt::Write as _;
 use compiler::bvh::{Fragment, Input, Layout, Preset, build};
 use cpu_time::ProcessTime;
 use pack::abi::Triangle;
-use pack::{MapMode, Pack};
 
 use super::packs::Packs;
 use super::{Outcome, ROUNDS, median};
+use crate::mapped;
 
 /// A sentence.
 pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
-    let pack = Pack::open(packs.of("mesh", Layout::Wide)?, MapMode::Map)?;
+    let pack = mapped::map(packs.of("mesh", Layout::Wide)?)?;
     let triangles = pack.records::<Triangle>();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
     let mut seconds = Vec::new();

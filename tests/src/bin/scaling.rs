@@ -11,7 +11,6 @@ use std::time::Instant;
 use compiler::bvh::{Input, Preset, build};
 use cpu_time::ProcessTime;
 use pack::abi::Triangle;
-use pack::{MapMode, Pack};
 use runtime::{Control, DeviceChoice, Job, SampleRange, Scene, render};
 use scenes::generate::{Glb, MaterialSpec, MeshData, NodeSpec};
 use tests::scene;
@@ -114,7 +113,7 @@ fn measure(side: u32) -> Result<Point, Box<dyn std::error::Error>> {
     drop(compiled);
 
     let start = Instant::now();
-    let pack = Pack::open(&path, MapMode::Map)?;
+    let pack = tests::mapped::map(&path)?;
     let open = start.elapsed().as_secs_f64();
     let tree = tree(pack.records::<Triangle>())?;
     let scene = Scene::new(pack);

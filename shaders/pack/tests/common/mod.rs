@@ -40,6 +40,21 @@ pub(crate) struct Scene {
     pub(crate) manifest: Option<Manifest>,
 }
 
+/// Maps a file of a test.
+pub(crate) fn map(path: &std::path::Path) -> Result<pack::Pack, pack::PackError> {
+    #[expect(unsafe_code, reason = "tests of mapped files map files")]
+    // SAFETY: what writes to the file meanwhile is the test, of what becomes of the numbers in it.
+    unsafe {
+        pack::Pack::map(path)
+    }
+}
+
+/// From a file into memory.
+pub(crate) type Way = fn(&std::path::Path) -> Result<pack::Pack, pack::PackError>;
+
+/// Every way from a file into memory.
+pub(crate) const WAYS: [Way; 2] = [map, |path| pack::Pack::read(path)];
+
 pub(crate) fn inner(index: u32) -> u32 {
     ChildRef::Inner(index).encode().unwrap()
 }
