@@ -29,7 +29,7 @@ fn limits_are_one_line_and_no_panic() {
         "-d 20000",
         "-s 64",
         "-s 32",
-        "-n 3",
+        "-n 4",
         "-n 8",
     ];
     for limit in limits {

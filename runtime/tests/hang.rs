@@ -183,7 +183,7 @@ fn limits_of_the_system_are_one_line_and_no_panic() {
         ("-d 20000", small),
         ("-s 64", small),
         ("-s 32", small),
-        ("-n 3", small),
+        ("-n 4", small),
         ("-n 6", small),
         ("-n 12", small),
     ] {

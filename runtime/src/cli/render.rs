@@ -248,7 +248,9 @@ fn conclude(plan: &Plan<'_>, outcome: &Outcome) -> Exit {
     }
     report(console, outcome, job);
     if outcome.film().samples().1 == 0 {
-        console.warn("error: no sample was complete, nothing is written");
+        if outcome.device_error.is_none() {
+            console.warn("error: no sample was complete, nothing is written");
+        }
         return exit(outcome).unwrap_or(Exit::World);
     }
     let residual = residual(args) || !outcome.picture.meta.complete;
@@ -391,7 +393,9 @@ fn report(console: &Console, outcome: &Outcome, job: &Job) {
         console.warn(&format!("warning: pixels have between {least} and {most} samples"));
     }
     if let Some(error) = &outcome.device_error {
-        console.warn(&format!("error: {error}; what was complete before that is kept"));
+        let kept =
+            if most > 0 { "what was complete before that is kept" } else { "nothing is written" };
+        console.warn(&format!("error: {error}; {kept}"));
     }
     for failure in &outcome.failures {
         console.warn(&format!(
