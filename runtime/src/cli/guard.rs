@@ -5,6 +5,7 @@
 
 use super::Exit;
 use super::console::Console;
+use super::render::ThreadError;
 use crate::control::Control;
 use pack::{Checked, Pack, PackError, Witness};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind, set_hook, take_hook};
@@ -85,13 +86,16 @@ impl<'a> Guard<'a> {
     pub(super) fn during<T>(&self, control: &Control, work: impl FnOnce() -> T) -> Result<T, Exit> {
         let over = AtomicBool::new(false);
         let done = std::thread::scope(|scope| {
-            let watcher = scope.spawn(|| self.watch(control, &over));
+            let watcher = std::thread::Builder::new().name("rtr-guard".to_owned());
+            let watcher = watcher
+                .spawn_scoped(scope, || self.watch(control, &over))
+                .map_err(|error| self.console.fail(&ThreadError(error), Exit::World))?;
             // It is over for `watch` also when `work` panics. Nothing that it has borrowed is looked at then.
             let done = catch_unwind(AssertUnwindSafe(work));
             over.store(true, Ordering::Release);
             watcher.thread().unpark();
-            done
-        });
+            Ok(done)
+        })?;
         self.settle()?;
         done.or_else(|panic| resume_unwind(panic))
     }

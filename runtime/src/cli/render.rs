@@ -218,7 +218,7 @@ enum Failure {
 /// The system gives no thread.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot start a thread: {0}; raise the limit of this process (ulimit -u, -v)")]
-struct ThreadError(std::io::Error);
+pub(super) struct ThreadError(pub(super) std::io::Error);
 
 /// Writes what is complete of a run that hangs, and ends the process. Comes back when it has ended.
 fn rescue(plan: &Plan<'_>, control: &Control) {
