@@ -53,7 +53,7 @@ impl ImportError {
         place: impl Into<String>,
         message: impl Into<String>,
     ) -> Self {
-        let (place, message) = (place.into(), message.into());
+        let (place, message) = (clipped(place.into()), message.into());
         Self { kind, place, message, help: String::new(), source: None }
     }
 
@@ -62,6 +62,19 @@ impl ImportError {
         self.help = help.into();
         self
     }
+}
+
+/// A place without its middle when it is long: files name others, and a name may be a page of data.
+fn clipped(place: String) -> String {
+    const MAX_CHARS: usize = 200;
+    const MAX_END: usize = 80; // line or accessor, and the end of the name
+    let n_chars = place.chars().count();
+    if n_chars <= MAX_CHARS {
+        return place;
+    }
+    let start = place.chars().take(MAX_CHARS - MAX_END);
+    let end = place.chars().skip(n_chars - MAX_END);
+    start.chain(['…']).chain(end).collect()
 }
 
 /// `text` shortened and stripped of control characters, to be quoted in a message.
