@@ -32,7 +32,7 @@ pub struct Target {
     /// Hands the bytes to the reader, with a folder for files; the error is a refusal.
     check: fn(&Path, &[u8]) -> Result<(), String>,
     /// Renews lengths and checksums, so that damage gets past them.
-    repair: fn(&mut Vec<u8>),
+    repair: fn(&mut [u8]),
     /// Pieces that mean something in this format.
     words: &'static [&'static [u8]],
     /// Mutations in `cargo test`.
@@ -163,7 +163,7 @@ pub const TARGETS: &[Target] = &[
     },
 ];
 
-fn keep(_: &mut Vec<u8>) {}
+fn keep(_: &mut [u8]) {}
 
 /// The target of this name.
 #[must_use]

@@ -95,7 +95,7 @@ fn assert_covers(tree: &Tree) {
 }
 
 /// Makes the checksum true again.
-pub(super) fn repair(bytes: &mut Vec<u8>) {
+pub(super) fn repair(bytes: &mut [u8]) {
     if bytes.len() >= HASH.end {
         let mut hasher = blake3::Hasher::new();
         hasher.update(&bytes[..HASH.start]).update(&bytes[HASH.end..]);

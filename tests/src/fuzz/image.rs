@@ -134,7 +134,7 @@ fn assert_whole(image: &Image) {
 }
 
 /// Recomputes the checksums of chunks, so that damage reaches the decoder behind them.
-pub(super) fn repair_png(bytes: &mut Vec<u8>) {
+pub(super) fn repair_png(bytes: &mut [u8]) {
     let mut at = 8;
     while let Some(length) = bytes.get(at..at + 4) {
         let length = length.iter().fold(0_usize, |n, byte| n << 8 | usize::from(*byte));

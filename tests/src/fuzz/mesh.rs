@@ -129,7 +129,7 @@ pub(super) fn glb(folder: &Path, bytes: &[u8]) -> Result<(), String> {
 }
 
 /// Makes the length in the header true again.
-pub(super) fn repair_glb(bytes: &mut Vec<u8>) {
+pub(super) fn repair_glb(bytes: &mut [u8]) {
     let length = u32::try_from(bytes.len()).unwrap_or(u32::MAX).to_le_bytes();
     if let Some(header) = bytes.get_mut(8..12) {
         header.copy_from_slice(&length);

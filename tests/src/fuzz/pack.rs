@@ -73,7 +73,7 @@ pub(super) fn contents(_: &Path, edits: &[u8]) -> Result<(), String> {
 }
 
 /// Makes the hashes of sections that lie inside of the file true again, and the one over the table.
-pub(super) fn repair(bytes: &mut Vec<u8>) {
+pub(super) fn repair(bytes: &mut [u8]) {
     if bytes.len() < 128 {
         return;
     }

@@ -90,7 +90,7 @@ pub(super) fn checkpoint(folder: &Path, bytes: &[u8]) -> Result<(), String> {
 }
 
 /// Makes the checksum true again, as `runtime/src/checkpoint.rs` describes the layout.
-pub(super) fn repair_checkpoint(bytes: &mut Vec<u8>) {
+pub(super) fn repair_checkpoint(bytes: &mut [u8]) {
     if let Some((head, rest)) = bytes.split_at_mut_checked(HEADER) {
         let mut hasher = blake3::Hasher::new();
         hasher.update(&head[..16]).update(rest);

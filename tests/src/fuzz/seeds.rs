@@ -503,9 +503,9 @@ fn base64(bytes: &[u8]) -> String {
     let letters = |chunk: &[u8]| {
         let byte = |i: usize| u32::from(chunk.get(i).copied().unwrap_or(0));
         let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
-        let letter = move |i: usize| match i <= chunk.len() {
-            true => char::from(LETTERS[(bits >> (18 - 6 * i) & 63) as usize]),
-            false => '=',
+        let letter = move |i: usize| {
+            let is_data = i <= chunk.len();
+            if is_data { char::from(LETTERS[(bits >> (18 - 6 * i) & 63) as usize]) } else { '=' }
         };
         [letter(0), letter(1), letter(2), letter(3)]
     };

@@ -75,13 +75,13 @@ pub(super) fn check(_: &Path, bytes: &[u8]) -> Result<(), String> {
     let text = std::str::from_utf8(bytes).map_err(|_| "no UTF-8".to_owned())?;
     let analysis = analyze("fuzz.rts", text, &mut Alone, &Options { defines: Vec::new() });
     assert_places(&analysis.sources, &analysis.diagnostics);
-    match analysis.scene {
-        Some(scene) => {
-            assert!(!lang::resolved(&scene).is_empty());
-            Ok(())
-        }
-        None => Err(analysis.diagnostics.first().map_or("no word", |d| d.code.0).to_owned()),
+    if let Some(scene) = analysis.scene {
+        assert!(!lang::resolved(&scene).is_empty());
+        return Ok(());
     }
+    let first = analysis.diagnostics.first().expect("a reason for no scene");
+    let start = first.message.chars().map(|c| if c.is_control() { ' ' } else { c }).take(80);
+    Err(format!("{}: {}", first.code.0, start.collect::<String>()))
 }
 
 fn assert_places(sources: &SourceSet, diagnostics: &[Diagnostic]) {
