@@ -209,10 +209,9 @@ fn every_declaration_of_every_module_is_in_some_kernel() {
     for (file, text) in shaders::module_texts() {
         missing.extend(declared_functions(text).map(|function| (*file, function)));
     }
-    let mut sets = feature_sets();
-    sets.push(("lens".to_owned(), FeatureSet { lens: true, ..FeatureSet::empty() }));
-    for (_, features) in sets {
-        let text = link(&features).expect("links").text;
+    let lens = FeatureSet { lens: true, ..FeatureSet::empty() };
+    for features in feature_sets().iter().map(|(_, features)| features).chain([&lens]) {
+        let text = link(features).expect("links").text;
         let present: BTreeSet<&str> = declared_functions(&text).collect();
         missing.retain(|(_, function)| !present.contains(function));
     }

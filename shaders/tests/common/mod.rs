@@ -3,6 +3,7 @@
 use pack::abi::{LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat};
 use shaders::{FeatureSet, NodeLayout};
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 type Switch = fn(&mut FeatureSet);
 
@@ -75,8 +76,13 @@ fn principled(features: &mut FeatureSet) -> &mut FeatureSet {
 }
 
 /// Nothing, everything, every single feature and every pair, each alone and on top of each way to have
-/// geometry. Sets whose kernels are the same text are there once.
-pub(crate) fn feature_sets() -> Vec<(String, FeatureSet)> {
+/// geometry. Sets whose kernels are the same text are there once. Some thousand texts are linked for that, once.
+pub(crate) fn feature_sets() -> &'static [(String, FeatureSet)] {
+    static SETS: LazyLock<Vec<(String, FeatureSet)>> = LazyLock::new(make_feature_sets);
+    &SETS
+}
+
+fn make_feature_sets() -> Vec<(String, FeatureSet)> {
     let triangles = FeatureSet { triangles: true, ..FeatureSet::empty() };
     let spheres = FeatureSet { spheres: true, ..FeatureSet::empty() };
     let both = FeatureSet { spheres: true, ..triangles.clone() };
