@@ -23,6 +23,7 @@ use std::path::{Path, PathBuf};
 use ::files::ShowPath as _;
 use clap::error::ContextKind;
 use clap::{Args, CommandFactory, Parser, Subcommand};
+use lang::stack::on_large_stack;
 
 use crate::import::{Budget, Limits};
 use crate::input::Root;
@@ -90,7 +91,7 @@ struct ReportArgs {
     /// Colours on the terminal.
     #[arg(long, value_enum, default_value_t, value_name = "WHEN")]
     color: Color,
-    /// Errors shown in full; 0 shows all.
+    /// Errors shown, and as many warnings; 0 shows all.
     #[arg(long, default_value_t = 50, value_name = "N")]
     max_errors: usize,
 }
@@ -180,7 +181,17 @@ where
     I: IntoIterator<Item = T>,
     T: Into<OsString> + Clone,
 {
-    let arguments = with_default_command(arguments.into_iter().map(Into::into).collect());
+    let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
+    // A scene may be nested deeper than a small stack allows, which is no fault of the scene.
+    on_large_stack(|| run_here(arguments)).unwrap_or_else(|error| {
+        let reporter = Reporter::new(ErrorFormat::Human, Color::Auto, usize::MAX);
+        reporter.failure(&format!("cannot start a thread: {error}"));
+        IO
+    })
+}
+
+fn run_here(arguments: Vec<OsString>) -> u8 {
+    let arguments = with_default_command(arguments);
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
         Err(error) => {

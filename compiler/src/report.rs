@@ -2,14 +2,18 @@
 //!
 //! Diagnostics go to standard error as pictures (`human`), lines (`short`) or one JSON object a
 //! line (`json`); what was asked for goes to standard output. It does not know what is wrong with a
-//! scene, only how to say it.
+//! scene, only how to say it. Texts of the scene may come from strangers: nothing of them reaches the
+//! terminal that could steer it, and no line of them makes more than a few lines here.
 
+mod excerpt;
 mod human;
 mod json;
+mod short;
+mod text;
 
-use std::io::{IsTerminal, Write};
+use std::io::{BufWriter, IsTerminal, Write};
 
-use lang::diagnostic::{self, Diagnostic};
+use lang::diagnostic::Diagnostic;
 use lang::source::SourceSet;
 
 /// How diagnostics look.
@@ -18,7 +22,7 @@ pub enum ErrorFormat {
     /// Source excerpts with marks, notes and proposed edits.
     #[default]
     Human,
-    /// `file:line:column: error[E0201]: message`, one line each.
+    /// `file:line:column: error[E0201]: message (why)`, one line each.
     Short,
     /// One JSON object a line, modelled on rustc's.
     Json,
@@ -45,7 +49,7 @@ pub struct Reporter {
 }
 
 impl Reporter {
-    /// A reporter that shows at most `max_errors` errors in full.
+    /// A reporter that shows at most `max_errors` errors, and as many warnings.
     #[must_use]
     pub fn new(format: ErrorFormat, color: Color, max_errors: usize) -> Self {
         let color = match color {
@@ -58,45 +62,47 @@ impl Reporter {
         Self { format, color, max_errors }
     }
 
-    /// Prints all diagnostics and a summary.
+    /// Prints diagnostics, at most so many of each severity, how many more there are, and a summary.
     pub fn diagnostics(&self, sources: &SourceSet, diagnostics: &[Diagnostic]) {
         let n_errors = diagnostics.iter().filter(|d| d.is_error()).count();
         let n_warnings = diagnostics.len() - n_errors;
-        let mut shown = 0;
+        let mut out = BufWriter::new(std::io::stderr().lock());
+        let mut left = [self.max_errors; 2];
         for diagnostic in diagnostics {
-            if diagnostic.is_error() {
-                shown += 1;
-                if shown > self.max_errors {
-                    continue;
-                }
+            let left = &mut left[usize::from(diagnostic.is_error())];
+            if *left == 0 {
+                continue;
             }
-            self.diagnostic(sources, diagnostic);
+            *left -= 1;
+            let _ = writeln!(out, "{}", self.drawn(sources, diagnostic));
         }
-        if self.format != ErrorFormat::Json {
-            if n_errors > self.max_errors {
-                let hidden = n_errors - self.max_errors;
-                self.status(&format!("{hidden} more errors; --max-errors 0 shows all"));
-            }
-            if let Some(line) = summary(n_errors, n_warnings) {
-                self.status(&line);
-            }
+        if let Some(more) = hidden(n_errors, n_warnings, self.max_errors) {
+            let more = if self.format == ErrorFormat::Json { json::note(&more) } else { more };
+            let _ = writeln!(out, "{more}");
         }
+        if let Some(line) = summary(n_errors, n_warnings)
+            && self.format != ErrorFormat::Json
+        {
+            let _ = writeln!(out, "{line}");
+        }
+        let _ = out.flush();
     }
 
-    fn diagnostic(&self, sources: &SourceSet, diagnostic: &Diagnostic) {
-        let text = match self.format {
+    fn drawn(&self, sources: &SourceSet, diagnostic: &Diagnostic) -> String {
+        match self.format {
             ErrorFormat::Human => human::render(sources, diagnostic, self.color) + "\n",
-            ErrorFormat::Short => diagnostic::short(sources, diagnostic),
+            ErrorFormat::Short => short::render(sources, diagnostic),
             ErrorFormat::Json => json::render(sources, diagnostic),
-        };
-        to_stderr(&text);
+        }
     }
 
     /// A failure of the world: a file that cannot be read or written, a cache out of order.
     pub fn failure(&self, message: &str) {
         match self.format {
             ErrorFormat::Json => to_stderr(&json::failure(message)),
-            ErrorFormat::Human | ErrorFormat::Short => to_stderr(&format!("error: {message}")),
+            ErrorFormat::Human | ErrorFormat::Short => {
+                to_stderr(&format!("error: {}", text::escape_lines(message)));
+            }
         }
     }
 
@@ -104,14 +110,16 @@ impl Reporter {
     pub fn warning(&self, message: &str) {
         match self.format {
             ErrorFormat::Json => to_stderr(&json::warning(message)),
-            ErrorFormat::Human | ErrorFormat::Short => to_stderr(&format!("warning: {message}")),
+            ErrorFormat::Human | ErrorFormat::Short => {
+                to_stderr(&format!("warning: {}", text::escape_lines(message)));
+            }
         }
     }
 
     /// Progress and summaries, on standard error; silent in JSON.
     pub fn status(&self, line: &str) {
         if self.format != ErrorFormat::Json {
-            to_stderr(line);
+            to_stderr(&text::escape_lines(line));
         }
     }
 
@@ -129,17 +137,21 @@ impl Reporter {
     }
 }
 
+/// What is not shown of so many errors and warnings.
+fn hidden(n_errors: usize, n_warnings: usize, max: usize) -> Option<String> {
+    let counts = summary(n_errors.saturating_sub(max), n_warnings.saturating_sub(max))?;
+    Some(format!("not shown: {counts}; --max-errors 0 shows all"))
+}
+
 fn summary(n_errors: usize, n_warnings: usize) -> Option<String> {
     let count = |n: usize, what: &str| match n {
         0 => None,
         1 => Some(format!("1 {what}")),
         n => Some(format!("{n} {what}s")),
     };
-    match (count(n_errors, "error"), count(n_warnings, "warning")) {
-        (None, None) => None,
-        (Some(one), None) | (None, Some(one)) => Some(one),
-        (Some(errors), Some(warnings)) => Some(format!("{errors}, {warnings}")),
-    }
+    let counts = [count(n_errors, "error"), count(n_warnings, "warning")];
+    let counts: Vec<String> = counts.into_iter().flatten().collect();
+    (!counts.is_empty()).then(|| counts.join(", "))
 }
 
 fn to_stderr(text: &str) {

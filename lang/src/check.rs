@@ -14,7 +14,7 @@ use crate::source::{Loader, SourceSet};
 use crate::syntax::ItemKind;
 
 mod camera;
-mod collect;
+pub(crate) mod collect;
 mod define;
 mod field;
 pub(crate) mod fields;
@@ -89,15 +89,14 @@ pub fn analyze(
     let defines = define::read(&mut sources, options, &mut diagnostics);
     let (models, faults) = resolve::like::models(&program);
     diagnostics.extend(faults);
-    let mut ev = Evaluator::new(&sources, &program, &models);
-    ev.diagnostics = diagnostics;
+    let mut ev = Evaluator::new(&sources, &program, &models, diagnostics);
     ev.defines = defines;
     ev.evaluate_bindings();
     let scene = Checker::new().run(&mut ev);
     let params = params(&ev);
-    let mut diagnostics = ev.diagnostics;
+    let mut diagnostics = ev.into_diagnostics();
     for diagnostic in &mut diagnostics {
-        define::keep_editable(diagnostic, n_files);
+        define::keep_editable(&sources, diagnostic, n_files);
     }
     diagnostic::sort(&mut diagnostics);
     diagnostics.dedup_by(|a, b| a.code == b.code && a.message == b.message && a.span() == b.span());
@@ -158,7 +157,7 @@ impl Checker {
         }
         check_asserts(ev);
         let scene = self.build(ev);
-        if !ev.diagnostics.iter().any(Diagnostic::is_error) {
+        if !ev.has_errors() {
             unused::check(ev);
         }
         scene

@@ -5,6 +5,10 @@
 
 use crate::source::{SourceSet, Span};
 
+/// Most diagnostics that are kept of a file, and of the phases after reading: each takes some hundred
+/// bytes, a fault in a hostile text two.
+pub const MAX_FAULTS: usize = 200_000;
+
 /// A stable code such as `E0201` (error) or `W0511` (lint), as `rtc explain` takes it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Code(pub &'static str);

@@ -5,9 +5,11 @@
 //! `Value::Poison`. What a field wants is decided in `check`.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
+use crate::check::collect::OwnFields;
 use crate::check::texture::TextureInfo;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, MAX_FAULTS, Severity};
 use crate::resolve::like::Model;
 use crate::resolve::{ItemId, Program};
 use crate::source::{SourceSet, Span};
@@ -39,6 +41,10 @@ pub(crate) struct Evaluator<'p> {
     pub(crate) program: &'p Program,
     pub(crate) models: &'p BTreeMap<ItemId, Model>,
     pub(crate) diagnostics: Vec<Diagnostic>,
+    /// Number of diagnostics beyond which no more are kept.
+    max_kept: usize,
+    n_dropped: usize,
+    has_errors: bool,
     /// Items that something refers to.
     pub(crate) used: BTreeSet<ItemId>,
     /// Every texture whose declaration is sound.
@@ -51,6 +57,8 @@ pub(crate) struct Evaluator<'p> {
     pub(crate) fields: BTreeMap<(ItemId, &'static str), Option<Value>>,
     /// In a branch that is not taken: names and dimensions are checked, numbers are not.
     speculative: u32,
+    /// What each declaration sets itself.
+    pub(crate) own_fields: BTreeMap<ItemId, Rc<OwnFields<'p>>>,
     nesting: u32,
     /// Steps taken so far.
     work: usize,
@@ -79,12 +87,17 @@ impl<'p> Evaluator<'p> {
         sources: &'p SourceSet,
         program: &'p Program,
         models: &'p BTreeMap<ItemId, Model>,
+        diagnostics: Vec<Diagnostic>,
     ) -> Self {
         Self {
             sources,
             program,
             models,
-            diagnostics: Vec::new(),
+            max_kept: diagnostics.len() + MAX_FAULTS,
+            n_dropped: 0,
+            has_errors: diagnostics.iter().any(Diagnostic::is_error),
+            diagnostics,
+            own_fields: BTreeMap::new(),
             used: BTreeSet::new(),
             textures: BTreeMap::new(),
             defines: BTreeMap::new(),
@@ -98,16 +111,46 @@ impl<'p> Evaluator<'p> {
 
     /// Reports a fault of names, types or dimensions.
     pub(crate) fn fault(&mut self, error: Diagnostic) -> Value {
-        self.diagnostics.push(error);
+        self.tell(error);
         Value::Poison
+    }
+
+    /// Keeps a diagnostic, unless there are too many.
+    pub(crate) fn tell(&mut self, diagnostic: Diagnostic) {
+        let is_error = diagnostic.is_error();
+        if self.diagnostics.len() < self.max_kept {
+            self.diagnostics.push(diagnostic);
+        } else {
+            self.n_dropped += 1;
+        }
+        self.has_errors |= is_error;
+    }
+
+    /// All that is wrong, with a word about what was not kept.
+    pub(crate) fn into_diagnostics(mut self) -> Vec<Diagnostic> {
+        if let Some(root) = self.program.modules.first().filter(|_| self.n_dropped > 0) {
+            let text = format!("more than {MAX_FAULTS} faults; {} are not told", self.n_dropped);
+            let mut last = Diagnostic::error(Code("E0112"), text)
+                .at(Span { file: root.file, start: 0, end: 0 }, "in this scene");
+            if !self.has_errors {
+                last.severity = Severity::Warning;
+            }
+            self.diagnostics.push(last);
+        }
+        self.diagnostics
     }
 
     /// Reports a fault of a number, unless its branch is not taken.
     pub(crate) fn number_fault(&mut self, error: Diagnostic) -> Value {
         if self.speculative == 0 {
-            self.diagnostics.push(error);
+            self.tell(error);
         }
         Value::Poison
+    }
+
+    /// Was anything wrong?
+    pub(crate) fn has_errors(&self) -> bool {
+        self.has_errors
     }
 
     /// In a branch that is not taken.
@@ -146,17 +189,25 @@ impl<'p> Evaluator<'p> {
 
     /// Evaluates an expression.
     pub(crate) fn eval(&mut self, expr: &Expr, scope: Scope<'_>) -> Value {
-        if self.nesting >= MAX_NESTING {
-            let text = "values refer to each other too deeply";
-            return self.fault(Diagnostic::error(Code("E0212"), text).at(expr.span, "here"));
-        }
         if !self.spend(1, expr.span) {
             return Value::Poison;
         }
-        self.nesting += 1;
-        let value = self.eval_kind(expr, scope);
-        self.nesting -= 1;
+        let value = self.nested(expr.span, |ev| ev.eval_kind(expr, scope));
         self.sound(value, expr.span)
+    }
+
+    /// Runs one level of what calls itself: an expression, or a field that another refers to.
+    pub(crate) fn nested(&mut self, at: Span, run: impl FnOnce(&mut Self) -> Value) -> Value {
+        if self.nesting >= MAX_NESTING {
+            let text = "values refer to each other too deeply";
+            let error = Diagnostic::error(Code("E0212"), text).at(at, "here");
+            let limit = format!("at most {MAX_NESTING} expressions and fields inside each other");
+            return self.fault(error.with_note(limit));
+        }
+        self.nesting += 1;
+        let value = run(self);
+        self.nesting -= 1;
+        value
     }
 
     fn eval_kind(&mut self, expr: &Expr, scope: Scope<'_>) -> Value {

@@ -4,6 +4,8 @@
 //! split a file into declarations, bound its nesting, word its errors and are what the formatter
 //! prints again. They cover the text without overlap, in order; between them are blanks only.
 
+use crate::source::byte_offset;
+
 /// Kinds of tokens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
@@ -50,16 +52,29 @@ pub(crate) enum Kind {
 pub(crate) struct Token {
     /// What it is.
     pub(crate) kind: Kind,
-    /// First byte.
-    pub(crate) start: usize,
-    /// One past the last byte.
-    pub(crate) end: usize,
+    /// Offsets that fit, because texts are bounded: a text may be one token a byte.
+    start: u32,
+    end: u32,
 }
 
 impl Token {
+    fn new(kind: Kind, start: usize, end: usize) -> Token {
+        Token { kind, start: byte_offset(start), end: byte_offset(end) }
+    }
+
+    /// First byte.
+    pub(crate) fn start(self) -> usize {
+        self.start as usize
+    }
+
+    /// One past the last byte.
+    pub(crate) fn end(self) -> usize {
+        self.end as usize
+    }
+
     /// The characters of the token.
     pub(crate) fn text(self, text: &str) -> &str {
-        text.get(self.start..self.end).unwrap_or("")
+        text.get(self.start()..self.end()).unwrap_or("")
     }
 }
 
@@ -147,7 +162,7 @@ impl Lexer<'_> {
             }
             _ => self.symbol(c),
         };
-        self.tokens.push(Token { kind, start, end: self.at });
+        self.tokens.push(Token::new(kind, start, self.at));
     }
 
     fn symbol(&mut self, c: u8) -> Kind {
@@ -201,7 +216,7 @@ impl Lexer<'_> {
 
     /// Does the token just before, without a blank between, end a value?
     fn after_value(&self) -> bool {
-        self.tokens.last().is_some_and(|&t| t.end == self.at && ends_value(t, self.text))
+        self.tokens.last().is_some_and(|&t| t.end() == self.at && ends_value(t, self.text))
     }
 
     fn number(&mut self) -> Kind {
@@ -257,11 +272,11 @@ impl Lexer<'_> {
         let start = self.at;
         let round = self.peek(0) == Some(b')');
         self.at += 1;
-        self.tokens.push(Token { kind: Kind::Close, start, end: self.at });
+        self.tokens.push(Token::new(Kind::Close, start, self.at));
         let tuple = self.open.pop().is_some_and(|group| group.bare && group.comma);
         let start = self.at;
         if round && tuple && self.unit() {
-            self.tokens.push(Token { kind: Kind::Unit, start, end: self.at });
+            self.tokens.push(Token::new(Kind::Unit, start, self.at));
         }
     }
 }

@@ -14,6 +14,7 @@ pub mod scene;
 pub mod schema;
 pub mod source;
 mod split;
+pub mod stack;
 mod standard;
 pub mod suggest;
 pub mod syntax;

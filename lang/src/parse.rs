@@ -11,10 +11,11 @@ mod explain;
 
 use std::borrow::Cow;
 
-use crate::diagnostic::{Code, Diagnostic, Fix, sort};
+use crate::diagnostic::{Code, Diagnostic, Fix, MAX_FAULTS, sort};
 use crate::lex::{Token, lex};
 use crate::source::{FileId, MAX_FILE_BYTES, SourceSet, Span, byte_offset};
-use crate::split::{Chunk, split};
+use crate::split::{Chunk, Header, split};
+use crate::stack::on_large_stack;
 use crate::syntax::{Edition, File, Item};
 
 /// The generated parser.
@@ -27,8 +28,6 @@ use generated::{Grammar, Rule};
 
 /// Expressions that may be higher than this are read on a thread with a known stack.
 const MAX_HEIGHT_HERE: usize = 24;
-/// Stack of that thread, in bytes: 256 levels of 9 rules, each of some 4 KiB in an unoptimised build.
-const STACK_BYTES: usize = 64 << 20;
 
 /// Reads one file. Never fails: what cannot be read is poisoned in the tree and reported, in the
 /// order of the text.
@@ -49,24 +48,20 @@ pub fn parse(sources: &SourceSet, file: FileId) -> (File, Vec<Diagnostic>) {
     let height = chunks.iter().filter(|c| c.too_deep.is_none()).map(|c| c.height).max();
     let read = || {
         let diagnostics = Vec::from_iter(control);
-        Reader { file, text: &text, tokens: &tokens, base: 0, diagnostics }.file(&chunks)
+        Reader { file, text: &text, tokens: &tokens, base: 0, diagnostics, counted: (0, 1) }
+            .file(&chunks)
     };
     if height.unwrap_or(0) <= MAX_HEIGHT_HERE {
         return read();
     }
-    std::thread::scope(|scope| {
-        let thread = std::thread::Builder::new().stack_size(STACK_BYTES);
-        let result = thread.spawn_scoped(scope, read).map(std::thread::ScopedJoinHandle::join);
-        match result {
-            Ok(Ok(result)) => result,
-            Ok(Err(panic)) => std::panic::resume_unwind(panic),
-            Err(error) => {
-                let message = format!("no thread could be started to read this file: {error}");
-                let diagnostic = Diagnostic::error(Code("E0109"), message).at(start, "");
-                (File { has_errors: true, ..File::default() }, vec![diagnostic])
-            }
+    match on_large_stack(read) {
+        Ok(result) => result,
+        Err(error) => {
+            let message = format!("no thread could be started to read this file: {error}");
+            let diagnostic = Diagnostic::error(Code("E0109"), message).at(start, "");
+            (File { has_errors: true, ..File::default() }, vec![diagnostic])
         }
-    })
+    }
 }
 
 /// Blanks out control characters, so that each file has one complaint about them and no more.
@@ -89,14 +84,34 @@ struct Reader<'a> {
     /// Where the text that the grammar is reading starts in `text`.
     base: usize,
     diagnostics: Vec<Diagnostic>,
+    /// A place in the text and its line, from which later ones are counted.
+    counted: (usize, usize),
 }
 
 impl Reader<'_> {
+    /// Says what is wrong, unless too much is.
+    fn fault(&mut self, diagnostic: Diagnostic) {
+        if !self.is_full() {
+            self.diagnostics.push(diagnostic);
+        }
+    }
+
+    /// Is so much wrong that no more is kept?
+    fn is_full(&self) -> bool {
+        self.diagnostics.len() >= MAX_FAULTS
+    }
+
     fn file(mut self, chunks: &[Chunk]) -> (File, Vec<Diagnostic>) {
         let mut file = File::default();
         let mut has_header = false;
         for (i, chunk) in chunks.iter().enumerate() {
             let first = self.tokens[chunk.tokens.start];
+            if self.is_full() {
+                let message = format!("more than {MAX_FAULTS} faults; the rest was not read");
+                let diagnostic = Diagnostic::error(Code("E0112"), message);
+                self.diagnostics.push(diagnostic.at(self.token_span(first), "up to here"));
+                break;
+            }
             if first.text(self.text) == "rts" {
                 if i > 0 {
                     self.misplaced_edition(first, has_header);
@@ -134,7 +149,7 @@ impl Reader<'_> {
             }
             Some(_) => Diagnostic::error(Code("E0103"), "expected nothing after the edition"),
         };
-        self.diagnostics.push(diagnostic.at(span, known));
+        self.fault(diagnostic.at(span, known));
         None
     }
 
@@ -142,7 +157,7 @@ impl Reader<'_> {
         let message =
             if again { "the edition is said twice" } else { "the edition must come first" };
         let diagnostic = Diagnostic::error(Code("E0110"), message);
-        self.diagnostics.push(diagnostic.at(self.token_span(token), "not here"));
+        self.fault(diagnostic.at(self.token_span(token), "not here"));
     }
 
     fn missing_edition(&mut self, chunks: &[Chunk]) {
@@ -153,7 +168,7 @@ impl Reader<'_> {
             .at(first.unwrap_or(top), "expected `rts 1` before anything else")
             .with_note("the edition fixes what every default means, for ever")
             .with_fix(Fix::sure("start with the edition", top, "rts 1\n"));
-        self.diagnostics.push(diagnostic);
+        self.fault(diagnostic);
     }
 
     /// One declaration; `next` is the first token of the chunk after it.
@@ -161,10 +176,16 @@ impl Reader<'_> {
         if let Some(token) = chunk.too_deep {
             return Some(self.too_deep(chunk, self.tokens[token]));
         }
+        if let Some(token) = chunk.too_long.filter(|_| chunk.header == Header::Item) {
+            return Some(self.too_long(chunk, self.tokens[token]));
+        }
+        if let Some(token) = chunk.too_many {
+            return Some(self.too_many(chunk, self.tokens[token]));
+        }
         self.declaration(chunk, next)
     }
 
     fn token_span(&self, token: Token) -> Span {
-        self.bytes(token.start..token.end)
+        self.bytes(token.start()..token.end())
     }
 }

@@ -228,8 +228,11 @@ impl Program {
     }
 
     fn module_as_value(&self, target: u32, name: &Ident) -> Diagnostic {
-        let public = self.public_names(target);
-        let example = public.first().map_or("name", String::as_str);
+        let names = &self.modules[target as usize].names;
+        self.compared.set(self.compared.get().saturating_add(names.len()));
+        let few = self.compared.get() <= MAX_COMPARED;
+        let mut public = names.iter().filter(|(_, entry)| few && self.is_public(target, entry));
+        let example = public.next().map_or("name", |(name, _)| name);
         Diagnostic::error(
             Code("E0203"),
             format!("`{}` is an imported file, not a value", name.text),
@@ -263,11 +266,16 @@ impl Program {
 
     fn public_names(&self, module: u32) -> Vec<String> {
         let names = &self.modules[module as usize].names;
-        let is_public = |entry: &Entry| match entry.target {
+        let public = names.iter().filter(|(_, entry)| self.is_public(module, entry));
+        public.map(|(name, _)| name.clone()).collect()
+    }
+
+    /// Does a name of a module stand for something that importers of the module see?
+    fn is_public(&self, module: u32, entry: &Entry) -> bool {
+        match entry.target {
             Target::Item(id) => id.module == module && self.item(id).public,
             _ => false,
-        };
-        names.iter().filter(|(_, e)| is_public(e)).map(|(name, _)| name.clone()).collect()
+        }
     }
 
     /// Says where an imported file has the name that is not known here.
@@ -281,6 +289,13 @@ impl Program {
             if !self.item(id).public {
                 let text = format!("`{}` is private in its file", name.text);
                 return error.because(self.name_span(id), text).because(*span, "imported here");
+            }
+            if id.module != *imported {
+                // What a file imports is not passed on.
+                return error
+                    .because(self.name_span(id), "declared in a file that this one does not import")
+                    .because(*span, "this one does, for itself only")
+                    .with_help("import the file that declares it");
             }
             let alias = this.names.iter().find(|(_, e)| e.target == Target::Module(*imported));
             if let Some((alias, _)) = alias {
@@ -298,7 +313,8 @@ impl Program {
             None => format!("{what} is named `{}`", name.text),
         };
         let names = &self.modules[module as usize].names;
-        self.compared.set(self.compared.get().saturating_add(names.len()));
+        let looked_at = names.len() + self.modules[module as usize].imports.len();
+        self.compared.set(self.compared.get().saturating_add(looked_at));
         if self.compared.get() > MAX_COMPARED {
             return Diagnostic::error(Code("E0202"), text).at(name.span, "not known here");
         }

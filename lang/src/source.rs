@@ -5,8 +5,12 @@
 
 use crate::diagnostic::{Code, Diagnostic, Label};
 
-/// Largest source text that is read, in bytes. Bulk data belongs in meshes and images.
-pub const MAX_FILE_BYTES: usize = 64 << 20;
+/// Largest source text that is read, in bytes: some 200,000 declarations. Bulk data belongs in meshes and
+/// images.
+pub const MAX_FILE_BYTES: usize = 16 << 20;
+
+/// Most bytes that all texts of a scene have together.
+pub const MAX_SCENE_BYTES: usize = 32 << 20;
 
 /// Index of a file in a `SourceSet`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -63,8 +67,91 @@ pub struct Place {
 struct Source {
     name: String,
     text: String,
-    /// Byte offset of each line's first byte.
-    line_starts: Vec<u32>,
+    /// The state before every `STEP` bytes of the text, so that no question reads more than that.
+    marks: Vec<Mark>,
+    /// Line breaks.
+    n_breaks: u32,
+}
+
+/// Bytes between two marks.
+const STEP: usize = 256;
+
+/// A line and how far it has come.
+#[derive(Clone, Copy, Debug)]
+struct Mark {
+    /// Line, from 1.
+    line: u32,
+    /// Characters of it so far, without a byte order mark.
+    chars: u32,
+    /// UTF-16 units of it so far.
+    units: u32,
+}
+
+impl Mark {
+    const FIRST: Mark = Mark { line: 1, chars: 0, units: 0 };
+
+    /// Goes on over a byte of the text.
+    fn pass(&mut self, byte: u8) {
+        if byte == b'\n' {
+            *self = Mark { line: self.line + 1, chars: 0, units: 0 };
+        } else if byte & 0xc0 != 0x80 {
+            self.chars += 1;
+            // Four bytes of UTF-8 are two units.
+            self.units += if byte >= 0xf0 { 2 } else { 1 };
+        }
+    }
+}
+
+impl Source {
+    fn new(name: String, text: String) -> Source {
+        let mut mark = Mark::FIRST;
+        let mut marks = Vec::with_capacity(text.len() / STEP + 1);
+        for (offset, byte) in text.bytes().enumerate() {
+            if offset % STEP == 0 {
+                marks.push(mark);
+            }
+            mark.pass(byte);
+        }
+        Source { name, text, marks, n_breaks: mark.line - 1 }
+    }
+
+    /// The state before a byte.
+    fn at(&self, byte: usize) -> Mark {
+        let index = (byte / STEP).min(self.marks.len().saturating_sub(1));
+        let start = index * STEP;
+        let mut mark = self.marks.get(index).copied().unwrap_or(Mark::FIRST);
+        let bytes = self.text.as_bytes().get(start..byte).unwrap_or(&[]);
+        for byte in bytes {
+            mark.pass(*byte);
+        }
+        mark
+    }
+
+    /// First byte of a line, counted from 1; the end of the text behind the last one.
+    fn line_start(&self, line: u32) -> usize {
+        if line <= 1 {
+            return 0;
+        }
+        if line > self.n_breaks + 1 {
+            return self.text.len();
+        }
+        // The line starts between the last mark of an earlier one and the mark after it.
+        let index = self.marks.partition_point(|mark| mark.line < line).saturating_sub(1);
+        let mut before = self.marks.get(index).map_or(1, |mark| mark.line);
+        let start = index * STEP;
+        let bytes = self.text.as_bytes().get(start..).unwrap_or(&[]);
+        for (byte, offset) in bytes.iter().zip(start..) {
+            before += u32::from(*byte == b'\n');
+            if before == line {
+                return offset + 1;
+            }
+        }
+        self.text.len()
+    }
+
+    fn has_order_mark(&self) -> bool {
+        self.text.starts_with('\u{feff}')
+    }
 }
 
 /// All texts of one run.
@@ -82,12 +169,8 @@ impl SourceSet {
 
     /// Adds a text under the name that messages will show.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> FileId {
-        let text = text.into();
-        let starts = text.bytes().enumerate().filter(|&(_, b)| b == b'\n');
-        let line_starts =
-            std::iter::once(0).chain(starts.map(|(i, _)| byte_offset(i + 1))).collect();
         let id = FileId(u32::try_from(self.files.len()).unwrap_or(u32::MAX));
-        self.files.push(Source { name: name.into(), text, line_starts });
+        self.files.push(Source::new(name.into(), text.into()));
         id
     }
 
@@ -143,18 +226,16 @@ impl SourceSet {
         let Some(source) = self.source(file) else {
             return Place { line: 1, column: 1, column_utf16: 1 };
         };
-        let line = source.line_starts.partition_point(|&start| start <= byte).max(1);
-        let start = source.line_starts.get(line - 1).copied().unwrap_or(0) as usize;
-        let mut end = (byte as usize).min(source.text.len());
-        while !source.text.is_char_boundary(end) {
-            end -= 1;
+        let mut byte = (byte as usize).min(source.text.len());
+        while !source.text.is_char_boundary(byte) {
+            byte -= 1;
         }
-        let before = source.text.get(start..end).unwrap_or("").trim_start_matches('\u{feff}');
-        let units: usize = before.chars().map(char::len_utf16).sum();
+        let Mark { line, chars, units, .. } = source.at(byte);
+        let order_mark = u32::from(line == 1 && source.has_order_mark());
         Place {
-            line: byte_offset(line),
-            column: byte_offset(before.chars().count() + 1),
-            column_utf16: byte_offset(units + 1),
+            line,
+            column: chars.saturating_sub(order_mark) + 1,
+            column_utf16: units.saturating_sub(order_mark) + 1,
         }
     }
 
@@ -164,24 +245,46 @@ impl SourceSet {
         self.place(span.file, span.start)
     }
 
+    /// The line of a byte, from 1.
+    #[must_use]
+    pub fn line_of(&self, file: FileId, byte: u32) -> u32 {
+        self.source(file).map_or(1, |s| s.at((byte as usize).min(s.text.len())).line)
+    }
+
     /// Number of lines of a file; a final line break does not start another line.
     #[must_use]
     pub fn n_lines(&self, file: FileId) -> u32 {
         self.source(file).map_or(0, |s| {
             let empty_tail = s.text.is_empty() || s.text.ends_with('\n');
-            byte_offset(s.line_starts.len() - usize::from(empty_tail))
+            s.n_breaks + u32::from(!empty_tail)
         })
+    }
+
+    /// Where a line is, counted from 1, without its line break and a byte order mark; behind the
+    /// last line the end of the text.
+    #[must_use]
+    pub fn line_span(&self, file: FileId, line: u32) -> Span {
+        let Some(source) = self.source(file) else { return Span { file, start: 0, end: 0 } };
+        let mut start = source.line_start(line);
+        if line <= 1 && source.has_order_mark() {
+            start = '\u{feff}'.len_utf8();
+        }
+        let mut end = source.line_start(line.max(1).saturating_add(1)).max(start);
+        let has =
+            |end: usize, byte| end > start && source.text.as_bytes().get(end - 1) == Some(&byte);
+        if has(end, b'\n') {
+            end -= 1;
+            if has(end, b'\r') {
+                end -= 1;
+            }
+        }
+        Span { file, start: byte_offset(start), end: byte_offset(end) }
     }
 
     /// The text of a line, counted from 1, without its line break and a byte order mark.
     #[must_use]
     pub fn line(&self, file: FileId, line: u32) -> &str {
-        let Some(source) = self.source(file) else { return "" };
-        let index = (line as usize).wrapping_sub(1);
-        let Some(&start) = source.line_starts.get(index) else { return "" };
-        let end = source.line_starts.get(index + 1).map_or(source.text.len(), |&e| e as usize);
-        let line = source.text.get(start as usize..end).unwrap_or("");
-        line.trim_start_matches('\u{feff}').trim_end_matches(['\n', '\r'])
+        if line == 0 { "" } else { self.slice(self.line_span(file, line)) }
     }
 
     fn source(&self, file: FileId) -> Option<&Source> {
@@ -215,9 +318,23 @@ pub enum LoadError {
     Unreadable(String),
 }
 
+/// Does a text say that it is a scene: is `rts` the first word, after blanks and comments? Of files
+/// that do not, nothing is shown: a scene may name any file that its reader can read.
+#[must_use]
+pub fn is_scene_text(text: &str) -> bool {
+    let mut rest = text.strip_prefix('\u{feff}').unwrap_or(text);
+    loop {
+        rest = rest.trim_start_matches([' ', '\t', '\n', '\r']);
+        let Some(comment) = rest.strip_prefix("//") else { break };
+        rest = comment.find(['\n', '\r']).and_then(|end| comment.get(end..)).unwrap_or("");
+    }
+    let after = rest.strip_prefix("rts").map(|after| after.chars().next());
+    after.is_some_and(|next| next.is_none_or(|c| !c.is_ascii_alphanumeric() && c != '_'))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{FileId, SourceSet};
+    use super::{FileId, SourceSet, is_scene_text};
 
     #[test]
     fn places_count_characters_and_utf16_units() {
@@ -235,6 +352,40 @@ mod tests {
         assert_eq!(at(1000), (3, 1, 1));
         assert_eq!((sources.n_lines(file), sources.line(file, 1)), (2, "ab"));
         assert_eq!(sources.line(file, 3), "");
+    }
+
+    #[test]
+    fn lines_and_columns_are_found_far_into_a_text() {
+        let mut sources = SourceSet::new();
+        let lines: Vec<String> = (0..900).map(|i| "é\u{1f600}x".repeat(i % 700)).collect();
+        let text = lines.join("\r\n");
+        let file = sources.add("a", text.as_str());
+        let mut start = 0;
+        for (text, line) in lines.iter().zip(1..) {
+            let end = start + u32::try_from(text.len()).unwrap();
+            let span = sources.line_span(file, line);
+            assert_eq!((span.start, span.end), (start, end), "line {line}");
+            assert_eq!(sources.line(file, line), text);
+            let place = sources.place(file, end);
+            let n_chars = u32::try_from(text.chars().count()).unwrap();
+            let n_units = u32::try_from(text.encode_utf16().count()).unwrap();
+            let found = (place.line, place.column, place.column_utf16);
+            assert_eq!(found, (line, n_chars + 1, n_units + 1));
+            assert_eq!(sources.line_of(file, end), line);
+            start = end + 2;
+        }
+        assert_eq!(sources.n_lines(file), 900);
+        assert_eq!(sources.line_span(file, 901).start as usize, text.len());
+    }
+
+    #[test]
+    fn a_scene_text_says_so_first() {
+        for text in ["rts 1", "rts", "\u{feff}// a\n\r\n\t rts 2\n", "// a\rrts\n"] {
+            assert!(is_scene_text(text), "{text:?}");
+        }
+        for text in ["", "root:x:0:0", "rts1", "rts_a", "# rts 1", "// rts 1", "let a = 1\nrts 1"] {
+            assert!(!is_scene_text(text), "{text:?}");
+        }
     }
 
     #[test]

@@ -12,6 +12,12 @@ use crate::syntax::{DeclKind, MAX_HEIGHT};
 /// Most brackets inside each other.
 pub(crate) const MAX_BRACKETS: usize = 64;
 
+/// Most letters of a name. Names are repeated in messages, so a bound on them bounds those.
+pub(crate) const MAX_NAME: usize = 255;
+
+/// Most tokens of a declaration: the grammar needs some kilobytes of memory for each.
+pub(crate) const MAX_TOKENS: usize = 100_000;
+
 /// What the first word of a chunk says it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Header {
@@ -35,6 +41,12 @@ pub(crate) struct Chunk {
     pub(crate) height: usize,
     /// First token that is nested too deeply.
     pub(crate) too_deep: Option<usize>,
+    /// First name that is too long.
+    pub(crate) too_long: Option<usize>,
+    /// First token of too many.
+    pub(crate) too_many: Option<usize>,
+    /// It has a `{`.
+    has_brace: bool,
 }
 
 /// Words that start a declaration without a block.
@@ -107,11 +119,28 @@ impl Splitter<'_> {
             self.open = vec![Level { bracket: b' ', operators: 0 }];
             self.beyond = 0;
             let tokens = i..i + 1;
-            self.chunks.push(Chunk { header, tokens, docs, height: 0, too_deep: None });
+            self.chunks.push(Chunk {
+                header,
+                tokens,
+                docs,
+                height: 0,
+                too_deep: None,
+                too_long: None,
+                too_many: None,
+                has_brace: false,
+            });
         }
         self.nest(i);
         if let Some(chunk) = self.chunks.last_mut() {
             chunk.tokens.end = i + 1;
+            let token = self.tokens[i];
+            chunk.has_brace |= token.text(self.text) == "{";
+            if token.kind == Kind::Word && token.end() - token.start() > MAX_NAME {
+                chunk.too_long.get_or_insert(i);
+            }
+            if chunk.header == Header::Item && chunk.tokens.len() > MAX_TOKENS {
+                chunk.too_many.get_or_insert(i);
+            }
         }
     }
 
@@ -124,7 +153,7 @@ impl Splitter<'_> {
             return (self.in_column_1(i) && self.is_header(i, false)).then_some(Header::Item);
         }
         let token = self.tokens[i];
-        if token.text(self.text) == "{" && !self.has_brace(current.tokens.clone()) {
+        if token.text(self.text) == "{" && !current.has_brace {
             return None;
         }
         if self.is_header(i, true) {
@@ -134,13 +163,9 @@ impl Splitter<'_> {
     }
 
     fn in_column_1(&self, i: usize) -> bool {
-        let start = self.tokens[i].start;
+        let start = self.tokens[i].start();
         let before = self.text.get(..start).unwrap_or("");
         before.is_empty() || before.ends_with(['\n', '\r', '\u{feff}'])
-    }
-
-    fn has_brace(&self, range: std::ops::Range<usize>) -> bool {
-        self.tokens[range].iter().any(|t| t.text(self.text) == "{")
     }
 
     /// Has the line that starts here the shape of a declaration's head? `outside`: no bracket is
@@ -236,7 +261,7 @@ mod tests {
     fn heads(text: &str) -> Vec<String> {
         let tokens = lex(text);
         let head = |chunk: &super::Chunk| {
-            let start = tokens[chunk.tokens.start].start;
+            let start = tokens[chunk.tokens.start].start();
             let mark = if chunk.header == Header::Junk { "?" } else { "" };
             format!("{mark}{}", text[start..].lines().next().unwrap_or(""))
         };

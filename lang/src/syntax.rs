@@ -387,7 +387,7 @@ pub struct Unit {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// Left of the colon.
-    pub key: Option<Expr>,
+    pub key: Option<Box<Expr>>,
     /// The value.
     pub value: Expr,
 }

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use lang::diagnostic::Diagnostic;
 use lang::format::format_file;
 use lang::parse::parse;
-use lang::source::{SourceSet, Span};
+use lang::source::{LoadError, Loader, SourceSet, Span};
 
 /// Random numbers with a fixed seed: xorshift64*, Vigna 2016, ACM TOMS 42(4).
 struct Random(u64);
@@ -184,6 +184,81 @@ fn monstrous_texts_take_little_time() {
     check(format!("rts 1\nlet a = [{}]", "1 + 1, ".repeat(n)).as_bytes());
     check("let a = 1\nmaterial b: c {\n".repeat(10_000).as_bytes());
     assert!(start.elapsed() < Duration::from_mins(2), "{:?}", start.elapsed());
+}
+
+/// Makes a scene of any declarations, so that warnings are looked for.
+const GOOD: &str = "sky good_sky: constant { }
+camera good_camera: perspective { from = (0, 1, 5)m, to = (0, 1, 0)m }
+render good: path { camera = good_camera, sky = good_sky }
+material good_material: diffuse { color = linear(0.5) }
+instance ball { shape = sphere(radius: 1m), material = good_material }
+";
+
+/// Scenes of `n` lines, each of which is wrong in the same way.
+fn hostile(n: usize) -> Vec<(&'static str, String)> {
+    let each = |line: &dyn Fn(usize) -> String| (0..n).map(line).collect::<String>();
+    let same = |text: &str| text.repeat(n);
+    let base = "material base: diffuse {\n".to_owned() + &same("  color = linear(0.5)\n") + "}\n";
+    vec![
+        ("unused", each(&|i| format!("let a{i} = 1m\n"))),
+        ("unknown", each(&|i| format!("let a{i} = b{i}\n"))),
+        ("twice", same("let a = 1m\n")),
+        ("fields", format!("film f {{\n{}}}\n", each(&|i| format!("  a{i} = 1\n")))),
+        ("fields in a line", format!("film f {{ {} }}\n", each(&|i| format!("a{i} = 1, ")))),
+        ("arguments", format!("let a = sphere({})\n", each(&|i| format!("a{i}: 1, ")))),
+        ("nameless", format!("let a = sphere({})\n", same("1, "))),
+        ("syntax", each(&|i| format!("let a{i} = = 1m\n"))),
+        ("strange", each(&|i| format!("let a{i} = 1 ; é\n"))),
+        ("braces", same("]\n") + &same("{}\n")),
+        ("unclosed", each(&|i| format!("material a{i}: diffuse {{\n"))),
+        ("kinds", each(&|i| format!("materail a{i}: diffuse {{ }}\n"))),
+        ("types", each(&|i| format!("material a{i}: difuse {{ }}\n"))),
+        ("bases", each(&|i| format!("material a{i} like a{} {{ }}\n", i + 1))),
+        ("one base", base.clone() + &each(&|i| format!("material a{i} like base {{ }}\n"))),
+        ("references", base + &each(&|i| format!("let a{i} = base.color\n"))),
+        ("imports", each(&|i| format!("import \"a{i}.rts\"\n"))),
+        ("modules", same("import \"std:metals\"\n") + &each(&|i| format!("let a{i} = b{i}\n"))),
+        ("chain", each(&|i| format!("let a{i} = a{} + a0\n", i + 1))),
+        (
+            "fields of fields",
+            each(&|i| format!("material a{i}: metal {{ fuzz = a{}.fuzz }}\n", i + 1)),
+        ),
+        ("percent", each(&|i| format!("material a{i}: metal {{ fuzz = 0.5% }}\n"))),
+        ("renders", each(&|i| format!("render a{i}: path {{ }}\n"))),
+        ("names", format!("let a = [{}]\n", each(&|i| format!("b{i}, ")))),
+        ("long line", format!("let a = \"{}\" + {}\n", same("é"), same("1 = "))),
+    ]
+}
+
+#[test]
+fn what_is_wrong_n_times_takes_time_in_proportion() {
+    struct Nothing;
+    impl Loader for Nothing {
+        fn load(&mut self, _: &str, _: &str) -> Result<(String, String), LoadError> {
+            Err(LoadError::NotFound)
+        }
+    }
+    // What grows with the square takes minutes here, as unused names once did.
+    for (name, text) in hostile(20_000) {
+        let start = Instant::now();
+        let text = format!("rts 1\n{GOOD}{text}");
+        let analysis = lang::analyze("a.rts", &text, &mut Nothing, &lang::Options::default());
+        check_diagnostics(&analysis.sources, &analysis.diagnostics);
+        assert!(!analysis.diagnostics.is_empty(), "{name}");
+        let took = start.elapsed();
+        eprintln!("{name}: {} diagnostics, {took:?}", analysis.diagnostics.len());
+        assert!(took < Duration::from_secs(10), "{name}: {took:?}");
+    }
+}
+
+#[test]
+fn so_many_faults_are_kept_and_no_more() {
+    let mut sources = SourceSet::new();
+    let n = lang::diagnostic::MAX_FAULTS;
+    let file = sources.add("a.rts", format!("rts 1\n{}", "let\n".repeat(n + 1000)));
+    let (_, diagnostics) = parse(&sources, file);
+    assert_eq!(diagnostics.len(), n + 1);
+    assert_eq!(diagnostics.last().map(|d| d.code.0), Some("E0112"));
 }
 
 #[test]

@@ -4,10 +4,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
+use files::ShowPath as _;
 use lang::Analysis;
+use lang::stack::on_large_stack;
 use shaders::ShaderError;
 
-use super::files::{DiskLoader, TextError, read_text};
+use super::files::{DiskLoader, TextError, read_scene};
 use super::record::{Edited, Job};
 use super::{BUG, IO, SCENE, SceneArgs, USAGE};
 use crate::import::Limits;
@@ -31,19 +33,24 @@ fn analyze_reading(
 ) -> Result<Analysis, u8> {
     reuse.read(&scene.scene);
     let shown = scene.scene.display().to_string();
-    let text = read_text(&scene.scene, root).map_err(|error| {
-        reporter.failure(&format!("cannot read {shown}: {error}"));
+    let text = read_scene(&scene.scene, root).map_err(|error| {
+        reporter.failure(&format!("cannot read {}: {error}", scene.scene.shown()));
         if scene.scene.extension().is_some_and(|e| e == "pack") {
             reporter.status("help: this is a pack already; render it with `rtr`");
         }
         match error {
             TextError::Input(InputError::Outside(_)) => USAGE,
             TextError::Input(_) => IO,
-            TextError::NotText(_) => SCENE,
+            TextError::NotText(_) | TextError::NotScene => SCENE,
         }
     })?;
     let options = lang::Options { defines: scene.define.clone() };
-    Ok(lang::analyze(&shown, &text, &mut DiskLoader { reuse, root }, &options))
+    let analyze = || lang::analyze(&shown, &text, &mut DiskLoader { reuse, root }, &options);
+    on_large_stack(analyze).map_err(|error| {
+        reporter
+            .failure(&format!("cannot start a thread to read {}: {error}", scene.scene.shown()));
+        IO
+    })
 }
 
 /// A scene that became everything that its pack holds.

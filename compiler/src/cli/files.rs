@@ -3,7 +3,7 @@
 use std::io::ErrorKind::NotFound;
 use std::path::{Path, PathBuf};
 
-use lang::source::{LoadError, Loader, MAX_FILE_BYTES};
+use lang::source::{LoadError, Loader, MAX_FILE_BYTES, is_scene_text};
 
 use crate::input::{InputError, Root};
 use crate::reuse::Reuse;
@@ -26,6 +26,7 @@ impl Loader for DiskLoader<'_> {
         match read_text(&file, self.root) {
             Ok(text) => Ok((name, text)),
             Err(TextError::NotText(byte)) => Err(LoadError::NotText(byte)),
+            Err(error @ TextError::NotScene) => Err(LoadError::Unreadable(error.to_string())),
             Err(TextError::Input(InputError::Io(error))) if error.kind() == NotFound => {
                 Err(other_case(&file).map_or(LoadError::NotFound, LoadError::WrongCase))
             }
@@ -43,6 +44,20 @@ pub(crate) enum TextError {
     /// Byte at this offset is not UTF-8.
     #[error("this file is not UTF-8 text: wrong byte at offset {0}")]
     NotText(u64),
+    /// Nothing says that it is a scene.
+    #[error("this is not a scene text: it does not begin with `rts 1`")]
+    NotScene,
+}
+
+/// The text of the scene that the command line names. Where neither its name, which ends in `.rts`, nor its
+/// first word says that it is a scene, nothing of it is to be shown. (A file that is imported must begin
+/// with the word, whatever its name is: see `lang`.)
+pub(crate) fn read_scene(path: &Path, root: &Root) -> Result<String, TextError> {
+    let text = read_text(path, root)?;
+    if path.extension().is_some_and(|extension| extension == "rts") || is_scene_text(&text) {
+        return Ok(text);
+    }
+    Err(TextError::NotScene)
 }
 
 /// The whole text of a regular file of at most `MAX_FILE_BYTES`.

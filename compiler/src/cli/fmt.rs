@@ -8,7 +8,7 @@ use clap::Args;
 use files::ShowPath as _;
 use lang::source::{MAX_FILE_BYTES, SourceSet};
 
-use super::files::read_text;
+use super::files::read_scene;
 use super::{IO, OK, ReportArgs, SCENE};
 use crate::input::Root;
 use crate::report::Reporter;
@@ -104,7 +104,7 @@ fn list(
 
 fn file(path: &Path, check: bool, reporter: &Reporter) -> u8 {
     let shown = path.shown();
-    let text = match read_text(path, &Root::ANYWHERE) {
+    let text = match read_scene(path, &Root::ANYWHERE) {
         Ok(text) => text,
         Err(error) => {
             reporter.failure(&format!("cannot read {shown}: {error}"));

@@ -1,11 +1,15 @@
 //! A diagnostic as one line of JSON, modelled on rustc's `--error-format=json`.
 //!
 //! `{"message", "code", "level", "lint", "spans": [...], "children": [...], "rendered"}`; byte
-//! offsets count from 0, lines and columns from 1, columns in characters.
+//! offsets count from 0, lines and columns from 1, columns in characters. Texts are not escaped but for
+//! what JSON needs and what steers terminals; texts of thousands of characters lose their middle. Where
+//! not all are told, a last line of level `note` says how many more there are.
 
 use lang::diagnostic::{Applicability, Diagnostic, Edit, Fix, Severity};
 use lang::source::{SourceSet, Span};
 use serde_json::{Value, json};
+
+use super::text::{escape_json, shortened};
 
 /// One line, without a line break.
 pub(super) fn render(sources: &SourceSet, diagnostic: &Diagnostic) -> String {
@@ -19,31 +23,34 @@ pub(super) fn render(sources: &SourceSet, diagnostic: &Diagnostic) -> String {
         .map(|label| {
             let mut object = place(sources, label.span);
             object["is_primary"] = json!(label.primary);
-            object["label"] = json!(label.text);
+            object["label"] = json!(shortened(&label.text));
             object
         })
         .collect();
-    let remark =
-        |level: &str, text: &String| json!({ "level": level, "message": text, "spans": [] });
+    let remark = |level: &str, text: &String| json!({ "level": level, "message": shortened(text), "spans": [] });
     let notes = diagnostic.notes.iter().map(|note| remark("note", note));
     let helps = diagnostic.helps.iter().map(|help| remark("help", help));
-    let fixes = diagnostic.fixes.iter().map(|fix| suggestion(sources, fix));
+    let fixes = super::human::shown_fixes(diagnostic).map(|fix| suggestion(sources, fix));
     let children: Vec<Value> = notes.chain(helps).chain(fixes).collect();
-    json!({
-        "message": diagnostic.message,
+    one_line(&json!({
+        "message": shortened(&diagnostic.message),
         "code": diagnostic.code.0,
         "level": level,
         "lint": diagnostic.lint,
         "spans": spans,
         "children": children,
         "rendered": super::human::render(sources, diagnostic, false),
-    })
-    .to_string()
+    }))
 }
 
 /// A failure that has no place in a source text.
 pub(super) fn failure(message: &str) -> String {
     bare("error", message)
+}
+
+/// What is said of the list itself.
+pub(super) fn note(message: &str) -> String {
+    bare("note", message)
 }
 
 /// A warning that has no place in a source text.
@@ -52,8 +59,15 @@ pub(super) fn warning(message: &str) -> String {
 }
 
 fn bare(level: &str, message: &str) -> String {
-    json!({ "message": message, "code": null, "level": level, "spans": [], "children": [] })
-        .to_string()
+    one_line(&json!({
+        "message": message, "code": null, "level": level, "spans": [], "children": []
+    }))
+}
+
+/// Strings keep their characters; those that steer a terminal are written as JSON's escapes.
+fn one_line(value: &Value) -> String {
+    let json = value.to_string();
+    escape_json(&json).into_owned()
 }
 
 fn place(sources: &SourceSet, span: Span) -> Value {
@@ -82,5 +96,5 @@ fn suggestion(sources: &SourceSet, fix: &Fix) -> Value {
         object
     };
     let spans: Vec<Value> = fix.edits.iter().map(edit).collect();
-    json!({ "level": "help", "message": fix.message, "spans": spans })
+    json!({ "level": "help", "message": shortened(&fix.message), "spans": spans })
 }

@@ -1,6 +1,7 @@
 //! The fields of a declaration or a call: collected along `like`, and evaluated.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
 use super::fields::{Fields, default_value};
 use crate::diagnostic::{Code, Diagnostic, Fix};
@@ -26,22 +27,48 @@ pub(crate) struct Given<'p> {
 /// The assignments of a declaration, its bases included.
 pub(crate) type Givens<'p> = BTreeMap<&'static str, Given<'p>>;
 
+/// What a declaration sets itself: the last assignment of each field. Others may be like it or refer to it
+/// any number of times, so it is collected once.
+#[derive(Debug, Default)]
+pub(crate) struct OwnFields<'p> {
+    givens: Givens<'p>,
+    /// Some of its fields do not exist or could not be read.
+    unsure: bool,
+}
+
 impl<'p> Evaluator<'p> {
     /// The assignments of a declaration: the nearest along `like` wins.
-    pub(crate) fn givens(&self, id: ItemId) -> Givens<'p> {
+    pub(crate) fn givens(&mut self, id: ItemId) -> Givens<'p> {
+        let models = self.models;
+        let chain = models.get(&id).map_or(&[][..], |model| &model.chain);
         let mut givens = BTreeMap::new();
-        let Some(model) = self.models.get(&id) else { return givens };
-        for &member in model.chain.iter().rev() {
-            let Some(decl) = self.program.decl(member) else { continue };
+        for &member in chain.iter().rev() {
+            givens
+                .extend(self.own_fields(member).givens.iter().map(|(name, given)| (*name, *given)));
+        }
+        givens
+    }
+
+    fn own_fields(&mut self, id: ItemId) -> Rc<OwnFields<'p>> {
+        if let Some(known) = self.own_fields.get(&id) {
+            return Rc::clone(known);
+        }
+        let mut own = OwnFields::default();
+        if let (Some(model), Some(decl)) = (self.models.get(&id), self.program.decl(id)) {
+            own.unsure = decl.partial;
             for given in &decl.fields {
                 if let Some(field) = model.schema.field(&given.path.text()) {
-                    let module = member.module;
+                    let module = id.module;
                     let given = Given { field, expr: &given.value, span: given.span, module };
-                    givens.insert(field.name, given);
+                    own.givens.insert(field.name, given);
+                } else {
+                    own.unsure = true;
                 }
             }
         }
-        givens
+        let own = Rc::new(own);
+        self.own_fields.insert(id, Rc::clone(&own));
+        own
     }
 
     /// Reports fields that do not exist and fields that are written twice.
@@ -51,7 +78,7 @@ impl<'p> Evaluator<'p> {
         };
         let schema = model.schema;
         let mut seen: BTreeMap<String, Span> = BTreeMap::new();
-        let written: Vec<String> = decl.fields.iter().map(|field| field.path.text()).collect();
+        let written: BTreeSet<String> = decl.fields.iter().map(|field| field.path.text()).collect();
         for field in &decl.fields {
             let name = field.path.text();
             if schema.field(&name).is_none() {
@@ -72,7 +99,12 @@ impl<'p> Evaluator<'p> {
     }
 
     /// Reports a field or an argument that does not exist, with the one that was meant.
-    fn unknown_field(&mut self, schema: &'static TypeSchema, name: &Ident, written: &[String]) {
+    fn unknown_field(
+        &mut self,
+        schema: &'static TypeSchema,
+        name: &Ident,
+        written: &BTreeSet<String>,
+    ) {
         let what = if schema.kind == Kind::Shape { "argument" } else { "field" };
         let text = format!("{} has no {what} `{}`", schema.described(), name.text);
         let error = Diagnostic::error(Code("E0201"), text);
@@ -80,20 +112,28 @@ impl<'p> Evaluator<'p> {
             self.fault(error.at(name.span, "not written here").with_note(why).with_help(help));
             return;
         }
-        let free = |ours: &str| !written.iter().any(|other| other == ours);
+        let free = |ours: &str| !written.contains(ours);
         let names = schema.fields.iter().map(|field| field.name).filter(|ours| free(ours));
         let close = suggest(&name.text, names);
         let same = close.first().filter(|ours| ours.eq_ignore_ascii_case(&name.text));
         let foreign = schema.fields.iter().find_map(|field| {
             let found = field.foreign.iter().find(|(theirs, _)| *theirs == name.text);
-            found.map(|(_, from)| (field.name, *from))
+            found.map(|(_, from)| (field, *from))
         });
         let error = match (same, foreign, close.as_slice()) {
             (None, Some((ours, from)), _) => {
                 let error = error
                     .at(name.span, "not known")
                     .with_note(format!("`{}` is the name in {from}", name.text));
-                if free(ours) {
+                // `width` and `height` are one field here: neither name can be replaced alone.
+                let theirs = ours.foreign.iter().filter(|(theirs, _)| written.contains(*theirs));
+                let halves = matches!(ours.ty, FieldType::Pixels);
+                let part = theirs.count() > 1 || halves && name.text != "resolution";
+                let ours = ours.name;
+                if part && free(ours) {
+                    let example = schema.example;
+                    error.with_help(format!("in `.rts` it is part of `{ours}`, as in: {example}"))
+                } else if free(ours) {
                     error.with_fix(Fix::sure(format!("in `.rts` it is `{ours}`"), name.span, ours))
                 } else {
                     error.with_help(format!("in `.rts` it is `{ours}`, which is set already"))
@@ -154,7 +194,9 @@ impl<'p> Evaluator<'p> {
         }
         self.fields.insert(key, None);
         let scope = Scope { module: given.module, local: None };
-        let value = self.surely(|ev| ev.field_value(schema, given.field, given.expr, scope));
+        let value = self.surely(|ev| {
+            ev.nested(given.span, |ev| ev.field_value(schema, given.field, given.expr, scope))
+        });
         self.fields.insert(key, Some(value.clone()));
         value
     }
@@ -188,20 +230,16 @@ impl<'p> Evaluator<'p> {
 
     /// Reports all required fields that are missing, in one message.
     pub(crate) fn check_missing(&mut self, id: ItemId, fields: &mut Fields) {
-        let (Some(model), Some(decl)) = (self.models.get(&id), self.program.decl(id)) else {
+        let models = self.models;
+        let (Some(model), Some(decl)) = (models.get(&id), self.program.decl(id)) else {
             return;
         };
-        let program = self.program;
-        let unsure = model.chain.iter().filter_map(|member| program.decl(*member)).any(|decl| {
-            let known = |path: &crate::syntax::Path| model.schema.field(&path.text()).is_some();
-            decl.partial || decl.fields.iter().any(|field| !known(&field.path))
-        });
         let missing: Vec<&Field> = fields.missing();
         if missing.is_empty() {
             return;
         }
         fields.ok = false;
-        if unsure {
+        if model.chain.iter().any(|member| self.own_fields(*member).unsure) {
             return;
         }
         let names: Vec<String> = missing.iter().map(|field| field.name.to_owned()).collect();
@@ -225,7 +263,7 @@ impl<'p> Evaluator<'p> {
         scope: Scope<'_>,
     ) -> Fields {
         let mut fields = Fields::new(schema);
-        let labels: Vec<String> =
+        let labels: BTreeSet<String> =
             args.iter().filter_map(|arg| arg.name.as_ref().map(|name| name.text.clone())).collect();
         let mut unknown = false;
         for (i, arg) in args.iter().enumerate() {
@@ -263,17 +301,17 @@ impl<'p> Evaluator<'p> {
         &mut self,
         schema: &'static TypeSchema,
         (i, arg): (usize, &Arg),
-        labels: &[String],
+        labels: &BTreeSet<String>,
     ) -> Option<&'static Field> {
         let Some(label) = &arg.name else {
             let first = schema.fields.first()?;
             if i == 0 && matches!(first.ty, FieldType::Path) {
                 return Some(first);
             }
-            let free = schema.fields.iter().find(|field| {
-                !labels.iter().any(|label| label == field.name)
-                    && !matches!(field.ty, FieldType::Path)
-            });
+            let free = schema
+                .fields
+                .iter()
+                .find(|field| !labels.contains(field.name) && !matches!(field.ty, FieldType::Path));
             let text = format!("this argument of `{}` needs its name", schema.name);
             let mut error = Diagnostic::error(Code("E0306"), text).at(arg.value.span, "which one?");
             if let Some(field) = free {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::Options;
-use crate::diagnostic::{Code, Diagnostic, Fix};
+use crate::diagnostic::{Code, Diagnostic, Edit, Fix};
 use crate::eval::Define;
 use crate::parse;
 use crate::source::{SourceSet, Span};
@@ -37,15 +37,37 @@ pub(super) fn read(
 }
 
 /// Fixes of the command line become advice: only the first `n_files` files can be edited.
-pub(super) fn keep_editable(diagnostic: &mut Diagnostic, n_files: usize) {
+pub(super) fn keep_editable(sources: &SourceSet, diagnostic: &mut Diagnostic, n_files: usize) {
     let (keep, advice): (Vec<Fix>, Vec<Fix>) = std::mem::take(&mut diagnostic.fixes)
         .into_iter()
         .partition(|fix| fix.edits.iter().all(|edit| (edit.span.file.0 as usize) < n_files));
     diagnostic.fixes = keep;
     for fix in advice {
-        let text: Vec<String> =
-            fix.edits.iter().map(|edit| format!("`{}`", edit.replacement)).collect();
-        diagnostic.helps.push(format!("{}: {}", fix.message, text.join(", ")));
+        diagnostic.helps.push(match corrected(sources, &fix) {
+            Some(argument) => format!("{}: `-D {argument}`", fix.message),
+            None => fix.message,
+        });
+    }
+}
+
+/// The argument of `-D` after a fix, as it is typed.
+fn corrected(sources: &SourceSet, fix: &Fix) -> Option<String> {
+    let file = fix.edits.first()?.span.file;
+    let mut text = sources.text(file).to_owned();
+    let mut edits: Vec<&Edit> = fix.edits.iter().filter(|edit| edit.span.file == file).collect();
+    edits.sort_by_key(|edit| std::cmp::Reverse(edit.span.start));
+    for edit in edits {
+        let range = edit.span.start as usize..edit.span.end as usize;
+        text.get(range.clone())?;
+        text.replace_range(range, &edit.replacement);
+    }
+    let (name, value) = text.strip_prefix("rts 1\nlet ")?.split_once('=')?;
+    let argument = format!("{}={}", name.trim(), value.trim());
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "_=.,:%/+-".contains(c);
+    match argument.chars().all(is_plain) {
+        true => Some(argument),
+        false if argument.contains(['\n', '"', '$', '`', '\\']) => None,
+        false => Some(format!("\"{argument}\"")),
     }
 }
 

@@ -164,7 +164,9 @@ impl Evaluator<'_> {
                 Value::TextureChannel(id, channel) => {
                     self.fit_texture(slot, id, Value::TextureChannel(id, channel), false)
                 }
-                Value::TextureColor(_) | Value::Item(Kind::Texture, _) => self.which_channel(slot),
+                Value::TextureColor(id) | Value::Item(Kind::Texture, id) => {
+                    self.which_channel(slot, id)
+                }
                 other => self.fit_number(slot, other, bounds),
             },
             FieldType::NormalSlot => match value {

@@ -31,7 +31,7 @@ pub(super) fn literal(ev: &mut Evaluator<'_>, field: &Field, expr: &Expr) {
                     format!("this is {}", units::show_number((value * 1e4).round() * 1e-6)),
                 )
                 .with_fix(Fix::guess("write a ratio", unit.span, ""));
-            ev.diagnostics.push(warning);
+            ev.tell(warning);
         }
         _ => {}
     }
@@ -57,5 +57,5 @@ fn radians(ev: &mut Evaluator<'_>, span: Span, unit: &Unit) {
         .at(span, "a fraction of pi")
         .because(unit.span, "but the unit is degrees")
         .with_fix(Fix::guess("write radians", unit.span, "rad"));
-    ev.diagnostics.push(warning);
+    ev.tell(warning);
 }

@@ -46,7 +46,7 @@ fn no_effect(ev: &mut Evaluator<'_>, fields: &Fields) {
         let text = format!("`{name}` has no effect: {label}");
         let warning =
             Diagnostic::warning(Code("W0404"), "no_effect", text).at(span, "changes nothing");
-        ev.diagnostics.push(match because {
+        ev.tell(match because {
             Some(because) => warning.because(because, "because of this"),
             None => warning,
         });
@@ -72,7 +72,7 @@ fn invisible_coat(ev: &mut Evaluator<'_>, fields: &Fields) {
         let warning = Diagnostic::warning(Code("W0403"), "invisible_coat", text)
             .at(span, "reflects under 0.0001% of the light")
             .with_help("write 1.5 for lacquer, or make the material `diffuse`");
-        ev.diagnostics.push(warning);
+        ev.tell(warning);
     }
 }
 
@@ -91,7 +91,7 @@ fn whiteness(ev: &mut Evaluator<'_>, fields: &Fields) {
         let warning = Diagnostic::warning(Code("W0401"), "white_albedo", text)
             .at(span, "reflects over 95% of the light")
             .with_note("paper reflects about 0.8, fresh snow 0.9; light then fades sooner, and so does noise");
-        ev.diagnostics.push(warning);
+        ev.tell(warning);
     }
 }
 

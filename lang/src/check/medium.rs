@@ -116,6 +116,6 @@ pub(super) fn warn_of_blindness(
         let warning = Diagnostic::warning(Code("W0714"), "blind_fog", text)
             .at(span, "what is farther has lost 98% of its contrast")
             .because(render.name.span, "the fog of this render");
-        ev.diagnostics.push(warning);
+        ev.tell(warning);
     }
 }

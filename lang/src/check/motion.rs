@@ -30,6 +30,6 @@ pub(super) fn check(ev: &mut Evaluator<'_>, scene: &Scene) {
             .at(scene.camera.name.span, "this camera sees one moment")
             .because(name.span, "this moves")
             .with_help("write `shutter = 0ms..20ms` in the camera, or leave out `velocity`");
-        ev.diagnostics.push(warning);
+        ev.tell(warning);
     }
 }

@@ -42,7 +42,7 @@ pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
             "bumps only tilt the normal: above 45 degrees they do not look like a surface any more",
         )
         .with_help(format!("write `bump.strength = {most}mm` or less"));
-        ev.diagnostics.push(warning);
+        ev.tell(warning);
     }
 }
 

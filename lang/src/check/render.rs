@@ -138,6 +138,9 @@ fn has_errors(tree: &File) -> bool {
     tree.has_errors || tree.items.iter().any(|item| matches!(item.kind, ItemKind::Poisoned(_)))
 }
 
+/// Most declarations that are marked in one message.
+const MOST_NAMED: usize = 8;
+
 /// The render of the root file; reports that there is none, or more than one.
 fn one_render(ev: &mut Evaluator<'_>) -> Option<ItemId> {
     let here: Vec<ItemId> =
@@ -155,8 +158,11 @@ fn one_render(ev: &mut Evaluator<'_>) -> Option<ItemId> {
         [first, rest @ ..] => {
             let mut error =
                 Diagnostic::error(Code("E0711"), "a scene has one `render`, this has more");
-            for id in rest {
+            for id in rest.iter().take(MOST_NAMED) {
                 error = error.at(ev.program.name_span(*id), "one too many");
+            }
+            if rest.len() > MOST_NAMED {
+                error = error.with_note(format!("there are {} in all", here.len()));
             }
             error = error.because(ev.program.name_span(*first), "the first one");
             ev.fault(error);
@@ -176,11 +182,15 @@ fn no_render(ev: &Evaluator<'_>, file: crate::source::FileId) -> Diagnostic {
         ids_of(ev.program, Kind::Camera).into_iter().filter(|id| id.module == 0).collect();
     match cameras.as_slice() {
         [only] => {
-            let line = if text.ends_with('\n') { "" } else { "\n" };
+            // Before the last line break, so that what is proposed is seen to be a line of its own.
+            let line = if text.ends_with("\r\n") { "\r\n" } else { "\n" };
+            let end =
+                end - u32::try_from(if text.ends_with('\n') { line.len() } else { 0 }).unwrap_or(0);
             let camera = ev.program.name(*only);
-            let name =
-                if ev.program.modules[0].names.contains_key("main") { "picture" } else { "main" };
-            let text = format!("{line}render {name}: path {{ camera = {camera} }}\n");
+            let names = &ev.program.modules[0].names;
+            let name = ["main", "picture", "final", "view"].into_iter();
+            let name = name.clone().find(|name| !names.contains_key(*name)).unwrap_or("main");
+            let text = format!("{line}render {name}: path {{ camera = {camera} }}");
             let end = Span { file, start: end, end };
             error.with_fix(Fix::sure("render what this camera sees", end, text))
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::field::{Slot, any};
-use crate::diagnostic::{Code, Diagnostic, Fix};
+use crate::diagnostic::{Code, Diagnostic, Edit, Fix};
 use crate::eval::Evaluator;
 use crate::eval::value::{ShapeValue, Value};
 use crate::resolve::ItemId;
@@ -85,16 +85,24 @@ impl Evaluator<'_> {
         self.fault(error)
     }
 
-    pub(super) fn which_channel(&mut self, slot: Slot<'_>) -> Value {
+    pub(super) fn which_channel(&mut self, slot: Slot<'_>, id: ItemId) -> Value {
         let text = format!("{} needs one channel of the texture", slot.name());
-        let error = Diagnostic::error(Code("E0203"), text).at(slot.span(), "which channel?");
-        let error = match &slot.expr.kind {
+        let mut error = Diagnostic::error(Code("E0203"), text).at(slot.span(), "which channel?");
+        let mut fix = match &slot.expr.kind {
             ExprKind::Path(path) if path.segments.last().is_some_and(|s| s.text == "rgb") => {
                 let last = path.segments.last().map_or(slot.span(), |s| s.span);
-                error.with_fix(Fix::guess("take red", last, "r"))
+                Fix::guess("take red", last, "r")
             }
-            _ => error.with_fix(Fix::guess("take red", slot.span().after(), ".r")),
+            _ => Fix::guess("take red", slot.span().after(), ".r"),
         };
+        if let Some(info) = self.textures.get(&id).filter(|info| info.space == ColorSpace::Srgb) {
+            let mut edits = fix.edits;
+            edits.push(Edit { span: info.space_value, replacement: "data".to_owned() });
+            let message = "take red, of an image that is read as data".to_owned();
+            fix = Fix { message, edits, ..fix };
+            error = error.because(info.space_span, "sRGB is for colours");
+        }
+        let error = error.with_fix(fix);
         self.fault(error.with_note("a texture has `.r`, `.g`, `.b` and `.a`"))
     }
 

@@ -41,6 +41,6 @@ pub(super) fn check(ev: &mut Evaluator<'_>) {
         let warning = Diagnostic::warning(Code("W0201"), "unused", text)
             .at(name.span, "nothing refers to it")
             .with_help(format!("remove it, or call it `_{}`", name.text));
-        ev.diagnostics.push(warning);
+        ev.tell(warning);
     }
 }

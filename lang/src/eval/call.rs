@@ -25,7 +25,7 @@ impl Evaluator<'_> {
         }
         let name = &path.segments[0];
         if let Some(function) = function::find(&name.text) {
-            return self.function(function, name, args, scope);
+            return self.function(function, name, args, (span, scope));
         }
         if let Some(schema) = schema::find_type(Kind::Shape, &name.text) {
             return self.shape_call(schema, name, args, scope);
@@ -95,7 +95,7 @@ impl Evaluator<'_> {
         function: &'static Function,
         name: &Ident,
         args: &[Arg],
-        scope: Scope<'_>,
+        (span, scope): (Span, Scope<'_>),
     ) -> Value {
         let Some(order) = self.match_arguments(function, name, args, scope) else {
             return Value::Poison;
@@ -115,7 +115,6 @@ impl Evaluator<'_> {
         match (function.run)(&values) {
             Ok(value) => value,
             Err(why) => {
-                let span = order.iter().fold(name.span, |span, expr| span.to(expr.span));
                 let error = Diagnostic::error(Code("E0402"), format!("`{}`: {why}", function.name));
                 self.number_fault(error.at(span, "here"))
             }

@@ -200,7 +200,7 @@ impl Printer<'_> {
         if sign {
             // `- x` is the name x, `-x` an axis.
             let axis = matches!(token.text(self.text), "x" | "y" | "z");
-            return axis && before.end != token.start;
+            return axis && before.end() != token.start();
         }
         let name = is_callee(before, self.text);
         match (before.kind, token.kind) {

@@ -231,7 +231,7 @@ impl Reader<'_> {
             let first = self.expr(next(&mut parts));
             entries.push(match parts.next() {
                 None => Entry { key: None, value: first },
-                Some(value) => Entry { key: Some(first), value: self.expr(value) },
+                Some(value) => Entry { key: Some(Box::new(first)), value: self.expr(value) },
             });
         }
         Expr { kind: ExprKind::List(entries), span }
@@ -286,7 +286,7 @@ impl Reader<'_> {
         }
         let diagnostic = Diagnostic::error(Code("E0108"), "this number is too large")
             .at(self.span(&number), "beyond 1.8e308");
-        self.diagnostics.push(diagnostic);
+        self.fault(diagnostic);
         ExprKind::Error
     }
 }

@@ -8,7 +8,7 @@ use super::{Grammar, Reader, Rule};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::lex::{Kind, RESERVED, Token};
 use crate::source::Span;
-use crate::split::{Chunk, Header, MAX_BRACKETS, start_words};
+use crate::split::{Chunk, Header, MAX_BRACKETS, MAX_NAME, MAX_TOKENS, start_words};
 use crate::suggest::suggest;
 use crate::syntax::{
     Assert, Base, Binding, Decl, DeclKind, Expr, ExprKind, Field, Ident, Item, ItemKind,
@@ -21,7 +21,7 @@ impl Reader<'_> {
         let span = self.chunk_span(chunk);
         if chunk.header == Header::Junk {
             let diagnostic = self.junk_between(chunk);
-            self.diagnostics.push(diagnostic);
+            self.fault(diagnostic);
             return None;
         }
         let text = self.text.get(span.start as usize..span.end as usize).unwrap_or("");
@@ -40,7 +40,7 @@ impl Reader<'_> {
         let decl = self.decl(chunk, item, next_token);
         if let Some(junk) = parts.next().filter(|junk| junk.as_rule() == Rule::junk) {
             let diagnostic = self.junk_after(self.span(&junk));
-            self.diagnostics.push(diagnostic);
+            self.fault(diagnostic);
         }
         Some(decl)
     }
@@ -94,7 +94,7 @@ impl Reader<'_> {
     /// A declaration without a block, or without its `{`, that could not be read.
     fn bad_line(&mut self, chunk: &Chunk, span: Span) -> Item {
         let diagnostic = self.explain_line(chunk, span);
-        self.diagnostics.push(diagnostic);
+        self.fault(diagnostic);
         self.poisoned(chunk)
     }
 
@@ -136,8 +136,37 @@ impl Reader<'_> {
             .at(self.token_span(token), "the limit is reached here")
             .with_note(limits)
             .with_help("give parts of it a name with `let`");
-        self.diagnostics.push(diagnostic);
+        self.fault(diagnostic);
         self.poisoned(chunk)
+    }
+
+    /// A declaration with a name that is too long. It declares nothing, so that no message repeats it.
+    pub(super) fn too_long(&mut self, chunk: &Chunk, token: Token) -> Item {
+        let n = token.end() - token.start();
+        let message = format!("a name has at most {MAX_NAME} letters, this one has {n}");
+        let diagnostic = Diagnostic::error(Code("E0111"), message)
+            .at(self.token_span(token), "too long")
+            .with_note("the declaration was skipped");
+        self.fault(diagnostic);
+        let (span, docs) = (self.chunk_span(chunk), self.docs(chunk));
+        Item { span, docs, public: false, kind: ItemKind::Poisoned(Vec::new()) }
+    }
+
+    /// A declaration that is too long to be read at once.
+    pub(super) fn too_many(&mut self, chunk: &Chunk, token: Token) -> Item {
+        let message = "this declaration is too long, so it was skipped";
+        let first = self.token_span(self.tokens[chunk.tokens.start]);
+        let diagnostic = Diagnostic::error(Code("E0111"), message)
+            .at(first, "starts here")
+            .because(self.token_span(token), "the limit is reached here")
+            .with_note(format!("a declaration has at most {MAX_TOKENS} names, numbers and signs"))
+            .with_help("give parts of it a name with `let`, or declare several");
+        self.fault(diagnostic);
+        let name = self.tokens.get(chunk.tokens.start + 1).filter(|t| t.kind == Kind::Word);
+        let name =
+            name.map(|t| Ident { text: t.text(self.text).to_owned(), span: self.token_span(*t) });
+        let kind = ItemKind::Poisoned(name.into_iter().collect());
+        Item { span: self.chunk_span(chunk), docs: self.docs(chunk), public: false, kind }
     }
 
     fn decl(&mut self, chunk: &Chunk, pair: Pair<'_, Rule>, next_token: Option<Token>) -> Item {
@@ -164,7 +193,7 @@ impl Reader<'_> {
             return Some(kind);
         }
         let near = suggest(word, DeclKind::ALL.map(DeclKind::word));
-        self.diagnostics.push(unknown_word(word, span, &near));
+        self.fault(unknown_word(word, span, &near));
         match near.as_slice() {
             [only] => DeclKind::from_word(only),
             _ => None,
@@ -192,7 +221,7 @@ impl Reader<'_> {
             return Some((name, index, base));
         }
         let diagnostic = self.explain_head(kind_span, span);
-        self.diagnostics.push(diagnostic);
+        self.fault(diagnostic);
         let first = self.tokens_in(span).first().copied()?;
         let text = first.text(self.text);
         if first.kind != Kind::Word || RESERVED.contains(&text) {
@@ -219,7 +248,7 @@ impl Reader<'_> {
                 Rule::block_end => span = brace.to(self.span(&part)),
                 Rule::unclosed => {
                     let diagnostic = self.unclosed(brace, next);
-                    self.diagnostics.push(diagnostic);
+                    self.fault(diagnostic);
                     partial = true;
                 }
                 _ => {
@@ -227,9 +256,10 @@ impl Reader<'_> {
                     span = span.to(bad);
                     partial = true;
                     // Lines after a bracket that was never closed are part of the same fault.
-                    if !(dangling && self.assigned(bad).is_none()) {
+                    let known = dangling && self.assigned(bad).is_none();
+                    if !(known || self.is_full()) {
                         let diagnostic = self.explain_field(bad);
-                        self.diagnostics.push(diagnostic);
+                        self.fault(diagnostic);
                         dangling = self.has_open_bracket(bad);
                     }
                     fields.extend(self.assigned(bad));

@@ -24,8 +24,8 @@ impl Reader<'_> {
     /// Tokens that lie within a span, without comments and line breaks.
     pub(super) fn tokens_in(&self, span: Span) -> Vec<Token> {
         let (start, end) = (span.start as usize, span.end as usize);
-        let first = self.tokens.partition_point(|t| t.start < start);
-        let inside = self.tokens[first..].iter().take_while(|t| t.end <= end);
+        let first = self.tokens.partition_point(|t| t.start() < start);
+        let inside = self.tokens[first..].iter().take_while(|t| t.end() <= end);
         inside.filter(|t| !matches!(t.kind, Kind::Comment | Kind::Newline)).copied().collect()
     }
 
@@ -83,16 +83,16 @@ impl Reader<'_> {
     }
 
     /// A block that ends with its chunk.
-    pub(super) fn unclosed(&self, brace: Span, next: Option<Token>) -> Diagnostic {
-        let end = next.map_or(self.text.len(), |token| token.start);
-        let last = self.tokens.partition_point(|t| t.start < end);
+    pub(super) fn unclosed(&mut self, brace: Span, next: Option<Token>) -> Diagnostic {
+        let end = next.map_or(self.text.len(), Token::start);
+        let last = self.tokens.partition_point(|t| t.start() < end);
         let mut inside = self.tokens[..last].iter().rev();
         let last = inside.find(|t| !matches!(t.kind, Kind::Comment | Kind::Newline));
         let last = last.map_or(brace, |&token| self.token_span(token));
         // A comment behind the last field stays behind it.
         let rest = self.text.get(last.end as usize..).unwrap_or("");
         let line_end = last.end as usize + rest.find(['\n', '\r']).unwrap_or(rest.len());
-        let line = 1 + self.text.bytes().take(line_end).filter(|&b| b == b'\n').count();
+        let line = self.line_of(line_end);
         let mut error =
             Diagnostic::error(Code("E0102"), "this block is never closed").at(brace, "opened here");
         if let Some(token) = next {
@@ -105,13 +105,27 @@ impl Reader<'_> {
             .with_note("the rest of the file was still checked")
     }
 
+    /// The line of a byte. Faults come in the order of the text: lines are counted on from the last one.
+    fn line_of(&mut self, byte: usize) -> usize {
+        let (from, line) = if self.counted.0 <= byte { self.counted } else { (0, 1) };
+        let passed = self.text.get(from..byte).unwrap_or("");
+        let line = line + passed.matches('\n').count();
+        self.counted = (byte, line);
+        line
+    }
+
     pub(super) fn has_open_bracket(&self, span: Span) -> bool {
         matches!(unmatched(&self.tokens_in(span), self.text), Some(t) if t.kind == Kind::Open)
     }
 
     /// A piece of a block that is no field.
     pub(super) fn explain_field(&self, span: Span) -> Diagnostic {
-        let tokens = self.tokens_in(span);
+        let mut tokens = self.tokens_in(span);
+        // A string without an end reaches farther than the field, which ended at a comma in it.
+        let end = span.end as usize;
+        let last = self.tokens.partition_point(|t| t.start() < end).checked_sub(1);
+        let last = last.and_then(|i| self.tokens.get(i));
+        tokens.extend(last.filter(|t| t.kind == Kind::OpenText && t.end() > end));
         if let Some(error) = self.broken_token(&tokens) {
             return error;
         }
@@ -125,6 +139,9 @@ impl Reader<'_> {
         if let Some(error) = self.reserved(first, "the name of a field") {
             return error;
         }
+        if let Some(error) = self.declaration_inside(&tokens) {
+            return error;
+        }
         let n = tokens.iter().take_while(|t| matches!(t.kind, Kind::Word | Kind::Dot));
         // `ring.width 3mm`: a word after a word does not belong to the path.
         let n = n
@@ -134,13 +151,29 @@ impl Reader<'_> {
         let path_end = tokens.iter().take(n).rev().find(|t| t.kind == Kind::Word).unwrap_or(&first);
         let path = self.token_span(first).to(self.token_span(*path_end));
         let name = self.text.get(path.start as usize..path.end as usize).unwrap_or("");
-        let after = tokens.iter().find(|t| byte_offset(t.start) >= path.end).copied();
+        let after = tokens.iter().find(|t| byte_offset(t.start()) >= path.end).copied();
         match after {
             Some(t) if t.kind == Kind::Equals || t.kind == Kind::Dot => {
                 self.explain(Rule::strict_field, span, "the field")
             }
             _ => self.no_equals(name, path, after),
         }
+    }
+
+    /// `let x = …` in a block.
+    fn declaration_inside(&self, tokens: &[Token]) -> Option<Diagnostic> {
+        let [first, name, sign, ..] = tokens else { return None };
+        let word = first.text(self.text);
+        let shaped = name.kind == Kind::Word
+            && matches!(sign.text(self.text), "=" | ":" | "{" | "[" | "like");
+        if !shaped || !start_words().any(|start| start == word) {
+            return None;
+        }
+        let message = format!("`{word}` cannot stand inside a block");
+        let error = Diagnostic::error(Code("E0101"), message)
+            .at(self.token_span(*first), "a declaration")
+            .with_help(format!("write `{word} {}` before the block", name.text(self.text)));
+        Some(error)
     }
 
     /// A field whose path is not followed by `=`.

@@ -78,9 +78,11 @@ impl Reader<'_> {
     pub(super) fn broken_token(&self, tokens: &[Token]) -> Option<Diagnostic> {
         if let Some(&token) = tokens.iter().find(|t| t.kind == Kind::OpenText) {
             let span = self.token_span(token);
+            let import = tokens.first().is_some_and(|t| t.text(self.text) == "import");
+            let end = token.start() + string_end(token.text(self.text), import);
             let error = Diagnostic::error(Code("E0106"), "this string is never closed")
                 .at(span, "a string ends on the line where it starts")
-                .with_fix(Fix::guess("close it", span.after(), "\""));
+                .with_fix(Fix::guess("close it", self.bytes(end..end), "\""));
             return Some(error);
         }
         if let Some(i) = tokens.iter().position(|t| t.kind == Kind::Other) {
@@ -90,7 +92,7 @@ impl Reader<'_> {
         }
         let is_good = |t: &&Token| {
             let mut digits = t.text(self.text).bytes().skip(1);
-            t.kind != Kind::Hex || t.end - t.start == 7 && digits.all(|c| c.is_ascii_hexdigit())
+            t.kind != Kind::Hex || t.end() - t.start() == 7 && digits.all(|c| c.is_ascii_hexdigit())
         };
         if let Some(&token) = tokens.iter().find(|t| !is_good(t)) {
             let error = Diagnostic::error(Code("E0101"), "a colour has six hex digits")
@@ -138,8 +140,8 @@ impl Reader<'_> {
         let at = failure.as_ref().map_or(span.end as usize, |f| f.at);
         let expected = failure.map(|f| f.expected).unwrap_or_default();
         let tokens = self.tokens_in(span);
-        let n_right = tokens.iter().position(|t| t.end > at).unwrap_or(tokens.len());
-        let inside_token = tokens.get(n_right).is_some_and(|t| t.start < at);
+        let n_right = tokens.iter().position(|t| t.end() > at).unwrap_or(tokens.len());
+        let inside_token = tokens.get(n_right).is_some_and(|t| t.start() < at);
         let stop = Stop { tokens, n_right, expected, inside_token };
         let (before, found) = (stop.before(), stop.found());
         // After `param … = value` the `in` is optional, so it is not what is missing.
@@ -210,11 +212,11 @@ impl Reader<'_> {
         let span = self.token_span(found);
         let message = format!("unexpected {} after {}", self.quoted(found), self.quoted(before));
         let error = Diagnostic::error(Code("E0101"), message);
-        if before.end == found.start {
+        if before.end() == found.start() {
             let note = "a unit stands after a number, or after a tuple of them";
             return Some(error.at(span, "not a unit").with_note(note));
         }
-        let gap = self.bytes(before.end..found.start);
+        let gap = self.bytes(before.end()..found.start());
         let fix = Fix::guess("a unit stands directly after its number", gap, "");
         (bare || value == ")").then(|| error.at(span, "a unit?").with_fix(fix))
     }
@@ -249,6 +251,19 @@ impl Reader<'_> {
             _ => error.at(span, format!("expected the end of {end}")),
         }
     }
+}
+
+/// Where a string without an end was probably meant to end: before what may stand behind a string.
+fn string_end(text: &str, import: bool) -> usize {
+    let text = text.find("//").filter(|_| !text.contains("://")).map_or(text, |at| &text[..at]);
+    let end = if import {
+        let names = text.find('{').into_iter().chain(text.rfind(" as "));
+        names.min()
+    } else {
+        text.find([',', ')', ']', '}'])
+    };
+    let before = end.and_then(|end| text.get(..end)).unwrap_or(text).trim_end();
+    if before.len() > 1 { before.len() } else { text.trim_end().len() }
 }
 
 /// The first byte where `rule` cannot read a span, and what it wanted there; `None` if it can.

@@ -1,11 +1,13 @@
 //! Loads the root file and everything it imports, and gives every name of every file its meaning.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Entry, ItemId, Module, Program, Target, item_name};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::parse;
-use crate::source::{FileId, LoadError, Loader, MAX_FILE_BYTES, SourceSet, Span};
+use crate::source::{
+    FileId, LoadError, Loader, MAX_FILE_BYTES, MAX_SCENE_BYTES, SourceSet, Span, is_scene_text,
+};
 use crate::standard;
 use crate::suggest::suggest;
 use crate::syntax::{File, Import, ImportNames, Item, ItemKind};
@@ -28,6 +30,7 @@ pub(crate) fn load(
         stack: Vec::new(),
         prefixes: BTreeMap::new(),
         diagnostics: Vec::new(),
+        n_bytes: root_text.len(),
     };
     let file = loading.sources.add(root_name, root_text);
     loading.module(file, String::new());
@@ -44,6 +47,8 @@ struct Loading<'a> {
     stack: Vec<(String, Option<Span>)>,
     prefixes: BTreeMap<String, u32>,
     diagnostics: Vec<Diagnostic>,
+    /// Bytes of all texts so far.
+    n_bytes: usize,
 }
 
 impl Loading<'_> {
@@ -117,9 +122,8 @@ impl Loading<'_> {
             self.diagnostics.push(self.cycle(import, &name));
             return None;
         }
-        if text.len() > MAX_FILE_BYTES {
-            let error = LoadError::Unreadable(format!("larger than {} MiB", MAX_FILE_BYTES >> 20));
-            self.diagnostics.push(unreadable(import, &error));
+        if let Err(error) = self.take_in(import, &text) {
+            self.diagnostics.push(*error);
             return None;
         }
         if let Some(top) = self.stack.last_mut() {
@@ -128,6 +132,29 @@ impl Loading<'_> {
         let prefix = self.prefix(import, importer);
         let file = self.sources.add(name, text);
         Some(self.module(file, prefix))
+    }
+
+    /// Counts a text that was found, or refuses it.
+    fn take_in(&mut self, import: &Import, text: &str) -> Result<(), Box<Diagnostic>> {
+        let mib = |bytes: usize| bytes >> 20;
+        if text.len() > MAX_FILE_BYTES {
+            let why = format!("larger than {} MiB", mib(MAX_FILE_BYTES));
+            return Err(Box::new(unreadable(import, &LoadError::Unreadable(why))));
+        }
+        self.n_bytes += text.len();
+        if self.n_bytes > MAX_SCENE_BYTES {
+            let why =
+                format!("the scene would have more than {} MiB of text", mib(MAX_SCENE_BYTES));
+            return Err(Box::new(unreadable(import, &LoadError::Unreadable(why))));
+        }
+        if !is_scene_text(text) {
+            // Nothing of it is shown: it may be any file.
+            let (path, span) = (&import.path.text, import.path.span);
+            let error = Diagnostic::error(Code("E0209"), format!("`{path}` is not a scene text"));
+            let error = error.at(span, "it does not begin with `rts`");
+            return Err(Box::new(error.with_help("a file that is imported begins with `rts 1`")));
+        }
+        Ok(())
     }
 
     /// Imports that need no look at a disk to be refused.
@@ -188,10 +215,15 @@ impl Loading<'_> {
     ) -> BTreeMap<String, Entry> {
         let mut names = Names { names: BTreeMap::new(), diagnostics: &mut self.diagnostics };
         let mut imports = imported.iter();
+        let mut whole = BTreeSet::new();
         for (item, i) in tree.items.iter().zip(0..) {
             match &item.kind {
                 ItemKind::Import(import) => {
                     let target = imports.next().copied().flatten();
+                    if import.names == ImportNames::All && target.is_some_and(|t| !whole.insert(t))
+                    {
+                        continue; // all of its names are there already
+                    }
                     bring_in(&self.program, import, target, &mut names);
                 }
                 ItemKind::Poisoned(idents) => {

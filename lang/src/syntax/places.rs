@@ -105,7 +105,9 @@ fn expr(node: &mut Expr) {
         }
         ExprKind::List(entries) => {
             for Entry { key, value } in entries {
-                key.iter_mut().for_each(expr);
+                if let Some(key) = key {
+                    expr(key);
+                }
                 expr(value);
             }
         }
