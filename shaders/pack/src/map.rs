@@ -124,9 +124,9 @@ fn io<'a>(action: &'static str, path: &'a Path) -> impl FnOnce(std::io::Error) -
 
 /// A regular file that begins as a pack, and what the system says of it. A pipe is not waited for.
 fn open(path: &Path) -> Result<(File, Metadata), PackError> {
-    let regular = |data: Metadata| match data.is_file() {
-        true => Ok(data),
-        false => Err(PackError::NotAFile { path: path.to_owned() }),
+    let regular = |data: Metadata| {
+        let is_file = data.is_file();
+        is_file.then_some(data).ok_or_else(|| PackError::NotAFile { path: path.to_owned() })
     };
     // Devices may act when they are opened, so most are refused before. What slips in between is caught below.
     regular(std::fs::metadata(path).map_err(io("open", path))?)?;
