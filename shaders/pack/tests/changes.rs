@@ -75,7 +75,7 @@ const CASES: &[Case] = &[
     ),
     (
         "copied over, with cp",
-        |path| fs::write(path, Scene::empty().bytes()).unwrap(),
+        |path| fs::write(path, [7; 12360]).unwrap(),
         Some("it has 12360 bytes, it had 65592"),
         Some("it has 12360 bytes, it had 65592"),
     ),
@@ -181,20 +181,6 @@ fn threads_that_read_at_once_survive() {
     });
 }
 
-#[test]
-fn slots_of_mappings_are_used_again() {
-    let dir = tempfile::tempdir().unwrap();
-    let path = old_pack(dir.path());
-    for _ in 0..2 {
-        let packs: Vec<_> = (0..300).map(|_| map(&path)).collect();
-        let open = packs.iter().filter(|pack| pack.is_ok()).count();
-        // Other tests of this process have some, too.
-        assert!((200..=256).contains(&open), "{open}");
-        let error = packs.iter().find_map(|pack| pack.as_ref().err()).unwrap().to_string();
-        assert!(error.ends_with("256 files are mapped, and no more can be guarded"), "{error}");
-    }
-}
-
 /// Says to this very program what it is to do in a process of its own.
 const CHILD: &str = "PACK_TEST_CHILD";
 
@@ -225,8 +211,10 @@ fn bus_errors_of_others_end_the_process() {
         assert_eq!(std::hint::black_box(map[5000]), 0);
     } else {
         #[expect(unsafe_code, reason = "what is tested")]
-        // SAFETY: the process is to end.
+        // SAFETY: the process is to end; at the second, as without us: the handler of Rust that was there before takes
+        // the first one for a fault, which would come again.
         unsafe {
+            libc::raise(libc::SIGBUS);
             libc::raise(libc::SIGBUS);
         }
     }
