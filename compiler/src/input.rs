@@ -108,11 +108,11 @@ impl Root {
             Ok(real) => inside(real).map(Some),
             Err(error) => {
                 // What is not there would have been in the nearest folder that is.
-                let folders = path.ancestors().skip(1).map(|folder| match folder {
+                let mut folders = path.ancestors().skip(1).map(|folder| match folder {
                     empty if empty.as_os_str().is_empty() => Path::new("."),
                     folder => folder,
                 });
-                if let Some(real) = folders.filter_map(|f| f.canonicalize().ok()).next() {
+                if let Some(real) = folders.find_map(|f| f.canonicalize().ok()) {
                     inside(real)?;
                 }
                 Err(error.into())

@@ -41,7 +41,7 @@ const FORMATS: [&str; 3] = ["human", "short", "json"];
 
 #[test]
 fn a_hundred_thousand_warnings_take_little_time_and_few_are_drawn() {
-    let lets: String = (0..100_000).map(|i| format!("let a{i} = 1m\n")).collect();
+    let lets = (0..100_000).map(|i| format!("let a{i} = 1m\n")).collect::<Vec<_>>().concat();
     let folder = folder(&[("a.rts", &format!("rts 1\n{GOOD}{lets}"))]);
     for format in FORMATS {
         let start = Instant::now();
@@ -60,7 +60,7 @@ fn a_hundred_thousand_warnings_take_little_time_and_few_are_drawn() {
 
 #[test]
 fn errors_and_warnings_are_counted_apart() {
-    let wrong: String = (0..9).map(|i| format!("material w{i}: metal {{ color = linear(0.5), fuzz = 0.5% }}\nlet e{i} = nothing{i}\n")).collect();
+    let wrong = (0..9).map(|i| format!("material w{i}: metal {{ color = linear(0.5), fuzz = 0.5% }}\nlet e{i} = nothing{i}\n")).collect::<Vec<_>>().concat();
     let folder = folder(&[("a.rts", &format!("rts 1\n{GOOD}{wrong}"))]);
     let shown = |max: &str| {
         let (code, text) =
@@ -110,7 +110,7 @@ fn no_line_makes_more_than_a_few_lines() {
         let folder = folder(&[("a.rts", &text)]);
         for format in FORMATS {
             let (code, said) = check(folder.path(), &["a.rts", "--error-format", format]);
-            assert_eq!(code, Some(1), "{:.2000}", said);
+            assert_eq!(code, Some(1), "{said:.2000}");
             assert!(said.len() < 20_000, "{format}: {} bytes: {:.2000}", said.len(), said);
         }
     }
@@ -158,11 +158,12 @@ fn a_file_that_is_no_scene_is_named_and_not_quoted() {
 fn a_small_stack_gives_no_error() {
     let deep =
         format!("let a = {}1{}\nlet b = {}1\n", "(".repeat(64), ")".repeat(64), "1 + ".repeat(200));
-    let fields: String = (0..390)
+    let fields = (0..390)
         .map(|i| {
             format!("material m{i}: metal {{ color = linear(0.5), fuzz = m{}.fuzz }}\n", i + 1)
         })
-        .collect();
+        .collect::<Vec<_>>()
+        .concat();
     let fields = fields
         + "material m390: metal { color = linear(0.5), fuzz = 0.1 }\ninstance deep { shape = sphere(radius: 1m), material = m0 }\n";
     let folder =

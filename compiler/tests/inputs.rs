@@ -189,7 +189,7 @@ fn memory_has_a_budget_that_files_are_held_to_before_it_is_taken() {
     write(
         folder,
         "names.obj",
-        OBJ.to_owned() + &(0..20_000).map(|i| format!("o n{i}\n")).collect::<String>(),
+        OBJ.to_owned() + &(0..20_000).map(|i| format!("o n{i}\n")).collect::<Vec<_>>().concat(),
     );
     let nodes =
         format!(r#"{{"asset": {{"version": "2.0"}}, "nodes": [{}{{}}]}}"#, "{},".repeat(20_000));

@@ -246,7 +246,6 @@ fn what_is_wrong_n_times_takes_time_in_proportion() {
         check_diagnostics(&analysis.sources, &analysis.diagnostics);
         assert!(!analysis.diagnostics.is_empty(), "{name}");
         let took = start.elapsed();
-        eprintln!("{name}: {} diagnostics, {took:?}", analysis.diagnostics.len());
         assert!(took < Duration::from_secs(10), "{name}: {took:?}");
     }
 }

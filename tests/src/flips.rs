@@ -22,7 +22,7 @@ use crate::statistics::stream::Stream;
 /// Examples that have, together, every large section: meshes with textures, spheres, instances, light trees.
 const SCENES: [&str; 3] = ["gltf", "materials", "mesh"];
 /// A run that takes longer has no end.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_mins(1);
 /// Bytes of a header, and of a row of the table after it.
 const HEAD: (usize, usize) = (128, 64);
 
@@ -93,7 +93,9 @@ pub fn table(program: &Path, tries: usize) -> Result<(String, usize), Box<dyn Er
                 .map(|bit| subject.flip(*bit).map_err(|error| error.to_string()))
                 .collect::<Result<Vec<_>, _>>()?;
             let mut counts: BTreeMap<Outcome, usize> = BTreeMap::new();
-            outcomes.iter().for_each(|outcome| *counts.entry(*outcome).or_default() += 1);
+            for outcome in outcomes {
+                *counts.entry(outcome).or_default() += 1;
+            }
             let _ =
                 write!(text, "\n| `{name}` | {} bytes | {place} | {} |", bytes.len(), bits.len());
             for (outcome, _) in Outcome::ALL {

@@ -109,11 +109,7 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
     let start = Instant::now();
     let cache = if args.no_cache { Cache::disabled() } else { Cache::from_env() };
     let output = args.output.clone().unwrap_or_else(|| default_output(&args.scene.scene));
-    let optional =
-        [(&args.emit_wgsl, "the kernel of --emit-wgsl"), (&args.depfile, "the rule of --depfile")];
-    let optional = optional.iter().filter_map(|(path, what)| Some((path.as_deref()?, *what)));
-    let list: Vec<_> = [(output.as_path(), "the pack")].into_iter().chain(optional).collect();
-    let outputs = match Outputs::new(&args.scene.scene, &list, reporter) {
+    let outputs = match outputs(args, &output, reporter) {
         Ok(outputs) => outputs,
         Err(code) => return code,
     };
@@ -142,14 +138,9 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
         Before::Edited(edited) => Some(edited),
         Before::UpToDate(_) | Before::Nothing => None,
     };
-    let Compilation { compiled, mut phases, texts, silent, whole } = match compile(
-        &args.scene,
-        &limits,
-        trees,
-        edited.as_ref().map(|e| (&job, e)),
-        reuse,
-        reporter,
-    ) {
+    let earlier = edited.as_ref().map(|e| (&job, e));
+    let done = compile(&args.scene, &limits, trees, earlier, reuse, reporter);
+    let Compilation { compiled, mut phases, texts, silent, whole } = match done {
         Ok(done) => done,
         Err(code) => return code,
     };
@@ -183,6 +174,15 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
         job.keep(&cache, reuse, &Done { texts, pack, silent, memory, roster, now });
     }
     explained(args, &output, reporter)
+}
+
+/// What is going to be written, proven to be writable.
+fn outputs(args: &BuildArgs, pack: &Path, reporter: &Reporter) -> Result<Outputs, u8> {
+    let optional =
+        [(&args.emit_wgsl, "the kernel of --emit-wgsl"), (&args.depfile, "the rule of --depfile")];
+    let optional = optional.iter().filter_map(|(path, what)| Some((path.as_deref()?, *what)));
+    let list: Vec<_> = [(pack, "the pack")].into_iter().chain(optional).collect();
+    Outputs::new(&args.scene.scene, &list, reporter)
 }
 
 /// Says what came of it, and what it took: phase by phase, and in all.

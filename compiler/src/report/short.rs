@@ -22,7 +22,7 @@ pub(super) fn render(sources: &SourceSet, diagnostic: &Diagnostic) -> String {
     let notes = diagnostic.notes.iter().map(|note| line(note).into_owned());
     let why: Vec<String> = labels.chain(notes).collect();
     if !why.is_empty() {
-        text += &format!(" ({})", why.join("; "));
+        text = format!("{text} ({})", why.join("; "));
     }
     text
 }

@@ -46,7 +46,7 @@ impl Step {
         let t = if self.t < 1e29 { self.t / scale } else { f64::INFINITY };
         let [x, y, z] = self.origin;
         let origin = [x / scale + center[0], y / scale + center[1], z / scale + center[2]];
-        Self { t, origin, ..self }
+        Self { origin, t, ..self }
     }
 }
 

@@ -254,6 +254,7 @@ pub(super) struct RenderArgs {
     /// as NAME.checkpoint.1.
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
     #[arg(conflicts_with_all = MEASURING)]
+    #[expect(clippy::option_option, reason = "what clap calls a flag with an optional value")]
     pub(super) resume: Option<Option<PathBuf>>,
     /// Render again whenever the pack changes, until Ctrl-C: an unfinished picture is dropped, a
     /// broken pack is reported and waited out.

@@ -32,10 +32,9 @@ pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
         return Exit::Usage;
     };
     if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("rts")) {
-        let pack = path.with_extension("pack");
+        let (path, pack) = (path.shown(), path.with_extension("pack"));
         console.warn(&format!(
-            "error: {0} is a scene source, compile it first: rtc {0} -o {1}",
-            path.shown(),
+            "error: {path} is a scene source, compile it first: rtc {path} -o {}",
             pack.shown()
         ));
         return Exit::World;
@@ -187,9 +186,11 @@ fn run(plan: &Plan<'_>, session: Session) -> Exit {
         let choice = DeviceChoice::parse(&args.device);
         let outcome = guard.during(&control, || {
             let outcome = render_session(scene, job, &choice, &control, session);
-            while matches!(outcome, Err(RenderError::Salvaged)) {
+            if matches!(outcome, Err(RenderError::Salvaged)) {
                 // What was complete is being written, and the process ends with that.
-                std::thread::park();
+                loop {
+                    std::thread::park();
+                }
             }
             if outcome.is_err() {
                 guard.abandon();

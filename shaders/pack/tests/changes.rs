@@ -110,9 +110,12 @@ fn what_becomes_of_a_mapped_file_is_noticed_and_reading_it_goes_on() {
         assert!(sum > 0 || seen.is_some(), "{name}");
         for (result, expected) in [(witness.look(), seen), (pack.settle(), settled)] {
             let text = result.err().map(|error| error.to_string());
-            let expected = expected.map(|how| match how.starts_with("it ") {
-                true => format!("the file changed while it was in use: {how}"),
-                false => how.to_owned(),
+            let expected = expected.map(|how| {
+                if how.starts_with("it ") {
+                    format!("the file changed while it was in use: {how}")
+                } else {
+                    how.to_owned()
+                }
             });
             assert_eq!(text, expected, "{name}");
         }

@@ -1,7 +1,6 @@
 //! How many files can be mapped at a time. Alone in its process, for it takes all there are.
 
 #![cfg(unix)]
-#![expect(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
 mod common;
 
