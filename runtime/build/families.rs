@@ -47,7 +47,7 @@ fn subsets<T: Copy + Ord>(all: &[T]) -> Vec<BTreeSet<T>> {
 
 /// Materials, and media that scatter: whatever has a case of its own where light is scattered.
 fn materials_mask() -> u64 {
-    MaterialKind::ALL.into_iter().map(bit::material).sum::<u64>() | bit::SCATTERING
+    MaterialKind::ALL.into_iter().map(MaterialKind::feature).sum::<u64>() | bit::SCATTERING
 }
 
 /// No material, and each alone: these dispatch without a `switch`.
@@ -56,7 +56,7 @@ fn materials() -> Family {
     let none = FeatureSet { materials: BTreeSet::new(), ..clear.clone() };
     let mut members = vec![(0, none)];
     members.extend(MaterialKind::ALL.into_iter().map(|kind| {
-        (bit::material(kind), FeatureSet { materials: [kind].into(), ..clear.clone() })
+        (kind.feature(), FeatureSet { materials: [kind].into(), ..clear.clone() })
     }));
     Family { mask: materials_mask(), members }
 }
@@ -132,15 +132,10 @@ fn layouts() -> Family {
 }
 
 fn skies_and_lens() -> Vec<(u64, FeatureSet)> {
-    let of = |sky: &SkyKind| match sky {
-        SkyKind::Constant => bit::SKY_CONSTANT,
-        SkyKind::Gradient => bit::SKY_GRADIENT,
-        SkyKind::Image => bit::SKY_IMAGE,
-    };
     let mut members = Vec::new();
     for lens in [false, true] {
         for skies in subsets(&SkyKind::ALL) {
-            let bits = skies.iter().map(of).sum::<u64>() | if lens { bit::LENS } else { 0 };
+            let bits = skies.iter().map(|sky| sky.feature()).sum::<u64>() | if lens { bit::LENS } else { 0 };
             members.push((bits, FeatureSet { lens, skies, ..FeatureSet::full() }));
         }
     }
@@ -164,25 +159,18 @@ fn choices() -> Family {
 }
 
 fn views() -> Family {
-    let mask = bit::SKY_CONSTANT | bit::SKY_GRADIENT | bit::SKY_IMAGE | bit::LENS;
+    let mask = SkyKind::ALL.into_iter().map(SkyKind::feature).sum::<u64>() | bit::LENS;
     Family { mask, members: skies_and_lens() }
 }
 
-const FORMATS: [(TextureFormat, u64); 3] = [
-    (TextureFormat::Rgba8Srgb, bit::TEXTURE_RGBA8_SRGB),
-    (TextureFormat::Rgba8Linear, bit::TEXTURE_RGBA8_LINEAR),
-    (TextureFormat::Rgba16Float, bit::TEXTURE_RGBA16_FLOAT),
-];
-
 fn formats() -> Family {
-    let mask = FORMATS.iter().map(|row| row.1).sum();
+    let mask = TextureFormat::ALL.into_iter().map(TextureFormat::feature).sum();
     let mut members = Vec::new();
-    for rows in subsets(&FORMATS.map(|row| row.1)) {
+    for textures in subsets(&TextureFormat::ALL) {
         // Whether there are textures at all belongs to the family of shapes.
-        if !rows.is_empty() {
-            let textures =
-                FORMATS.iter().filter(|row| rows.contains(&row.1)).map(|row| row.0).collect();
-            members.push((rows.iter().sum(), FeatureSet { textures, ..FeatureSet::full() }));
+        if !textures.is_empty() {
+            let bits = textures.iter().map(|format| format.feature()).sum();
+            members.push((bits, FeatureSet { textures, ..FeatureSet::full() }));
         }
     }
     Family { mask, members }
@@ -190,8 +178,7 @@ fn formats() -> Family {
 
 fn samplers() -> Family {
     let members = SamplerKind::ALL.map(|kind| {
-        let bits = if kind == SamplerKind::Pcg { bit::SAMPLER_PCG } else { 0 };
-        (bits, FeatureSet { samplers: [kind].into(), ..FeatureSet::full() })
+        (kind.feature(), FeatureSet { samplers: [kind].into(), ..FeatureSet::full() })
     });
     Family { mask: bit::SAMPLER_PCG, members: members.into() }
 }
@@ -199,14 +186,10 @@ fn samplers() -> Family {
 /// Shapes, lights, cut-outs, and whether there are textures at all. Any formats of textures stand
 /// for all: their own family covers them.
 fn geometry() -> Family {
-    let of = |kind: &LightKind| match kind {
-        LightKind::Sphere => bit::LIGHT_SPHERE,
-        LightKind::Rectangle => bit::LIGHT_RECTANGLE,
-        LightKind::Triangle => bit::LIGHT_TRIANGLE,
-        LightKind::Sky => bit::LIGHT_SKY,
-    };
-    let format_bits: Vec<u64> =
-        subsets(&FORMATS.map(|row| row.1)).iter().map(|rows| rows.iter().sum()).collect();
+    let format_bits: Vec<u64> = subsets(&TextureFormat::ALL.map(TextureFormat::feature))
+        .iter()
+        .map(|bits| bits.iter().sum())
+        .collect();
     let mut members = Vec::new();
     for (triangles, smooth_normals, spheres) in [
         (false, false, false),
@@ -225,7 +208,7 @@ fn geometry() -> Family {
             (true, true, true),
         ] {
             for lights in subsets(&LightKind::ALL) {
-                let mut bits = lights.iter().map(of).sum::<u64>();
+                let mut bits = lights.iter().map(|kind| kind.feature()).sum::<u64>();
                 bits |= if triangles { bit::TRIANGLES } else { 0 };
                 bits |= if spheres { bit::SPHERES } else { 0 };
                 bits |= if alpha_clip { bit::ALPHA_CLIP } else { 0 };
@@ -258,12 +241,9 @@ fn geometry() -> Family {
     }
     let mask = bit::TRIANGLES
         | bit::SPHERES
-        | bit::LIGHT_SPHERE
-        | bit::LIGHT_RECTANGLE
-        | bit::LIGHT_TRIANGLE
-        | bit::LIGHT_SKY
         | bit::ALPHA_CLIP
         | bit::TANGENTS
-        | FORMATS.iter().map(|row| row.1).sum::<u64>();
+        | LightKind::ALL.into_iter().map(LightKind::feature).sum::<u64>()
+        | TextureFormat::ALL.into_iter().map(TextureFormat::feature).sum::<u64>();
     Family { mask, members }
 }

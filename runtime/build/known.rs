@@ -110,18 +110,6 @@ fn declarations_of(features: &FeatureSet) -> Result<Vec<(String, String)>, Box<d
         .collect()
 }
 
-/// The name of its tag in the kernel: `MATERIAL_DIFFUSE`.
-fn tag_name(kind: MaterialKind) -> String {
-    let mut name = "MATERIAL".to_owned();
-    for c in format!("{kind:?}").chars() {
-        if c.is_ascii_uppercase() {
-            name.push('_');
-        }
-        name.push(c.to_ascii_uppercase());
-    }
-    name
-}
-
 /// Rust source of `SWITCHES: &[Switch]`: the functions that switch over the kinds of materials. With
 /// two kinds or more their text is the head, the cases of those kinds that have one, the foot; there are far too
 /// many subsets to list their texts.
@@ -139,10 +127,12 @@ fn switches(switching: &[String]) -> Result<String, Box<dyn Error>> {
                 cases.push(format!("({}, {line:?})", literal(bit::SCATTERING)));
                 continue;
             }
-            let of = |kind: &MaterialKind| line.contains(&format!("case {}:", tag_name(*kind)));
+            let of = |kind: &MaterialKind| {
+                line.contains(&format!("case MATERIAL_{}:", kind.stem().to_ascii_uppercase()))
+            };
             let kind = MaterialKind::ALL.into_iter().find(of);
             let kind = kind.ok_or_else(|| format!("`{name}` has a case of no kind: {line}"))?;
-            cases.push(format!("({}, {line:?})", literal(bit::material(kind))));
+            cases.push(format!("({}, {line:?})", literal(kind.feature())));
         }
         let cases = cases.join(", ");
         writeln!(

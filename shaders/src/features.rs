@@ -169,12 +169,7 @@ impl FeatureSet {
             skies: SkyKind::ALL.into(),
             lens: true,
             samplers: SamplerKind::ALL.into(),
-            textures: [
-                TextureFormat::Rgba8Srgb,
-                TextureFormat::Rgba8Linear,
-                TextureFormat::Rgba16Float,
-            ]
-            .into(),
+            textures: TextureFormat::ALL.into(),
             alpha_clip: true,
             tangents: true,
             objects: true,
@@ -190,7 +185,7 @@ impl FeatureSet {
             motion: true,
             instances: true,
             layouts: [NodeLayout::Binary, NodeLayout::Wide].into(),
-            stack_size: 96,
+            stack_size: pack::abi::MAX_STACK,
             windows: Windows::default(),
         }
     }

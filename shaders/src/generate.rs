@@ -17,7 +17,7 @@ mod traversal;
 
 use crate::{FeatureSet, ShaderError};
 pub use bindings::WINDOW_WORDS;
-use std::fmt::Write as _;
+use std::fmt::{Display, Write as _};
 
 /// The generated modules of a scene: name and text, sorted by name.
 pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, String)>, ShaderError> {
@@ -69,13 +69,13 @@ fn imports<'m>(modules: impl IntoIterator<Item = &'m str>) -> String {
     modules.into_iter().flat_map(|module| ["#import \"", module, "\"\n"]).collect()
 }
 
-/// The cases of a `switch`: for each tag what `call` makes of the beginning of its functions' names.
-fn cases<'t>(rows: &[(&'t str, &str)], call: impl Fn(&str) -> String) -> Vec<(&'t str, String)> {
-    rows.iter().map(|(tag, stem)| (*tag, call(stem))).collect()
+/// The name of a tag in the kernel: `MATERIAL_DIFFUSE`.
+fn tag(of: &str, stem: &str) -> String {
+    format!("{of}_{}", stem.to_ascii_uppercase())
 }
 
 /// A `switch` over tags whose cases return; one case needs no switch, none only `otherwise`.
-fn switch(selector: &str, cases: &[(&str, String)], otherwise: &str) -> String {
+fn switch(selector: &str, cases: &[(impl Display, String)], otherwise: &str) -> String {
     match cases {
         [] => format!("    return {otherwise};\n"),
         [(_, only)] => format!("    return {only};\n"),

@@ -127,7 +127,7 @@ const CASES: &[Case] = &[
         idle: "SKY gradient { zenith = linear(0.5), middle = linear(0.5), horizon = linear(0.5), ground = linear(0.5) }\n",
         without: "SKY constant { color = linear(0.5) }\n",
         busy: "SKY gradient { zenith = linear(1) }\n",
-        bits: bit::SKY_GRADIENT,
+        bits: pack::abi::SkyKind::Gradient.feature(),
         words: &["gradient_radiance"],
     },
     Case {
@@ -135,7 +135,7 @@ const CASES: &[Case] = &[
         idle: "MORE dielectric { roughness = 0 }\n",
         without: "MORE dielectric { }\n",
         busy: "MORE dielectric { roughness = 0.3 }\n",
-        bits: bit::material(pack::abi::MaterialKind::RoughDielectric),
+        bits: pack::abi::MaterialKind::RoughDielectric.feature(),
         words: &["rough_dielectric_sample"],
     },
     Case {

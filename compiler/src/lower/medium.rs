@@ -105,11 +105,7 @@ pub(super) fn matters(scene: &Scene, materials: &[abi::Material]) -> bool {
 
 /// Whether light goes through the surface of this material into an inside.
 pub(super) fn has_inside(material: &abi::Material) -> bool {
-    let kind = MaterialKind::from_tag(material.kind);
-    matches!(
-        kind,
-        Some(MaterialKind::Dielectric | MaterialKind::RoughDielectric | MaterialKind::Water)
-    )
+    MaterialKind::from_tag(material.kind).is_some_and(|kind| kind.traits().inside)
 }
 
 /// Marks the materials that have an inside, where that matters.

@@ -14,7 +14,6 @@ use pack::abi::{
 use pack::features as bit;
 use shaders::{FeatureSet, NodeLayout};
 
-use super::features::FORMATS;
 use crate::lower::Lowered;
 
 /// A declaration: its name, and where it is, if it is in a text.
@@ -68,7 +67,7 @@ impl Explain<'_> {
         rows.extend(self.light_parts());
         rows.extend(SkyKind::ALL.map(|kind| self.sky(kind)));
         rows.extend(self.view());
-        rows.extend(FORMATS.map(|format| self.texture(format)));
+        rows.extend(TextureFormat::ALL.map(|format| self.texture(format)));
         rows.extend(self.paths());
         rows
     }
@@ -145,7 +144,7 @@ impl Explain<'_> {
     fn material_kind(&self, kind: MaterialKind) -> Row {
         let users = self.materials("a material", |material| material.kind == kind as u32);
         let kept = self.features.materials.contains(&kind);
-        Self::row(name_of(bit::material(kind)), kept, users, None)
+        Self::row(name_of(kind.feature()), kept, users, None)
     }
 
     fn material_parts(&self) -> Vec<Row> {
@@ -198,13 +197,7 @@ impl Explain<'_> {
         let why = first.map(|light| {
             (format!("{count} in the table of lights, the first"), self.light_name(light))
         });
-        let name = match kind {
-            LightKind::Sphere => name_of(bit::LIGHT_SPHERE),
-            LightKind::Rectangle => name_of(bit::LIGHT_RECTANGLE),
-            LightKind::Triangle => name_of(bit::LIGHT_TRIANGLE),
-            LightKind::Sky => name_of(bit::LIGHT_SKY),
-        };
-        Self::row(name, self.features.lights.contains(&kind), why, None)
+        Self::row(name_of(kind.feature()), self.features.lights.contains(&kind), why, None)
     }
 
     fn light_parts(&self) -> Vec<Row> {
@@ -238,11 +231,6 @@ impl Explain<'_> {
 
     fn sky(&self, kind: SkyKind) -> Row {
         let declared = self.scene.sky.as_ref();
-        let name = match kind {
-            SkyKind::Constant => name_of(bit::SKY_CONSTANT),
-            SkyKind::Gradient => name_of(bit::SKY_GRADIENT),
-            SkyKind::Image => name_of(bit::SKY_IMAGE),
-        };
         let why = declared.map(|sky| by("the sky".to_owned(), &sky.name));
         let fits = |model: &SkyModel| match model {
             SkyModel::Constant(_) => kind == SkyKind::Constant,
@@ -255,7 +243,7 @@ impl Explain<'_> {
         };
         let why_not = declared.filter(|sky| fits(&sky.model));
         let why_not = why_not.map(|sky| by(text.to_owned(), &sky.name));
-        Self::row(name, self.features.skies.contains(&kind), why, why_not)
+        Self::row(name_of(kind.feature()), self.features.skies.contains(&kind), why, why_not)
     }
 
     fn view(&self) -> Vec<Row> {
@@ -283,12 +271,7 @@ impl Explain<'_> {
         let sky = sky.filter(|(_, record)| of_format(&record.texture));
         let sky = sky.map(|(sky, _)| by(text.clone(), &sky.name));
         let users = self.materials(&text, reads).map(|(_, by)| (text.clone(), by));
-        let name = match format {
-            TextureFormat::Rgba8Srgb => name_of(bit::TEXTURE_RGBA8_SRGB),
-            TextureFormat::Rgba8Linear => name_of(bit::TEXTURE_RGBA8_LINEAR),
-            TextureFormat::Rgba16Float => name_of(bit::TEXTURE_RGBA16_FLOAT),
-        };
-        Self::row(name, self.features.textures.contains(&format), users.or(sky), None)
+        Self::row(name_of(format.feature()), self.features.textures.contains(&format), users.or(sky), None)
     }
 
     fn paths(&self) -> Vec<Row> {

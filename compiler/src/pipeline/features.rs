@@ -39,7 +39,7 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
             .collect::<BTreeSet<_>>(),
         lens: lowered.camera.lens_radius > 0.0,
         samplers: SamplerKind::from_tag(lowered.render.sampler).into_iter().collect(),
-        textures: FORMATS
+        textures: TextureFormat::ALL
             .into_iter()
             .filter(|format| lowered.textures.iter().any(|t| t.format == *format as u32))
             .collect(),
@@ -74,6 +74,3 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
 fn layout(lowered: &Lowered) -> NodeLayout {
     if lowered.wide_nodes.is_empty() { NodeLayout::Binary } else { NodeLayout::Wide }
 }
-
-pub(super) const FORMATS: [TextureFormat; 3] =
-    [TextureFormat::Rgba8Srgb, TextureFormat::Rgba8Linear, TextureFormat::Rgba16Float];

@@ -20,6 +20,7 @@ mod medium;
 mod object;
 mod render;
 mod sky;
+mod tag;
 mod texture;
 
 pub use camera::Camera;
@@ -33,7 +34,7 @@ pub use geometry::{
 pub use instance::{Instance, OBJECT_OF_INSTANCE};
 pub use light::{Light, LightKind};
 pub use light_node::{LIGHT_LEAF, LightNode, MAX_LIGHT_DEPTH};
-pub use material::{Material, MaterialKind, material_flag};
+pub use material::{Lobes, Material, MaterialKind, Number, Traits, material_flag};
 pub use medium::Medium;
 pub use object::Object;
 pub use render::{RenderSettings, SamplerKind, ToneMap, f64_bits, f64_from_bits};

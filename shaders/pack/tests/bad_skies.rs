@@ -5,8 +5,8 @@
 mod common;
 
 use common::{Draft, Scene, put32};
-use pack::abi::NONE;
-use pack::{Kind, Pack, features};
+use pack::abi::{LightKind, NONE, SkyKind};
+use pack::{Kind, Pack};
 
 /// Section, byte, value of the wrong word, and the error.
 type Case = (Kind, usize, u32, &'static str);
@@ -29,7 +29,7 @@ fn a_sky_can_be_a_light() {
     let scene = Scene::with_sky_light();
     let pack = Pack::from_bytes(scene.bytes()).unwrap();
     assert_eq!(pack.sky(), scene.sky.as_ref());
-    let of_sky = features::SKY_IMAGE | features::LIGHT_SKY;
+    let of_sky = SkyKind::Image.feature() | LightKind::Sky.feature();
     assert_eq!(pack.features() & of_sky, of_sky);
     let table = pack.section_bytes(Kind::SKYTABLE).unwrap();
     assert_eq!(table, bytemuck::cast_slice::<[f32; 4], u8>(&scene.sky_table));

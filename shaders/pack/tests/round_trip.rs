@@ -5,7 +5,7 @@ mod common;
 use std::fs;
 
 use common::{Draft, Scene, WAYS, manifest, map};
-use pack::abi::{Light, Material, Node, Sphere, Texture, TriShade, Triangle};
+use pack::abi::{Light, LightKind, Material, Node, SkyKind, Sphere, Texture, TriShade, Triangle};
 use pack::{Kind, Manifest, Pack, PackWriter, describe, features};
 
 fn assert_same(pack: &Pack, scene: &Scene) {
@@ -144,9 +144,9 @@ fn features_are_those_of_the_contents() {
     let pack = Pack::from_bytes(Scene::full().bytes()).unwrap();
     // A pack has one sky, and this one is no light; few lights need no tree; none is tinted. The nodes are
     // binary, and no mesh is stored once.
-    let absent = features::SKY_CONSTANT
-        | features::SKY_IMAGE
-        | features::LIGHT_SKY
+    let absent = SkyKind::Constant.feature()
+        | SkyKind::Image.feature()
+        | LightKind::Sky.feature()
         | features::LIGHT_TREE
         | features::TINT
         | features::INSTANCES

@@ -3,94 +3,52 @@
 //!
 //! The case of a kind reads the same in every kernel, so that a kernel with fewer kinds computes the same bits.
 
-use super::{imports, switch};
+use super::{imports, switch, tag};
 use crate::FeatureSet;
-use pack::abi::MaterialKind;
+use pack::abi::{Lobes, MaterialKind, Number};
 use std::fmt::Write as _;
 
-/// Tag, beginning of the functions' names, and the arguments of its sample, eval and pdf.
-fn bsdf_row(kind: MaterialKind) -> (&'static str, &'static str, [&'static str; 3]) {
-    match kind {
-        MaterialKind::Diffuse => (
-            "MATERIAL_DIFFUSE",
-            "diffuse",
-            ["s, sample_2d(key, PURPOSE_DIRECTION)", "s, wi", "s, wi"],
-        ),
-        MaterialKind::Metal => (
-            "MATERIAL_METAL",
-            "metal",
-            [
-                "s, wo, sample_2d(key, PURPOSE_DIRECTION), sample_1d(key, PURPOSE_RADIUS)",
-                "s, wo, wi",
-                "s, wo, wi",
-            ],
-        ),
-        MaterialKind::Dielectric => {
-            ("MATERIAL_DIELECTRIC", "dielectric", ["s, wo, sample_1d(key, PURPOSE_LOBE)", "", ""])
-        }
-        MaterialKind::Water => {
-            ("MATERIAL_WATER", "water", ["s, wo, sample_1d(key, PURPOSE_LOBE)", "", ""])
-        }
-        MaterialKind::Emissive => ("MATERIAL_EMISSIVE", "emissive", ["", "", ""]),
-        MaterialKind::Principled => {
-            ("MATERIAL_PRINCIPLED", "dispatch_principled", DIRECTION_AND_LOBE)
-        }
-        MaterialKind::Conductor => ("MATERIAL_CONDUCTOR", "conductor", DIRECTION_AND_LOBE),
-        MaterialKind::RoughDielectric => {
-            ("MATERIAL_ROUGH_DIELECTRIC", "rough_dielectric", DIRECTION_AND_LOBE)
-        }
-        MaterialKind::Clearcoat => (
-            "MATERIAL_CLEARCOAT",
-            "clearcoat",
-            [
-                "s, wo, sample_2d(key, PURPOSE_DIRECTION), sample_1d(key, PURPOSE_RADIUS), sample_1d(key, PURPOSE_LOBE)",
-                "s, wo, wi",
-                "s, wo, wi",
-            ],
-        ),
-        MaterialKind::Stone => ("MATERIAL_STONE", "stone", DIRECTION_AND_LOBE),
-        MaterialKind::Wood => ("MATERIAL_WOOD", "wood", DIRECTION_AND_LOBE),
-        MaterialKind::Fabric => ("MATERIAL_FABRIC", "fabric", DIRECTION_AND_LOBE),
-        MaterialKind::Petal => (
-            "MATERIAL_PETAL",
-            "petal",
-            [
-                "s, wo, sample_2d(key, PURPOSE_DIRECTION), sample_1d(key, PURPOSE_LOBE), \
-                 sample_1d(key, PURPOSE_RADIUS)",
-                "s, wo, wi",
-                "s, wo, wi",
-            ],
-        ),
-        MaterialKind::Leaf => (
-            "MATERIAL_LEAF",
-            "leaf",
-            [
-                "s, wo, sample_2d(key, PURPOSE_DIRECTION), sample_1d(key, PURPOSE_LOBE)",
-                "s, wo, wi",
-                "s, wo, wi",
-            ],
-        ),
-    }
+/// A case of a switch over models.
+struct Row {
+    tag: String,
+    /// Beginning of the functions' names.
+    stem: String,
+    /// Arguments of its sample, eval and pdf.
+    arguments: [String; 3],
 }
 
-/// Arguments of a model with two lobes, one of which is chosen.
-const DIRECTION_AND_LOBE: [&str; 3] = [
-    "s, wo, sample_2d(key, PURPOSE_DIRECTION), sample_1d(key, PURPOSE_LOBE)",
-    "s, wo, wi",
-    "s, wo, wi",
-];
-
-/// Whether places of an object differ under this kind.
-fn has_pattern(kind: MaterialKind) -> bool {
-    matches!(kind, MaterialKind::Stone | MaterialKind::Wood | MaterialKind::Fabric)
+fn row(kind: MaterialKind) -> Row {
+    let (stem, traits) = (kind.stem(), kind.traits());
+    let begin = match traits.lobes {
+        Lobes::None => "",
+        Lobes::Fixed => "s",
+        Lobes::Delta | Lobes::Moving => "s, wo",
+    };
+    let numbers = traits.numbers.iter().map(|number| match number {
+        Number::Direction => "sample_2d(key, PURPOSE_DIRECTION)",
+        Number::Lobe => "sample_1d(key, PURPOSE_LOBE)",
+        Number::Radius => "sample_1d(key, PURPOSE_RADIUS)",
+    });
+    let sample: Vec<&str> =
+        [begin].into_iter().filter(|begin| !begin.is_empty()).chain(numbers).collect();
+    let value = match traits.lobes {
+        Lobes::None | Lobes::Delta => "",
+        Lobes::Fixed => "s, wi",
+        Lobes::Moving => "s, wo, wi",
+    };
+    Row {
+        tag: tag("MATERIAL", &stem),
+        stem: if traits.generated { format!("dispatch_{stem}") } else { stem },
+        arguments: [sample.join(", "), value.to_owned(), value.to_owned()],
+    }
 }
 
 /// What patterns change of a surface point before it scatters. The function has the same head and foot in
 /// every kernel, and a line for each kind with a pattern.
 pub(crate) fn pattern(features: &FeatureSet) -> String {
-    let kinds = features.materials.iter().filter(|kind| has_pattern(**kind));
-    let rows: Vec<_> = kinds.map(|kind| bsdf_row(*kind)).collect();
-    let files: Vec<String> = rows.iter().map(|row| format!("bsdf/{}.wgsl", row.1)).collect();
+    let kinds = features.materials.iter().filter(|kind| kind.traits().pattern);
+    let rows: Vec<Row> = kinds.map(|kind| row(*kind)).collect();
+    let files: Vec<String> = rows.iter().map(|row| module_of(&row.stem)).collect();
     let mut text = String::from("// Generated: the patterns of this scene's materials.\n\n");
     text += &imports(["bsdf/scatter.wgsl", "scene/constants.wgsl", "surface/surface.wgsl"]);
     text += &imports(files.iter().map(String::as_str));
@@ -98,7 +56,7 @@ pub(crate) fn pattern(features: &FeatureSet) -> String {
              // pattern; once a vertex, so that sampling, value and density see the same surface.\n\
              fn dispatch_pattern(scatter: ptr<function, Scatter>, s: Surface, wo: vec3f) {\n    \
              switch ((*scatter).kind) {\n";
-    for (tag, stem, _) in rows {
+    for Row { tag, stem, .. } in rows {
         let _ = writeln!(text, "        case {tag}: {{ {stem}_pattern(scatter, s, wo); }}");
     }
     text + "        default: {}\n    }\n}\n"
@@ -110,14 +68,12 @@ pub(crate) fn straight(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: the thin sheets of this scene.\n\n");
     text += &imports(["bsdf/scatter.wgsl", "scene/constants.wgsl"]);
     let mut cases = String::new();
-    if features.materials.contains(&MaterialKind::Petal) {
-        text += &imports(["bsdf/petal.wgsl"]);
-        cases += "        case MATERIAL_PETAL: { return petal_through(s, wo); }\n";
-    }
-    if features.materials.contains(&MaterialKind::Principled) {
-        text += &imports(["scene/principled.wgsl"]);
-        cases +=
-            "        case MATERIAL_PRINCIPLED: { return dispatch_principled_straight(s, wo); }\n";
+    for kind in features.materials.iter().rev() {
+        if let Some(function) = kind.traits().straight {
+            let Row { tag, stem, .. } = row(*kind);
+            text += &imports([module_of(&stem).as_str()]);
+            let _ = writeln!(cases, "        case {tag}: {{ return {function}(s, wo); }}");
+        }
     }
     let _ = write!(
         text,
@@ -129,8 +85,14 @@ pub(crate) fn straight(features: &FeatureSet) -> String {
 }
 
 /// A point in a medium scatters like a surface, but is of no material.
-const PHASE_ROW: (&str, &str, [&str; 3]) =
-    ("PHASE_KIND", "phase", ["s, wo, sample_2d(key, PURPOSE_DIRECTION)", "s, wo, wi", "s, wo, wi"]);
+fn phase_row() -> Row {
+    let sample = "s, wo, sample_2d(key, PURPOSE_DIRECTION)";
+    Row {
+        tag: "PHASE_KIND".to_owned(),
+        stem: "phase".to_owned(),
+        arguments: [sample, "s, wo, wi", "s, wo, wi"].map(str::to_owned),
+    }
+}
 
 /// The module of a model's functions: written by hand, or generated where it depends on more than its kind.
 fn module_of(stem: &str) -> String {
@@ -142,11 +104,11 @@ fn module_of(stem: &str) -> String {
 
 /// The three functions of a scattering model.
 pub(crate) fn dispatch(features: &FeatureSet) -> String {
-    let mut rows: Vec<_> = features.materials.iter().map(|kind| bsdf_row(*kind)).collect();
+    let mut rows: Vec<Row> = features.materials.iter().map(|kind| row(*kind)).collect();
     if features.scattering {
-        rows.push(PHASE_ROW);
+        rows.push(phase_row());
     }
-    let files: Vec<String> = rows.iter().map(|row| module_of(row.1)).collect();
+    let files: Vec<String> = rows.iter().map(|row| module_of(&row.stem)).collect();
     let mut text = String::from("// Generated: the scattering models of this scene.\n\n");
     text += &imports([
         "bsdf/scatter.wgsl",
@@ -169,7 +131,7 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
     for (i, (name, parameters, result, absent, comment)) in functions.into_iter().enumerate() {
         let cases: Vec<(&str, String)> = rows
             .iter()
-            .map(|(tag, stem, arguments)| (*tag, format!("{stem}_{name}({})", arguments[i])))
+            .map(|row| (row.tag.as_str(), format!("{}_{name}({})", row.stem, row.arguments[i])))
             .collect();
         let _ = write!(
             text,

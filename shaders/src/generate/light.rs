@@ -1,23 +1,14 @@
 //! `scene/dispatch_light.wgsl`: from the kind of a light to its functions.
 
-use super::{cases, imports, switch};
+use super::{imports, switch, tag};
 use crate::FeatureSet;
 use pack::abi::LightKind;
 use std::fmt::Write as _;
 
 /// The functions of a light kind.
 pub(crate) fn dispatch(features: &FeatureSet) -> String {
-    let rows: Vec<(&str, &str)> = features
-        .lights
-        .iter()
-        .map(|kind| match kind {
-            LightKind::Sphere => ("LIGHT_SPHERE", "sphere"),
-            LightKind::Rectangle => ("LIGHT_RECTANGLE", "rectangle"),
-            LightKind::Triangle => ("LIGHT_TRIANGLE", "triangle"),
-            LightKind::Sky => ("LIGHT_SKY", "sky"),
-        })
-        .collect();
-    let files: Vec<String> = rows.iter().map(|row| format!("light/{}.wgsl", row.1)).collect();
+    let files: Vec<String> =
+        features.lights.iter().map(|kind| format!("light/{}.wgsl", kind.stem())).collect();
     let mut text = String::from("// Generated: the lights of this scene.\n\n");
     text += &imports([
         "abi/light.wgsl",
@@ -31,14 +22,18 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
         "trace/alpha.wgsl",
     ]);
     text += &imports(files.iter().map(String::as_str));
-    let sample = cases(&rows, |stem| match stem {
-        "sky" => "sky_light_sample(u)".to_owned(),
-        _ => format!("{stem}_light_sample(light, p, u)"),
+    let sample = cases(features, |kind, stem| match kind {
+        LightKind::Sky => Some("sky_light_sample(u)".to_owned()),
+        LightKind::Sphere | LightKind::Rectangle | LightKind::Triangle => {
+            Some(format!("{stem}_light_sample(light, p, u)"))
+        }
     });
-    let rows: Vec<_> = rows.iter().copied().filter(|row| row.1 != "sky").collect();
-    let pdf = cases(&rows, |stem| match stem {
-        "sphere" => "sphere_light_pdf(light, p)".to_owned(),
-        _ => format!("{stem}_light_pdf(light, p, x, cos_l)"),
+    let pdf = cases(features, |kind, stem| match kind {
+        LightKind::Sky => None,
+        LightKind::Sphere => Some("sphere_light_pdf(light, p)".to_owned()),
+        LightKind::Rectangle | LightKind::Triangle => {
+            Some(format!("{stem}_light_pdf(light, p, x, cos_l)"))
+        }
     });
     let _ = write!(
         text,
@@ -55,25 +50,30 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
     text
 }
 
+/// A case for each kind of light for which `call`, given the beginning of its functions' names, has something
+/// to do.
+fn cases(
+    features: &FeatureSet,
+    call: impl Fn(LightKind, &str) -> Option<String>,
+) -> Vec<(String, String)> {
+    let case = |kind: &LightKind| {
+        let stem = kind.stem();
+        Some((tag("LIGHT", &stem), call(*kind, &stem)?))
+    };
+    features.lights.iter().filter_map(case).collect()
+}
+
 /// Where a light is.
 fn shift(features: &FeatureSet) -> String {
-    let triangle = "dispatch_triangle_shift(light.primitive, time)";
-    let cases: Vec<(&str, String)> = features
-        .lights
-        .iter()
-        .filter_map(|kind| match kind {
-            LightKind::Sphere if features.spheres => {
-                Some(("LIGHT_SPHERE", "dispatch_sphere_shift(light.primitive, time)".to_owned()))
-            }
-            LightKind::Rectangle if features.triangles => {
-                Some(("LIGHT_RECTANGLE", triangle.to_owned()))
-            }
-            LightKind::Triangle if features.triangles => {
-                Some(("LIGHT_TRIANGLE", triangle.to_owned()))
-            }
-            _ => None,
-        })
-        .collect();
+    let cases = cases(features, |kind, _| match kind {
+        LightKind::Sphere => {
+            features.spheres.then(|| "dispatch_sphere_shift(light.primitive, time)".to_owned())
+        }
+        LightKind::Rectangle | LightKind::Triangle => {
+            features.triangles.then(|| "dispatch_triangle_shift(light.primitive, time)".to_owned())
+        }
+        LightKind::Sky => None,
+    });
     format!(
         "\n// How far the light has come at `time`.\n\
          fn dispatch_light_shift(light: Light, time: f32) -> vec3f {{\n{}}}\n",
@@ -85,17 +85,13 @@ fn shift(features: &FeatureSet) -> String {
 fn surface(features: &FeatureSet) -> String {
     let sphere = "sphere_uv(vector_unit_or(x - light.origin, vec3f(0.0, 1.0, 0.0)))";
     let flat = "triangle_uv(light.primitive, triangle_weights(light.primitive, x))";
-    let cases: Vec<(&str, String)> = features
-        .lights
-        .iter()
-        .filter_map(|kind| match kind {
-            LightKind::Sphere => Some(("LIGHT_SPHERE", sphere.to_owned())),
-            LightKind::Rectangle => Some(("LIGHT_RECTANGLE", flat.to_owned())),
-            LightKind::Triangle => Some(("LIGHT_TRIANGLE", flat.to_owned())),
-            LightKind::Sky => None,
-        })
-        .filter(|(tag, _)| features.triangles || *tag == "LIGHT_SPHERE")
-        .collect();
+    let cases = cases(features, |kind, _| match kind {
+        LightKind::Sphere => Some(sphere.to_owned()),
+        LightKind::Rectangle | LightKind::Triangle => {
+            features.triangles.then(|| flat.to_owned())
+        }
+        LightKind::Sky => None,
+    });
     let uv = if features.textures.is_empty() {
         "    return vec2f(0.0);\n".to_owned()
     } else {

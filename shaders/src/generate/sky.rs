@@ -1,27 +1,27 @@
 //! `scene/dispatch_sky.wgsl`, `scene/dispatch_radiance.wgsl`: what the sky sends, and what a light sends.
 
-use super::{imports, switch};
+use super::{imports, switch, tag};
 use crate::FeatureSet;
 use pack::abi::{LightKind, SkyKind};
 use std::fmt::Write as _;
 
 /// Radiance by direction.
 pub(crate) fn sky(features: &FeatureSet) -> String {
-    let mut modules = vec!["scene/constants.wgsl", "scene/records.wgsl"];
-    modules.extend(features.skies.iter().map(|sky| match sky {
-        SkyKind::Constant => "sky/constant.wgsl",
-        SkyKind::Gradient => "sky/gradient.wgsl",
-        SkyKind::Image => "sky/image.wgsl",
-    }));
+    let files: Vec<String> =
+        features.skies.iter().map(|sky| format!("sky/{}.wgsl", sky.stem())).collect();
     let mut text = String::from("// Generated: the sky of this scene.\n\n");
-    text += &imports(modules);
-    let cases: Vec<(&str, String)> = features
+    text += &imports(["scene/constants.wgsl", "scene/records.wgsl"]);
+    text += &imports(files.iter().map(String::as_str));
+    let cases: Vec<(String, String)> = features
         .skies
         .iter()
-        .map(|sky| match sky {
-            SkyKind::Constant => ("SKY_CONSTANT", "constant_radiance()".to_owned()),
-            SkyKind::Gradient => ("SKY_GRADIENT", "gradient_radiance(dir)".to_owned()),
-            SkyKind::Image => ("SKY_IMAGE", "image_radiance(dir)".to_owned()),
+        .map(|sky| {
+            let arguments = match sky {
+                SkyKind::Constant => "",
+                SkyKind::Gradient | SkyKind::Image => "dir",
+            };
+            let stem = sky.stem();
+            (tag("SKY", &stem), format!("{stem}_radiance({arguments})"))
         })
         .collect();
     let none = if cases.is_empty() {

@@ -1,6 +1,6 @@
 //! `scene/texture.wgsl` and `scene/texel.wgsl`: from the format of a texture to its texels.
 
-use super::{imports, switch};
+use super::{imports, switch, tag};
 use crate::FeatureSet;
 use pack::abi::TextureFormat;
 use std::fmt::Write as _;
@@ -29,13 +29,13 @@ pub(crate) fn texture(features: &FeatureSet) -> String {
 
 /// One texel of a texture.
 pub(crate) fn texel(features: &FeatureSet) -> String {
-    let rows: Vec<(&str, &str, &str)> = features
+    let rows: Vec<(&TextureFormat, &str, &str)> = features
         .textures
         .iter()
         .map(|format| match format {
-            TextureFormat::Rgba8Srgb => ("TEXTURE_RGBA8_SRGB", "rgba8", "rgba8_srgb"),
-            TextureFormat::Rgba8Linear => ("TEXTURE_RGBA8_LINEAR", "rgba8", "rgba8_linear"),
-            TextureFormat::Rgba16Float => ("TEXTURE_RGBA16_FLOAT", "rgba16", "rgba16_linear"),
+            TextureFormat::Rgba8Srgb => (format, "rgba8", "rgba8_srgb"),
+            TextureFormat::Rgba8Linear => (format, "rgba8", "rgba8_linear"),
+            TextureFormat::Rgba16Float => (format, "rgba16", "rgba16_linear"),
         })
         .collect();
     let mut files: Vec<String> = rows.iter().map(|row| format!("texture/{}.wgsl", row.1)).collect();
@@ -43,9 +43,11 @@ pub(crate) fn texel(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: the texture formats of this scene.\n\n");
     text += &imports(["abi/texture.wgsl", "scene/constants.wgsl"]);
     text += &imports(files.iter().map(String::as_str));
-    let cases: Vec<(&str, String)> = rows
+    let cases: Vec<(String, String)> = rows
         .iter()
-        .map(|(tag, _, function)| (*tag, format!("{function}(image.offset, i)")))
+        .map(|(format, _, function)| {
+            (tag("TEXTURE", &format.stem()), format!("{function}(image.offset, i)"))
+        })
         .collect();
     let _ = write!(
         text,

@@ -5,48 +5,48 @@ use shaders::{FeatureSet, NodeLayout};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-type Switch = fn(&mut FeatureSet);
+type Switch = Box<dyn Fn(&mut FeatureSet)>;
 
 /// Every feature, as a name and the change that switches it on.
-const FEATURES: &[(&str, Switch)] = &[
+fn features() -> Vec<(String, Switch)> {
+    fn row(name: String, switch: impl Fn(&mut FeatureSet) + 'static) -> (String, Switch) {
+        (name, Box::new(switch))
+    }
+    let mut rows: Vec<(String, Switch)> =
+        OTHERS.iter().map(|(name, switch)| row((*name).to_owned(), *switch)).collect();
+    for kind in MaterialKind::ALL {
+        rows.push(row(kind.stem(), move |f| _ = f.materials.insert(kind)));
+    }
+    for kind in LightKind::ALL {
+        rows.push(row(format!("{} light", kind.stem()), move |f| {
+            f.lights.insert(kind);
+            // Only a sky can be a light of kind sky.
+            if kind == LightKind::Sky {
+                f.skies.insert(SkyKind::Gradient);
+            }
+        }));
+    }
+    for kind in SkyKind::ALL {
+        rows.push(row(format!("{} sky", kind.stem()), move |f| _ = f.skies.insert(kind)));
+    }
+    for kind in TextureFormat::ALL {
+        rows.push(row(kind.stem(), move |f| _ = f.textures.insert(kind)));
+    }
+    rows
+}
+
+/// Features that are no kind of a record.
+const OTHERS: &[(&str, fn(&mut FeatureSet))] = &[
     ("triangles", |f| f.triangles = true),
     ("spheres", |f| f.spheres = true),
     ("smooth_normals", |f| f.smooth_normals = true),
-    ("diffuse", |f| _ = f.materials.insert(MaterialKind::Diffuse)),
-    ("metal", |f| _ = f.materials.insert(MaterialKind::Metal)),
-    ("dielectric", |f| _ = f.materials.insert(MaterialKind::Dielectric)),
-    ("emissive", |f| _ = f.materials.insert(MaterialKind::Emissive)),
-    ("principled", |f| _ = f.materials.insert(MaterialKind::Principled)),
-    ("stone", |f| _ = f.materials.insert(MaterialKind::Stone)),
-    ("wood", |f| _ = f.materials.insert(MaterialKind::Wood)),
-    ("fabric", |f| _ = f.materials.insert(MaterialKind::Fabric)),
-    ("conductor", |f| _ = f.materials.insert(MaterialKind::Conductor)),
-    ("rough dielectric", |f| _ = f.materials.insert(MaterialKind::RoughDielectric)),
-    ("clearcoat", |f| _ = f.materials.insert(MaterialKind::Clearcoat)),
-    ("petal", |f| _ = f.materials.insert(MaterialKind::Petal)),
-    ("leaf", |f| _ = f.materials.insert(MaterialKind::Leaf)),
-    ("water", |f| _ = f.materials.insert(MaterialKind::Water)),
-    ("sphere light", |f| _ = f.lights.insert(LightKind::Sphere)),
-    ("rectangle light", |f| _ = f.lights.insert(LightKind::Rectangle)),
-    ("triangle light", |f| _ = f.lights.insert(LightKind::Triangle)),
-    ("constant sky", |f| _ = f.skies.insert(SkyKind::Constant)),
-    ("gradient sky", |f| _ = f.skies.insert(SkyKind::Gradient)),
-    ("image sky", |f| _ = f.skies.insert(SkyKind::Image)),
     ("several lights", |f| f.light_choice = true),
     ("light tree", |f| {
         f.light_choice = true;
         f.light_tree = true;
     }),
     ("tint", |f| f.tint = true),
-    // Only a sky can be a light of kind sky.
-    ("sky light", |f| {
-        f.lights.insert(LightKind::Sky);
-        f.skies.insert(SkyKind::Gradient);
-    }),
     ("lens", |f| f.lens = true),
-    ("srgb textures", |f| _ = f.textures.insert(TextureFormat::Rgba8Srgb)),
-    ("linear textures", |f| _ = f.textures.insert(TextureFormat::Rgba8Linear)),
-    ("half textures", |f| _ = f.textures.insert(TextureFormat::Rgba16Float)),
     ("alpha clip", |f| f.alpha_clip = true),
     ("tangents", |f| f.tangents = true),
     ("objects", |f| f.objects = true),
@@ -93,11 +93,12 @@ fn make_feature_sets() -> Vec<(String, FeatureSet)> {
         ("both: ", both),
     ];
     // Sets that are equal have equal kernels; so do sets that differ only in what needs geometry, without it.
+    let features = features();
     let mut sets = BTreeMap::from([(FeatureSet::full(), "full".to_owned())]);
     for (base_name, base) in bases {
         sets.insert(base.clone(), base_name.to_owned());
-        for (i, (first, switch_first)) in FEATURES.iter().enumerate() {
-            for (second, switch_second) in &FEATURES[i..] {
+        for (i, (first, switch_first)) in features.iter().enumerate() {
+            for (second, switch_second) in &features[i..] {
                 let mut set = base.clone();
                 switch_first(&mut set);
                 switch_second(&mut set);

@@ -1,29 +1,19 @@
 //! What next-event estimation may sample. Emission itself is the material's.
 
 use super::field::abi_struct;
+use super::tag::tags;
 
-/// Shape of a `Light`. The numbers are part of the pack format.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[repr(u32)]
-pub enum LightKind {
-    /// Sphere `primitive`, sampled by its visible cone.
-    Sphere = 0,
-    /// Parallelogram `origin + u edge1 + v edge2`, sampled by area; two triangles in the BVH.
-    Rectangle = 1,
-    /// Triangle `primitive`, sampled by area.
-    Triangle = 2,
-    /// The sky, sampled by the SKYTABLE section.
-    Sky = 3,
-}
-
-impl LightKind {
-    /// Every kind, in tag order.
-    pub const ALL: [Self; 4] = [Self::Sphere, Self::Rectangle, Self::Triangle, Self::Sky];
-
-    /// The kind with this tag.
-    #[must_use]
-    pub fn from_tag(tag: u32) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| *kind as u32 == tag)
+tags! {
+    /// Shape of a `Light`. The numbers are part of the pack format.
+    pub enum LightKind {
+        /// Sphere `primitive`, sampled by its visible cone.
+        Sphere = 0 as 2 "sphere lights",
+        /// Parallelogram `origin + u edge1 + v edge2`, sampled by area; two triangles in the BVH.
+        Rectangle = 1 as 3 "rectangle lights",
+        /// Triangle `primitive`, sampled by area.
+        Triangle = 2 as 4 "triangle lights",
+        /// The sky, sampled by the SKYTABLE section.
+        Sky = 3 as 53 "sky light",
     }
 }
 

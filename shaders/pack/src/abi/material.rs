@@ -2,75 +2,135 @@
 
 use super::NONE;
 use super::field::abi_struct;
+use super::tag::tags;
 
-/// How a `Material` scatters. The numbers are part of the pack format.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[repr(u32)]
-pub enum MaterialKind {
-    /// Lambert.
-    Diffuse = 0,
-    /// Mirror direction perturbed by a ball of radius `fuzz`.
-    Metal = 1,
-    /// Smooth dielectric: exact Fresnel, Snell, total internal reflection.
-    Dielectric = 2,
-    /// Emits and does not scatter.
-    Emissive = 3,
-    /// Metallic-roughness: GGX over Lambert.
-    Principled = 4,
-    /// Rough metal: GGX with the light of several reflections.
-    Conductor = 5,
-    /// Rough dielectric: GGX reflection and refraction.
-    RoughDielectric = 6,
-    /// Clear coat over Lambert.
-    Clearcoat = 7,
-    /// Rough, with the bumps and veins of a field of its own.
-    Stone = 8,
-    /// Rough, with bumps, rings and gloss along a grain.
-    Wood = 9,
-    /// Rough thin sheet with bumps that lets light through.
-    Fabric = 10,
-    /// Fuzz and wax over a thin scattering slab.
-    Petal = 11,
-    /// Thin sheet: diffuse reflection, tinted transmission.
-    Leaf = 12,
-    /// Smooth dielectric with waves.
-    Water = 13,
+tags! {
+    /// How a `Material` scatters. The numbers are part of the pack format; the order here is that in which
+    /// kinds were added, and that of their constants in kernels.
+    pub enum MaterialKind {
+        /// Lambert.
+        Diffuse = 0 as 10 "diffuse",
+        /// Mirror direction perturbed by a ball of radius `fuzz`.
+        Metal = 1 as 11 "metal",
+        /// Smooth dielectric: exact Fresnel, Snell, total internal reflection.
+        Dielectric = 2 as 12 "dielectric",
+        /// Emits and does not scatter.
+        Emissive = 3 as 13 "emissive",
+        /// Metallic-roughness: GGX over Lambert.
+        Principled = 4 as 14 "principled",
+        /// Rough, with the bumps and veins of a field of its own.
+        Stone = 8 as 40 "stone",
+        /// Rough, with bumps, rings and gloss along a grain.
+        Wood = 9 as 41 "wood",
+        /// Rough thin sheet with bumps that lets light through.
+        Fabric = 10 as 42 "fabric",
+        /// Rough metal: GGX with the light of several reflections.
+        Conductor = 5 as 37 "conductor",
+        /// Rough dielectric: GGX reflection and refraction.
+        RoughDielectric = 6 as 38 "rough dielectric",
+        /// Clear coat over Lambert.
+        Clearcoat = 7 as 39 "clearcoat",
+        /// Fuzz and wax over a thin scattering slab.
+        Petal = 11 as 43 "petal",
+        /// Thin sheet: diffuse reflection, tinted transmission.
+        Leaf = 12 as 44 "leaf",
+        /// Smooth dielectric with waves.
+        Water = 13 as 45 "water",
+    }
+}
+
+/// A random number that a model's sample function takes, each drawn for a purpose of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Number {
+    /// A pair in the unit square, for a direction.
+    Direction,
+    /// Which lobe.
+    Lobe,
+    /// A radius.
+    Radius,
+}
+
+/// Where a model sends light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lobes {
+    /// Nowhere.
+    None,
+    /// Into single directions: there is nothing to evaluate.
+    Delta,
+    /// Around the normal, wherever it comes from: the functions do not take `wo`.
+    Fixed,
+    /// Into lobes that depend on where it comes from.
+    Moving,
+}
+
+/// What kernels and checks know of a kind of material beside its functions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Traits {
+    /// Where it sends light.
+    pub lobes: Lobes,
+    /// What its sample function takes, in order.
+    pub numbers: &'static [Number],
+    /// Its functions are generated, because they depend on more than the kind: `dispatch_x_sample` in
+    /// `scene/x.wgsl` instead of `x_sample` in `bsdf/x.wgsl`.
+    pub generated: bool,
+    /// `x_pattern` changes colour, roughness and normal by the place in the object; `bump_step` is read.
+    pub pattern: bool,
+    /// Some light goes straight through its surface. The function that says how much.
+    pub straight: Option<&'static str>,
+    /// `ior` is read.
+    pub refracts: bool,
+    /// Things made of it have an inside that light enters.
+    pub inside: bool,
+}
+
+impl Traits {
+    /// A surface with lobes, one of which is chosen.
+    const ROUGH: Self = Self {
+        lobes: Lobes::Moving,
+        numbers: &[Number::Direction, Number::Lobe],
+        generated: false,
+        pattern: false,
+        straight: None,
+        refracts: false,
+        inside: false,
+    };
+    const PATTERN: Self = Self { pattern: true, ..Self::ROUGH };
+    const GLASS: Self = Self { refracts: true, inside: true, ..Self::ROUGH };
+    const SMOOTH_GLASS: Self =
+        Self { lobes: Lobes::Delta, numbers: &[Number::Lobe], ..Self::GLASS };
 }
 
 impl MaterialKind {
-    /// Every kind, in tag order.
-    pub const ALL: [Self; 14] = [
-        Self::Diffuse,
-        Self::Metal,
-        Self::Dielectric,
-        Self::Emissive,
-        Self::Principled,
-        Self::Conductor,
-        Self::RoughDielectric,
-        Self::Clearcoat,
-        Self::Stone,
-        Self::Wood,
-        Self::Fabric,
-        Self::Petal,
-        Self::Leaf,
-        Self::Water,
-    ];
-
-    /// Their tags, in the same order.
-    pub const TAGS: [u32; Self::ALL.len()] = {
-        let mut tags = [0; Self::ALL.len()];
-        let mut i = 0;
-        while i < tags.len() {
-            tags[i] = Self::ALL[i] as u32;
-            i += 1;
-        }
-        tags
-    };
-
-    /// The kind with this tag.
+    /// What kernels and checks know of it.
     #[must_use]
-    pub fn from_tag(tag: u32) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| *kind as u32 == tag)
+    pub const fn traits(self) -> Traits {
+        use Number::{Direction, Lobe, Radius};
+        match self {
+            Self::Diffuse => {
+                Traits { lobes: Lobes::Fixed, numbers: &[Direction], ..Traits::ROUGH }
+            }
+            Self::Metal => Traits { numbers: &[Direction, Radius], ..Traits::ROUGH },
+            Self::Emissive => Traits { lobes: Lobes::None, numbers: &[], ..Traits::ROUGH },
+            Self::Principled => Traits {
+                generated: true,
+                straight: Some("dispatch_principled_straight"),
+                refracts: true,
+                ..Traits::ROUGH
+            },
+            Self::Conductor | Self::Leaf => Traits::ROUGH,
+            Self::Dielectric | Self::Water => Traits::SMOOTH_GLASS,
+            Self::RoughDielectric => Traits::GLASS,
+            Self::Clearcoat => {
+                Traits { numbers: &[Direction, Radius, Lobe], refracts: true, ..Traits::ROUGH }
+            }
+            Self::Stone | Self::Wood | Self::Fabric => Traits::PATTERN,
+            Self::Petal => Traits {
+                numbers: &[Direction, Lobe, Radius],
+                straight: Some("petal_through"),
+                refracts: true,
+                ..Traits::ROUGH
+            },
+        }
     }
 }
 

@@ -1,48 +1,27 @@
 //! Settings that the runtime needs and the kernel does not.
 
 use super::field::abi_struct;
+use super::tag::tags;
 
-/// Film response of the PNG. The numbers are part of the pack format.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u32)]
-pub enum ToneMap {
-    /// Exposure and sRGB encoding only.
-    None = 0,
-    /// `x / (1 + x)` a channel.
-    Reinhard = 1,
-    /// A filmic curve fitted to the ACES reference (Narkowicz 2015).
-    Aces = 2,
-}
-
-impl ToneMap {
-    /// Every curve, in tag order.
-    pub const ALL: [Self; 3] = [Self::None, Self::Reinhard, Self::Aces];
-
-    /// The curve with this tag.
-    #[must_use]
-    pub fn from_tag(tag: u32) -> Option<Self> {
-        Self::ALL.into_iter().find(|curve| *curve as u32 == tag)
+tags! {
+    /// Film response of the PNG. The numbers are part of the pack format.
+    pub enum ToneMap {
+        /// Exposure and sRGB encoding only.
+        None = 0,
+        /// `x / (1 + x)` a channel.
+        Reinhard = 1,
+        /// A filmic curve fitted to the ACES reference (Narkowicz 2015).
+        Aces = 2,
     }
 }
 
-/// Where random numbers come from. The numbers are part of the pack format.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[repr(u32)]
-pub enum SamplerKind {
-    /// Sobol pairs, Owen-scrambled and shuffled for every pixel and purpose.
-    Sobol = 0,
-    /// Independent numbers, hashed by pcg4d.
-    Pcg = 1,
-}
-
-impl SamplerKind {
-    /// Every sampler, in tag order.
-    pub const ALL: [Self; 2] = [Self::Sobol, Self::Pcg];
-
-    /// The sampler with this tag.
-    #[must_use]
-    pub fn from_tag(tag: u32) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| *kind as u32 == tag)
+tags! {
+    /// Where random numbers come from. The numbers are part of the pack format.
+    pub enum SamplerKind {
+        /// Sobol pairs, Owen-scrambled and shuffled for every pixel and purpose.
+        Sobol = 0,
+        /// Independent numbers, hashed by pcg4d.
+        Pcg = 1 as 48 "independent samples",
     }
 }
 

@@ -1,27 +1,17 @@
 //! What a ray sees that leaves the scene.
 
 use super::field::abi_struct;
+use super::tag::tags;
 
-/// How `Sky` is to be read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[repr(u32)]
-pub enum SkyKind {
-    /// `zenith` in every direction.
-    Constant = 0,
-    /// Three-band gradient with glow and disc around `sun_direction`.
-    Gradient = 1,
-    /// `zenith` times a lat-long image.
-    Image = 2,
-}
-
-impl SkyKind {
-    /// Every kind, in tag order.
-    pub const ALL: [Self; 3] = [Self::Constant, Self::Gradient, Self::Image];
-
-    /// The kind with this tag.
-    #[must_use]
-    pub fn from_tag(tag: u32) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| *kind as u32 == tag)
+tags! {
+    /// How `Sky` is to be read.
+    pub enum SkyKind {
+        /// `zenith` in every direction.
+        Constant = 0 as 5 "constant sky",
+        /// Three-band gradient with glow and disc around `sun_direction`.
+        Gradient = 1 as 6 "gradient sky",
+        /// `zenith` times a lat-long image.
+        Image = 2 as 52 "image sky",
     }
 }
 

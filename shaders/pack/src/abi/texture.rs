@@ -1,17 +1,18 @@
 //! Images in one texel buffer.
 
 use super::field::abi_struct;
+use super::tag::tags;
 
-/// How texels are stored. The numbers are part of the pack format.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[repr(u32)]
-pub enum TextureFormat {
-    /// One `u32` a texel, red in the low byte; colour is sRGB-encoded, alpha linear.
-    Rgba8Srgb = 0,
-    /// One `u32` a texel, red in the low byte; all linear.
-    Rgba8Linear = 1,
-    /// Two `u32` a texel: half floats red, green, then blue, alpha; linear.
-    Rgba16Float = 2,
+tags! {
+    /// How texels are stored. The numbers are part of the pack format.
+    pub enum TextureFormat {
+        /// One `u32` a texel, red in the low byte; colour is sRGB-encoded, alpha linear.
+        Rgba8Srgb = 0 as 7 "sRGB textures",
+        /// One `u32` a texel, red in the low byte; all linear.
+        Rgba8Linear = 1 as 8 "linear 8-bit textures",
+        /// Two `u32` a texel: half floats red, green, then blue, alpha; linear.
+        Rgba16Float = 2 as 9 "half-float textures",
+    }
 }
 
 impl TextureFormat {
@@ -23,37 +24,17 @@ impl TextureFormat {
             Self::Rgba16Float => 8,
         }
     }
-
-    /// Every format, in tag order.
-    pub const ALL: [Self; 3] = [Self::Rgba8Srgb, Self::Rgba8Linear, Self::Rgba16Float];
-
-    /// The format with this tag.
-    #[must_use]
-    pub fn from_tag(tag: u32) -> Option<Self> {
-        Self::ALL.into_iter().find(|format| *format as u32 == tag)
-    }
 }
 
-/// What lies outside 0..1. The numbers are part of the pack format.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u32)]
-pub enum Wrap {
-    /// The image repeats.
-    Repeat = 0,
-    /// The edge texel goes on.
-    Clamp = 1,
-    /// The image repeats mirrored.
-    Mirror = 2,
-}
-
-impl Wrap {
-    /// Every rule, in tag order.
-    pub const ALL: [Self; 3] = [Self::Repeat, Self::Clamp, Self::Mirror];
-
-    /// The rule with this tag.
-    #[must_use]
-    pub fn from_tag(tag: u32) -> Option<Self> {
-        Self::ALL.into_iter().find(|wrap| *wrap as u32 == tag)
+tags! {
+    /// What lies outside 0..1. The numbers are part of the pack format.
+    pub enum Wrap {
+        /// The image repeats.
+        Repeat = 0,
+        /// The edge texel goes on.
+        Clamp = 1,
+        /// The image repeats mirrored.
+        Mirror = 2,
     }
 }
 

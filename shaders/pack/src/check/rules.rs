@@ -306,26 +306,12 @@ fn material_kind(found: u32) -> Option<ElementFault> {
 
 /// Kinds that refract need a real refractive index, kinds with bumps a step.
 fn material(record: &Material, _: &Contents<'_>) -> Option<Broken> {
-    let refracts = matches!(
-        MaterialKind::from_tag(record.kind),
-        Some(
-            MaterialKind::Dielectric
-                | MaterialKind::Principled
-                | MaterialKind::RoughDielectric
-                | MaterialKind::Clearcoat
-                | MaterialKind::Petal
-                | MaterialKind::Water
-        )
-    );
-    let bumps = matches!(
-        MaterialKind::from_tag(record.kind),
-        Some(MaterialKind::Stone | MaterialKind::Wood | MaterialKind::Fabric)
-    );
-    if bumps {
+    let traits = MaterialKind::from_tag(record.kind)?.traits();
+    if traits.pattern {
         // The height of the bumps is divided by it.
         return positive(record.bump_step).map(|fault| ("bump_step", fault));
     }
-    if !refracts {
+    if !traits.refracts {
         return None;
     }
     if let Some(fault) = refractive(record.ior) {
