@@ -19,9 +19,16 @@ use crate::{FeatureSet, ShaderError};
 pub use bindings::WINDOW_WORDS;
 use std::fmt::{Display, Write as _};
 
-/// The generated modules of a scene: name and text, sorted by name.
+/// The structs of the records: module and text, the same for every scene.
+#[must_use]
+pub fn record_texts() -> Vec<(&'static str, String)> {
+    records::structs()
+}
+
+/// The generated modules of a scene: name and text.
 pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, String)>, ShaderError> {
-    Ok(vec![
+    let mut texts = record_texts();
+    texts.extend([
         ("scene/bare.wgsl", principled::bare(features)),
         ("scene/bindings.wgsl", bindings::text(&features.bindings()?)),
         ("scene/candidate.wgsl", traversal::candidate(features)),
@@ -55,7 +62,8 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/texel.wgsl", texture::texel(features)),
         ("scene/texture.wgsl", texture::texture(features)),
         ("scene/through.wgsl", media::through(features)),
-    ])
+    ]);
+    Ok(texts)
 }
 
 /// Name of the module whose `render` is the entry point of the scene's kernel.

@@ -1,6 +1,6 @@
 //! naga's view of the WGSL structs against the field tables of `pack::abi`.
 
-use crate::{ShaderError, modules};
+use crate::{ShaderError, generate};
 use naga::{Module, ScalarKind, TypeInner, VectorSize};
 use pack::abi::{self, Field};
 use std::fmt::Write as _;
@@ -14,10 +14,9 @@ pub struct LayoutError {
     pub tables: Vec<String>,
 }
 
-/// A module that declares every record, used or not: [`check_layouts`] of it proves all of `wgsl/abi/`.
+/// A module that declares every record, used or not: [`check_layouts`] of it proves the generator.
 pub fn abi_module() -> Result<Module, ShaderError> {
-    let texts = modules::module_texts().iter().filter(|(name, _)| name.starts_with("abi/"));
-    let all: String = texts.map(|(_, text)| *text).collect();
+    let all: String = generate::record_texts().into_iter().map(|(_, text)| text).collect();
     naga::front::wgsl::parse_str(&all).map_err(|error| ShaderError::Parse {
         at: crate::declaration::location("abi", &all, 0),
         message: error.message().to_owned(),
@@ -32,11 +31,11 @@ pub fn check_layouts(module: &Module) -> Result<(), LayoutError> {
         let (Some(name), TypeInner::Struct { members, span }) = (&ty.name, &ty.inner) else {
             continue;
         };
-        let Some((_, fields, size)) = abi::records().into_iter().find(|row| row.0 == name.as_str())
+        let Some(record) = abi::records().into_iter().find(|record| record.name == name.as_str())
         else {
             continue;
         };
-        let rust = rows(fields, size);
+        let rust = rows(record.fields, record.size);
         let mut wgsl: Vec<String> = members
             .iter()
             .map(|member| {

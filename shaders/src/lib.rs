@@ -1,7 +1,7 @@
 //! WGSL modules and a [`FeatureSet`] become one linked, validated kernel text.
 //!
 //! The path tracer exists once, as the modules under `wgsl/`. [`link`] pastes the ones that a scene
-//! needs behind four kinds of generated text (constants, bindings, record loaders, dispatch), drops
+//! needs behind generated text (constants, bindings, records and their loaders, dispatch), drops
 //! every declaration that `render` does not reach, and remembers where each byte came from.
 //! [`validate`] runs naga over the result and translates its errors back to our files;
 //! [`check_layouts`] compares the structs in it with the Rust records of `pack::abi`.
@@ -25,7 +25,7 @@ mod validate;
 
 pub use error::{Location, ShaderError};
 pub use features::{Binding, FeatureSet, NodeLayout, PORTABLE_STORAGE, Windows};
-pub use generate::{WINDOW_WORDS, generated_texts, root_module};
+pub use generate::{WINDOW_WORDS, generated_texts, record_texts, root_module};
 pub use layout::{LayoutError, abi_module, check_layouts};
 pub use link::{Linked, link, link_modules};
 pub use modules::module_texts;

@@ -1,7 +1,7 @@
 //! The WGSL structs have the layout of the Rust records, and a difference is shown.
 
 use naga::{Module, TypeInner, VectorSize};
-use shaders::{abi_module, check_layouts, module_texts};
+use shaders::{abi_module, check_layouts, record_texts};
 use std::collections::BTreeSet;
 
 #[test]
@@ -10,13 +10,14 @@ fn every_record_of_the_kernel_has_its_struct() {
     check_layouts(&module).expect("the structs are the records");
     let structs: BTreeSet<&str> =
         module.types.iter().filter_map(|(_, ty)| ty.name.as_deref()).collect();
-    let records: BTreeSet<&str> = pack::abi::records().iter().map(|row| row.0).collect();
+    let records: BTreeSet<&str> = pack::abi::records().iter().map(|record| record.name).collect();
     assert_eq!(structs, records);
 }
 
 /// The record's struct with one text replaced, compared.
 fn check_changed(from: &str, to: &str) -> String {
-    let (_, text) = module_texts().iter().find(|row| row.0 == "abi/node.wgsl").expect("exists");
+    let texts = record_texts();
+    let (_, text) = texts.iter().find(|row| row.0 == "abi/node.wgsl").expect("exists");
     assert!(text.contains(from));
     let module = naga::front::wgsl::parse_str(&text.replace(from, to)).expect("parses");
     check_layouts(&module).expect_err("the struct differs").to_string()

@@ -2,8 +2,8 @@
 //!
 //! Turns: nothing; it is the shared vocabulary of compiler, shaders and runtime. Every record is a
 //! multiple of 16 bytes, little-endian, and reaches the kernel as `array<vec4<u32>>` words which
-//! generated loaders decode. `shaders::layout` proves that each WGSL struct of the same name has
-//! these fields at these offsets.
+//! generated loaders decode. `shaders` writes the WGSL struct of the same name from the field table, and
+//! `shaders::layout` proves that it has these fields at these offsets.
 //!
 //! It does not know naga, wgpu, files or the language.
 
@@ -24,7 +24,7 @@ mod tag;
 mod texture;
 
 pub use camera::Camera;
-pub use field::{AbiRecord, Field, FieldType};
+pub use field::{AbiRecord, Field, FieldType, Record};
 pub use film::FilmPixel;
 pub use frame::Frame;
 pub use geometry::{
@@ -56,26 +56,23 @@ pub const MAX_STACK: u32 = 96;
 
 /// Every record that the kernel knows, in the order in which tables are printed.
 #[must_use]
-pub fn records() -> Vec<(&'static str, &'static [Field], usize)> {
-    fn row<R: AbiRecord>() -> (&'static str, &'static [Field], usize) {
-        (R::NAME, R::FIELDS, size_of::<R>())
-    }
+pub fn records() -> Vec<Record> {
     vec![
-        row::<Frame>(),
-        row::<Camera>(),
-        row::<Sky>(),
-        row::<Node>(),
-        row::<WideNode>(),
-        row::<Triangle>(),
-        row::<TriShade>(),
-        row::<Sphere>(),
-        row::<Object>(),
-        row::<Instance>(),
-        row::<Material>(),
-        row::<Medium>(),
-        row::<Light>(),
-        row::<LightNode>(),
-        row::<Texture>(),
-        row::<FilmPixel>(),
+        Record::of::<Frame>(),
+        Record::of::<Camera>(),
+        Record::of::<Sky>(),
+        Record::of::<Node>(),
+        Record::of::<WideNode>(),
+        Record::of::<Triangle>(),
+        Record::of::<TriShade>(),
+        Record::of::<Sphere>(),
+        Record::of::<Object>(),
+        Record::of::<Instance>(),
+        Record::of::<Material>(),
+        Record::of::<Medium>(),
+        Record::of::<Light>(),
+        Record::of::<LightNode>(),
+        Record::of::<Texture>(),
+        Record::of::<FilmPixel>(),
     ]
 }

@@ -4,7 +4,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::abi::{self, AbiRecord, Field};
+use crate::abi::{self, Field, Record};
 
 /// First eight bytes of a pack, built as those of PNG: the high bit, CR LF, end-of-file and LF find
 /// transfers that are not 8-bit clean or that rewrite line ends.
@@ -80,12 +80,11 @@ pub fn layout_id() -> u32 {
 
 /// One line a record and one a field: every record of the kernel, then `RenderSettings`.
 fn layout_listing() -> String {
-    let render =
-        (abi::RenderSettings::NAME, abi::RenderSettings::FIELDS, size_of::<abi::RenderSettings>());
+    let render = abi::Record::of::<abi::RenderSettings>();
     let mut text = String::new();
-    for (name, fields, size) in abi::records().into_iter().chain([render]) {
+    for Record { name, fields, size, .. } in abi::records().into_iter().chain([render]) {
         text.extend([name, " ", &size.to_string(), "\n"]);
-        for Field { name, ty, offset } in fields {
+        for Field { name, ty, offset, .. } in fields {
             text.extend(["  ", &offset.to_string(), " ", name, " ", ty.wgsl(), "\n"]);
         }
     }

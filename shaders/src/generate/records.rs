@@ -1,7 +1,8 @@
-//! `scene/records.wgsl`: loaders that decode words into the structs of `wgsl/abi/`, from the field
-//! tables of `pack::abi`. One for each record, one for each field; the linker keeps those in use.
+//! `abi/`: the structs of the records, one module each; `scene/records.wgsl`: loaders that decode words into
+//! them, one for each record and one for each field. Both are made from the field tables of `pack::abi`, and
+//! the linker keeps what is in use.
 
-use pack::abi::{self, Field, FieldType};
+use pack::abi::{self, Field, FieldType, Record};
 use std::fmt::Write as _;
 
 /// How a record is found: its name in function names, the reader of its section, and the `Frame` field
@@ -52,17 +53,48 @@ const TABLES: &[Table] = &[
     heap("Texture", "texture", "abi/texture.wgsl", "texture_at"),
 ];
 
-/// The module; the same for every scene.
+/// Where the record that the kernel writes is; the others are in [`TABLES`].
+const FILM: (&str, &str) = ("FilmPixel", "abi/film.wgsl");
+
+/// The module of each struct, and its text; the same for every scene. A record that has no table is an error of
+/// the test that parses them all.
+pub(crate) fn structs() -> Vec<(&'static str, String)> {
+    let modules = TABLES.iter().map(|table| (table.record, table.module)).chain([FILM]);
+    modules
+        .filter_map(|(name, module)| {
+            let record = abi::records().into_iter().find(|record| record.name == name)?;
+            Some((module, struct_text(&record)))
+        })
+        .collect()
+}
+
+/// The struct as it would be written by hand; padding explains itself.
+fn struct_text(record: &Record) -> String {
+    let mut text = String::new();
+    for line in record.doc {
+        let _ = writeln!(text, "//{line}");
+    }
+    let _ = writeln!(text, "struct {} {{", record.name);
+    for field in record.fields {
+        for line in field.doc.iter().filter(|_| !field.name.starts_with("_pad")) {
+            let _ = writeln!(text, "    //{line}");
+        }
+        let _ = writeln!(text, "    {}: {},", field.name, field.ty.wgsl());
+    }
+    text + "}\n"
+}
+
+/// The loaders; the same for every scene.
 pub(crate) fn text() -> String {
     let mut text =
         String::from("// Generated: loaders of the records, from their field tables.\n\n");
     let mut modules: Vec<&str> = TABLES.iter().map(|table| table.module).collect();
-    modules.extend(["abi/film.wgsl", "scene/bindings.wgsl"]);
+    modules.extend([FILM.1, "scene/bindings.wgsl"]);
     text += &super::imports(modules);
-    for (name, fields, size) in abi::records() {
+    for Record { name, fields, size, .. } in abi::records() {
         if let Some(table) = TABLES.iter().find(|table| table.record == name) {
             text += &loaders(table, fields, size / 16);
-        } else if name == "FilmPixel" {
+        } else if name == FILM.0 {
             text += &film_store(fields, size / 16);
         }
     }

@@ -64,14 +64,39 @@ pub struct Field {
     pub ty: FieldType,
     /// Byte offset from the start of the record.
     pub offset: usize,
+    /// What it is, the lines of its comment in Rust and WGSL, each with the space before it.
+    pub doc: &'static [&'static str],
 }
 
 /// A record with a field table; implemented by `abi_struct!` only.
 pub trait AbiRecord: bytemuck::Pod {
     /// Name of the Rust struct and of the WGSL struct.
     const NAME: &'static str;
+    /// What it is, the lines of its comment in Rust and WGSL, each with the space before it.
+    const DOC: &'static [&'static str];
     /// Fields in declaration order, padding included.
     const FIELDS: &'static [Field];
+}
+
+/// A record's part of the tables that are made of all records.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Record {
+    /// Name of the Rust struct and of the WGSL struct.
+    pub name: &'static str,
+    /// See [`AbiRecord::DOC`].
+    pub doc: &'static [&'static str],
+    /// Fields in declaration order, padding included.
+    pub fields: &'static [Field],
+    /// Bytes, a multiple of 16.
+    pub size: usize,
+}
+
+impl Record {
+    /// That of `R`.
+    #[must_use]
+    pub fn of<R: AbiRecord>() -> Self {
+        Self { name: R::NAME, doc: R::DOC, fields: R::FIELDS, size: size_of::<R>() }
+    }
 }
 
 /// Maps a Rust field type to its WGSL type.
@@ -90,21 +115,27 @@ abi_field! {
     [u32; 2] => Vec2U, [u32; 3] => Vec3U, [u32; 4] => Vec4U,
 }
 
-/// Declares a record. The size must be a multiple of 16 bytes: checked at compile time.
+/// Declares a record, for Rust and for WGSL: its comments are those of both. The size must be a multiple of 16
+/// bytes: checked at compile time.
 macro_rules! abi_struct {
-    ($(#[$meta:meta])* pub struct $name:ident { $($(#[$fmeta:meta])* pub $field:ident: $ty:ty,)* }) => {
-        $(#[$meta])*
+    ($(#[doc = $doc:literal])* pub struct $name:ident {
+        $($(#[doc = $fdoc:literal])* pub $field:ident: $ty:ty,)*
+    }) => {
+        $(#[doc = $doc])*
+        #[allow(clippy::doc_markdown, reason = "formulas stand in WGSL, too")]
         #[repr(C)]
         #[allow(clippy::pub_underscore_fields, reason = "padding is part of the layout")]
         #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-        pub struct $name { $($(#[$fmeta])* pub $field: $ty,)* }
+        pub struct $name { $($(#[doc = $fdoc])* pub $field: $ty,)* }
 
         impl $crate::abi::AbiRecord for $name {
             const NAME: &'static str = stringify!($name);
+            const DOC: &'static [&'static str] = &[$($doc),*];
             const FIELDS: &'static [$crate::abi::Field] = &[$($crate::abi::Field {
                 name: stringify!($field),
                 ty: <$ty as $crate::abi::field::AbiField>::TYPE,
                 offset: core::mem::offset_of!($name, $field),
+                doc: &[$($fdoc),*],
             },)*];
         }
 

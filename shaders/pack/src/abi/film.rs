@@ -7,7 +7,7 @@ abi_struct! {
     pub struct FilmPixel {
         /// Sum of radiance over the samples of this dispatch; bad samples add 0.
         pub sum: [f32; 3],
-        /// Rays traced: camera, bounce and shadow; [`FilmPixel::CUT`] where nothing of the pixel is true.
+        /// Rays traced: camera, bounce and shadow.
         pub rays: u32,
         /// Samples whose radiance was not finite.
         pub bad: u32,
@@ -22,7 +22,7 @@ abi_struct! {
 }
 
 impl FilmPixel {
-    /// Rays of a pixel whose loops the driver has cut short. No pixel traces so many: a dispatch has 16 samples
+    /// `rays` of a pixel of which nothing is true: one whose loops the driver has cut short. No pixel traces so many: a dispatch has 16 samples
     /// of a pixel.
     pub const CUT: u32 = u32::MAX;
 }

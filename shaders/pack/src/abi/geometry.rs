@@ -127,20 +127,21 @@ pub const WIDTH: usize = 4;
 /// Ends of the box of an empty child, in steps: inside out, so that it cannot be mistaken for a box.
 pub const EMPTY_BOX: [u8; 2] = [255, 0];
 
+// Child `k` of a `WideNode` covers `origin + lo * scale` to `origin + hi * scale` along each axis. A step has at
+// most 16 significant bits: its product with 8 bits is exact, so that the sum is rounded once, fused or not, and
+// every device has the same boxes. A triangle of a mesh that is stored once is in the frame of its mesh, see
+// `Instance`, and has the object `OBJECT_OF_INSTANCE`.
+
 abi_struct! {
-    /// Inner node of the wide BVH, 64 bytes: up to four children with boxes in steps of a grid of
-    /// the node's own. Normalised world frame, or the frame of a mesh, see `Instance`.
-    ///
-    /// Child `k` is at byte `k` (the lowest is byte 0) of the words of `lo` and `hi`, and covers
-    /// `origin + lo * scale` to `origin + hi * scale` along each axis. A step has at most 16
-    /// significant bits: its product with 8 bits is exact, so that the sum is rounded once, fused or
-    /// not, and every device has the same boxes.
+    /// Inner node of the wide BVH, 64 bytes: up to four children with boxes in steps of a grid of the node's own.
+    /// Normalised world frame, or the frame of a mesh, see `Instance`. Child k is at byte k of the words of `lo` and
+    /// `hi`, the lowest byte is 0.
     pub struct WideNode {
         /// Lower corner of the grid.
         pub origin: [f32; 3],
         /// `ChildRef` word of the first child.
         pub child0: u32,
-        /// Length of a step along each axis.
+        /// Length of a step along each axis; at most 16 significant bits.
         pub scale: [f32; 3],
         /// `ChildRef` word of the second child.
         pub child1: u32,
@@ -205,12 +206,12 @@ impl WideNode {
 
 abi_struct! {
     /// A triangle's corners, 48 bytes, in leaf order. Normalised world frame, as when the shutter
-    /// opens, or the frame of its mesh, see `Instance`; the geometric normal is `cross(v1 - v0, v2 - v0)`.
+    /// opens; the geometric normal is `cross(v1 - v0, v2 - v0)`.
     pub struct Triangle {
         /// First corner.
         pub v0: [f32; 3],
-        /// Bits 0-30: id of the first corner after welding by position: equal bits, equal id.
-        /// Bit 31, [`MOVES`], is the same in all three.
+        /// Bits 0-30: id of the first corner after welding by position: equal bits, equal id. Bit 31, `MOVES`, is
+        /// the same in all three.
         pub id0: u32,
         /// Second corner.
         pub v1: [f32; 3],
@@ -239,8 +240,8 @@ abi_struct! {
         pub uv2: [f32; 2],
         /// Index of the `Light` this triangle belongs to, or `NONE`.
         pub light: u32,
-        /// Bits 0-30: index of the `Object`, or `OBJECT_OF_INSTANCE`. Bit 31, [`TRI_SMOOTH`]: interpolate
-        /// `normals`; otherwise the triangle is flat.
+        /// Bits 0-30: index of the `Object`. Bit 31, `TRI_SMOOTH`: interpolate `normals`;
+        /// otherwise the triangle is flat.
         pub object: u32,
     }
 }
@@ -256,7 +257,7 @@ abi_struct! {
         pub material: u32,
         /// Index of the `Light`, or `NONE`.
         pub light: u32,
-        /// Bits 0-30: index of the `Object`. Bit 31: [`MOVES`].
+        /// Bits 0-30: index of the `Object`. Bit 31: `MOVES`.
         pub object: u32,
         /// Unused.
         pub _pad0: u32,

@@ -7,9 +7,9 @@ use super::field::abi_struct;
 pub const OBJECT_OF_INSTANCE: u32 = (1 << 31) - 1;
 
 abi_struct! {
-    /// A mesh in the world, 112 bytes. Its triangles have a frame of their own; the point `p` of the
-    /// normalised world frame, when the shutter opens, is `(row_x . (p - center), ...)` there, and the point
-    /// `q` of that frame is `center + col_x q.x + col_y q.y + col_z q.z` in the world. Any affine map that
+    /// A mesh in the world, 112 bytes. Its triangles have a frame of their own; the point p of the
+    /// normalised world frame, when the shutter opens, is (row_x . (p - center), ...) there, and the point
+    /// q of that frame is center + col_x q.x + col_y q.y + col_z q.z in the world. Any affine map that
     /// has an inverse: a mirrored one keeps the front of triangles outside.
     pub struct Instance {
         /// First row of the inverse.
@@ -26,7 +26,7 @@ abi_struct! {
         pub object: u32,
         /// Where the origin of the mesh's frame is, normalised world frame.
         pub center: [f32; 3],
-        /// Rays that leave its surface start `2^-20` of this off it: the largest number, normalised world
+        /// Rays that leave its surface start 2^-20 of this off it: the largest number, normalised world
         /// frame, that goes into a point of the surface or takes a ray to the mesh's frame and back.
         pub reach: f32,
         /// First column of the map from the mesh's frame.

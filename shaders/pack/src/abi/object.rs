@@ -4,7 +4,7 @@ use super::field::abi_struct;
 
 abi_struct! {
     /// A thing in the world, 64 bytes: its own frame, its motion, its key. The point `p` of the
-    /// normalised world frame is `(row_x . p + offset_x, ...)` in the object, in metres, unscaled:
+    /// normalised world frame is (row_x . p + offset_x, ...) in the object, in metres, unscaled:
     /// patterns turn and move with the thing, but do not grow with it.
     pub struct Object {
         /// First row of the rotation, times metres per normalised unit.
