@@ -34,7 +34,7 @@ pub(crate) mod texture;
 mod transform;
 mod unused;
 
-use fields::Fields;
+pub(crate) use fields::Fields;
 use texture::AssetInfo;
 
 /// What is given beside the text.

@@ -6,6 +6,7 @@ mod eval;
 mod explain;
 pub mod format;
 mod lex;
+pub mod material;
 pub mod parse;
 mod reference;
 mod resolve;

@@ -6,20 +6,13 @@
 
 use std::fmt::{self, Write as _};
 
-mod material;
-
+use crate::material::Shown;
 use crate::scene::{
     AssetFormat, Axis, Camera, ColorSpace, Instance, Medium, MediumModel, Rgb, Sampler, Scene,
     Shape, Sky, SkyModel, ToneMap, Wrap,
 };
 use crate::schema::color_text;
 use crate::units::{self, Dim};
-
-/// Fields of a declaration and their values, as they would be written.
-type Fields = Vec<(&'static str, String)>;
-
-/// Name of a type and the fields of a declaration.
-type Declared = (&'static str, Fields);
 
 /// Every declaration of the scene, sorted by kind and name.
 #[must_use]
@@ -49,7 +42,9 @@ fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
         )?;
     }
     for material in &scene.materials {
-        let (kind, mut fields) = material::model(scene, &material.model);
+        let mut shown = Shown { scene, lines: Vec::new() };
+        let kind = material.model.show(&mut shown);
+        let mut fields = shown.lines;
         if let Some(map) = &material.normal {
             fields.push(("normal", format!("{}.rgb", texture_name(scene, map.texture))));
             fields.push(("normal.strength", number(map.strength)));
@@ -128,11 +123,6 @@ fn instance_fields(scene: &Scene, instance: &Instance) -> Vec<(&'static str, Str
         fields.push(("velocity", vector(instance.velocity, "m/s")));
     }
     fields
-}
-
-fn medium_name(scene: &Scene, medium: Option<usize>) -> String {
-    let medium = medium.and_then(|medium| scene.media.get(medium));
-    medium.map_or("none", |medium| medium.name.text.as_str()).to_owned()
 }
 
 fn write_medium(out: &mut String, medium: &Medium) -> fmt::Result {
@@ -232,7 +222,7 @@ fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {
         ("camera", camera.name.text.clone()),
         ("film", film.name.text.clone()),
         ("sky", sky.to_owned()),
-        ("atmosphere", medium_name(scene, render.atmosphere)),
+        ("atmosphere", Shown { scene, lines: Vec::new() }.medium(render.atmosphere)),
         ("samples", render.samples.to_string()),
         ("depth", render.max_depth.to_string()),
         ("roulette", render.roulette_depth.to_string()),

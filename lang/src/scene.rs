@@ -11,19 +11,18 @@
 mod file;
 mod instance;
 mod light;
-mod material;
 mod medium;
 mod view;
 
 pub use file::{Asset, AssetFormat, Axis, ColorSpace, Texture, Wrap};
 pub use instance::{Instance, Shape};
 pub use light::{Light, Sky, SkyModel, Tint};
-pub use material::{
-    Color, Inside, Leaf, Material, MaterialModel, NormalMap, Pattern, Petal, Principled, Scalar,
-};
 pub use medium::{Medium, MediumModel};
 pub use view::{Camera, Film, Render, Sampler, ToneMap};
 
+pub use crate::material::{
+    Color, Inside, Material, MaterialModel, NormalMap, Pattern, Principled, Scalar,
+};
 use crate::source::Span;
 
 /// A whole checked scene.

@@ -10,9 +10,7 @@ mod camera;
 mod film;
 mod instance;
 mod light;
-mod material;
-mod medium;
-pub(crate) mod pattern;
+pub(crate) mod medium;
 mod render;
 mod shape;
 mod sky;
@@ -114,7 +112,7 @@ impl Kind {
         match self {
             Self::Asset => asset::TYPES,
             Self::Texture => texture::TYPES,
-            Self::Material => material::TYPES,
+            Self::Material => crate::material::TYPES,
             Self::Medium => medium::TYPES,
             Self::Shape => shape::TYPES,
             Self::Object => instance::OBJECT_TYPES,
@@ -202,16 +200,24 @@ pub struct Field {
 }
 
 impl Field {
-    const fn new(name: &'static str, ty: FieldType, default: Default, doc: &'static str) -> Self {
+    pub(crate) const fn new(
+        name: &'static str,
+        ty: FieldType,
+        default: Default,
+        doc: &'static str,
+    ) -> Self {
         Self { name, ty, default, doc, typical: "", foreign: &[] }
     }
 
-    const fn typical(mut self, typical: &'static str) -> Self {
+    pub(crate) const fn typical(mut self, typical: &'static str) -> Self {
         self.typical = typical;
         self
     }
 
-    const fn foreign(mut self, foreign: &'static [(&'static str, &'static str)]) -> Self {
+    pub(crate) const fn foreign(
+        mut self,
+        foreign: &'static [(&'static str, &'static str)],
+    ) -> Self {
         self.foreign = foreign;
         self
     }
@@ -285,15 +291,15 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    const fn new(dim: Dim, unit: &'static str, min: f64, max: f64) -> Self {
+    pub(crate) const fn new(dim: Dim, unit: &'static str, min: f64, max: f64) -> Self {
         Self { dim, unit, min, above_min: false, max }
     }
 
-    const fn number(min: f64, max: f64) -> Self {
+    pub(crate) const fn number(min: f64, max: f64) -> Self {
         Self::new(Dim::NONE, "", min, max)
     }
 
-    const fn above(dim: Dim, unit: &'static str, min: f64) -> Self {
+    pub(crate) const fn above(dim: Dim, unit: &'static str, min: f64) -> Self {
         Self { dim, unit, min, above_min: true, max: f64::INFINITY }
     }
 
@@ -470,5 +476,5 @@ pub const MAX_FILM_SIDE: u32 = 65_536;
 pub const MAX_MAGNITUDE: f64 = 1e15;
 
 /// No limit above the general one.
-const ANY: f64 = f64::INFINITY;
-const WHITE: [f64; 3] = [1.0; 3];
+pub(crate) const ANY: f64 = f64::INFINITY;
+pub(crate) const WHITE: [f64; 3] = [1.0; 3];

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use common::{ROOT, check_files, check_text, describe};
+use lang::material::Diffuse;
 use lang::scene::{Color, MaterialModel, Sampler, Scene, Shape, SkyModel};
 
 fn folder() -> PathBuf {
@@ -302,7 +303,10 @@ fn only_what_is_used_is_in_the_scene() {
          instance s { shape = sphere(radius: 1m), material = used }",
     ));
     assert_eq!((scene.materials.len(), scene.textures.len(), scene.assets.len()), (1, 1, 0));
-    assert_eq!(scene.materials[0].model, MaterialModel::Diffuse { color: Color::Texture(0) });
+    assert_eq!(
+        scene.materials[0].model,
+        MaterialModel::Diffuse(Diffuse { color: Color::Texture(0) })
+    );
 }
 
 #[test]

@@ -55,9 +55,11 @@ fn materials() -> Family {
     let clear = FeatureSet { scattering: false, ..FeatureSet::full() };
     let none = FeatureSet { materials: BTreeSet::new(), ..clear.clone() };
     let mut members = vec![(0, none)];
-    members.extend(MaterialKind::ALL.into_iter().map(|kind| {
-        (kind.feature(), FeatureSet { materials: [kind].into(), ..clear.clone() })
-    }));
+    members.extend(
+        MaterialKind::ALL
+            .into_iter()
+            .map(|kind| (kind.feature(), FeatureSet { materials: [kind].into(), ..clear.clone() })),
+    );
     Family { mask: materials_mask(), members }
 }
 
@@ -135,7 +137,8 @@ fn skies_and_lens() -> Vec<(u64, FeatureSet)> {
     let mut members = Vec::new();
     for lens in [false, true] {
         for skies in subsets(&SkyKind::ALL) {
-            let bits = skies.iter().map(|sky| sky.feature()).sum::<u64>() | if lens { bit::LENS } else { 0 };
+            let bits = skies.iter().map(|sky| sky.feature()).sum::<u64>()
+                | if lens { bit::LENS } else { 0 };
             members.push((bits, FeatureSet { lens, skies, ..FeatureSet::full() }));
         }
     }
@@ -177,9 +180,8 @@ fn formats() -> Family {
 }
 
 fn samplers() -> Family {
-    let members = SamplerKind::ALL.map(|kind| {
-        (kind.feature(), FeatureSet { samplers: [kind].into(), ..FeatureSet::full() })
-    });
+    let members = SamplerKind::ALL
+        .map(|kind| (kind.feature(), FeatureSet { samplers: [kind].into(), ..FeatureSet::full() }));
     Family { mask: bit::SAMPLER_PCG, members: members.into() }
 }
 

@@ -1,12 +1,18 @@
-//! Small scenes, each about one feature of the kernel, and one with all of them.
+//! Small scenes, each about one feature of the kernel, and one with all of them; and how the sample function of
+//! each kind of material is called.
 
 use std::path::Path;
 
 use compiler::bvh::Layout;
 use compiler::lower::Instancing;
 use compiler::pipeline::Compiled;
+use glam::{Vec2, Vec3};
 use lang::scene::Scene;
+use pack::abi::MaterialKind;
 use pack::{Checked, Pack};
+use runtime::kernel::f32 as single;
+
+use crate::kernel::Lobe;
 
 /// A scene that exercises one feature.
 #[derive(Clone, Copy, Debug)]
@@ -619,5 +625,33 @@ fn write_files(dir: &Path) {
     let bead = bead_obj();
     for (name, text) in [("tent.obj", TENT_OBJ), ("quilt.obj", QUILT_OBJ), ("bead.obj", &bead)] {
         std::fs::write(dir.join(name), text).expect("a mesh can be written");
+    }
+}
+
+/// The sample of `lobe` for these numbers.
+#[must_use]
+pub fn sample_at(
+    kernel: &mut single::Kernel<'_>,
+    lobe: &Lobe,
+    wo: Vec3,
+    u: Vec2,
+    v: f32,
+) -> single::Scattered {
+    let s = lobe.single();
+    match lobe.kind {
+        MaterialKind::Diffuse => kernel.diffuse_sample(s, u),
+        MaterialKind::Metal => kernel.metal_sample(s, wo, u, v),
+        MaterialKind::Dielectric => kernel.dielectric_sample(s, wo, v),
+        MaterialKind::Emissive => kernel.emissive_sample(),
+        MaterialKind::Principled => kernel.dispatch_principled_sample(s, wo, u, v),
+        MaterialKind::Stone => kernel.stone_sample(s, wo, u, v),
+        MaterialKind::Wood => kernel.wood_sample(s, wo, u, v),
+        MaterialKind::Fabric => kernel.fabric_sample(s, wo, u, v),
+        MaterialKind::Conductor => kernel.conductor_sample(s, wo, u, v),
+        MaterialKind::RoughDielectric => kernel.rough_dielectric_sample(s, wo, u, v),
+        MaterialKind::Clearcoat => kernel.clearcoat_sample(s, wo, u, v, 1.0 - v),
+        MaterialKind::Petal => kernel.petal_sample(s, wo, u, v, v),
+        MaterialKind::Leaf => kernel.leaf_sample(s, wo, u, v),
+        MaterialKind::Water => kernel.water_sample(s, wo, v),
     }
 }

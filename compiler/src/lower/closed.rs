@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use lang::diagnostic::{Code, Diagnostic};
-use lang::scene::{Instance, MaterialModel, Scene, Shape};
+use lang::material::Traits as _;
+use lang::scene::{Instance, Scene, Shape};
 
 use super::Loaded;
 use crate::import::{Topology, topology};
@@ -55,12 +56,7 @@ pub(super) fn check(
 
 fn filling<'a>(scene: &'a Scene, instance: &Instance) -> Option<Filling<'a>> {
     let material = &scene.materials[instance.material?];
-    let inside = match &material.model {
-        MaterialModel::Dielectric { inside, .. } => inside,
-        // Water that names no medium may be a sea, open at its rim.
-        MaterialModel::Water { inside, .. } if inside.medium.is_some() => inside,
-        _ => return None,
-    };
+    let inside = material.model.inside()?;
     let medium = inside.medium.map(|medium| scene.media[medium].name.text.as_str());
     Some(Filling { material: &material.name.text, medium })
 }

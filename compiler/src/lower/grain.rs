@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 use lang::diagnostic::{Code, Diagnostic};
-use lang::scene::{Instance, MaterialModel, Scene};
+use lang::material::Traits as _;
+use lang::scene::{Instance, Scene};
 
 use super::object::Thing;
 use super::pieces::pieces;
@@ -15,7 +16,7 @@ const BEAM: f64 = 3.0;
 /// Whether the instance has a grain.
 pub(super) fn matters(scene: &Scene, instance: &Instance) -> bool {
     let material = instance.material.map(|material| &scene.materials[material].model);
-    matches!(material, Some(MaterialModel::Wood { .. }))
+    material.is_some_and(|material| material.grain().is_some())
 }
 
 /// Warns when `corners`, the triangles of `instance` in the world, are a beam of wood with its grain across.
@@ -26,10 +27,10 @@ pub(super) fn check(
     corners: &[[DVec3; 3]],
 ) -> Option<Diagnostic> {
     let material = &scene.materials[instance.material?];
-    let MaterialModel::Wood { grain, grain_span, .. } = &material.model else { return None };
+    let grain = material.model.grain()?;
     let size = extent(thing, &longest_piece(thing, corners));
     let long = longest(size)?;
-    if long == *grain {
+    if long == grain.axis {
         return None;
     }
     let axes = ["x", "y", "z"];
@@ -49,7 +50,7 @@ pub(super) fn check(
     Some(
         Diagnostic::warning(Code("W0511"), "grain_across", text)
             .at(instance.shape_span, label)
-            .because(*grain_span, "the grain is said here")
+            .because(grain.span, "the grain is said here")
             .with_note("timber is cut along the grain; end grain would show on the long faces")
             .with_help(help),
     )

@@ -13,7 +13,8 @@ use std::fmt;
 use std::str::FromStr;
 
 use glam::DMat3;
-use lang::scene::{Color, Instance, MaterialModel, Scene, Shape};
+use lang::material::Traits as _;
+use lang::scene::{Color, Instance, Scene, Shape};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -197,13 +198,10 @@ fn glows(scene: &Scene, file: &MeshFile, instance: &Instance, parts: &[&Part]) -
     let dark =
         |color: &Color| matches!(color, Color::Constant(rgb) if rgb.iter().all(|c| *c == 0.0));
     if let Some(material) = instance.material {
-        return match &scene.materials[material].model {
-            MaterialModel::Emissive { .. } => true,
-            MaterialModel::Principled(model) => {
-                model.emission_strength != 0.0 && !dark(&model.emission)
-            }
-            _ => false,
-        };
+        let model = &scene.materials[material].model;
+        let lit = |(color, strength): (Color, f64)| strength != 0.0 && !dark(&color);
+        // What does nothing else counts as a light though it be dark.
+        return !model.scatters() || model.emission().is_some_and(lit);
     }
     let of_part = |part: &&Part| part.material.map(|material| &file.materials[material as usize]);
     parts.iter().filter_map(of_part).any(|material| material.emission.iter().any(|c| *c != 0.0))

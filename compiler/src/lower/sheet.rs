@@ -5,7 +5,8 @@
 //! of any kind, meets the same petal.
 
 use glam::{DVec2, DVec3};
-use lang::scene::{Instance, MaterialModel, Scene};
+use lang::material::Traits as _;
+use lang::scene::{Instance, Scene};
 
 use super::pieces::pieces;
 use crate::import::Part;
@@ -25,13 +26,8 @@ impl Sheets {
     /// `None` for materials that do not differ from piece to piece.
     pub(super) fn of(scene: &Scene, instance: &Instance) -> Option<Self> {
         let name = instance.name.text.clone();
-        let sheets = match &scene.materials[instance.material?].model {
-            MaterialModel::Leaf(leaf) => Self { name, gap: leaf.gap, pillow: 0.0, tilt: 0.0 },
-            MaterialModel::Petal(petal) => {
-                Self { name, gap: 0.0, pillow: petal.pillow, tilt: petal.tilt }
-            }
-            _ => return None,
-        };
+        let sheet = scene.materials[instance.material?].model.sheet()?;
+        let sheets = Self { name, gap: sheet.gap, pillow: sheet.pillow, tilt: sheet.tilt };
         (sheets.gap > 0.0 || sheets.leans()).then_some(sheets)
     }
 

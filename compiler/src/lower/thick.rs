@@ -3,6 +3,7 @@
 
 use glam::DVec3;
 use lang::diagnostic::{Code, Diagnostic};
+use lang::material::Traits as _;
 use lang::scene::{Instance, MaterialModel, MediumModel, Scene, Shape};
 
 use super::Loaded;
@@ -29,12 +30,9 @@ pub(super) fn check(scene: &Scene, loaded: &Loaded, diagnostics: &mut Vec<Diagno
 /// Whether the size of the instance is looked at.
 pub(super) fn matters(scene: &Scene, instance: &Instance) -> bool {
     let model = instance.material.map(|material| &scene.materials[material].model);
-    model.is_some_and(|model| match model {
-        MaterialModel::Petal(_) | MaterialModel::Leaf(_) => true,
-        MaterialModel::Dielectric { inside, .. } | MaterialModel::Water { inside, .. } => {
-            inside.medium.is_some()
-        }
-        _ => false,
+    model.is_some_and(|model| {
+        let filled = model.inside().is_some_and(|inside| inside.medium.is_some());
+        model.sheet().is_some() || filled
     })
 }
 
@@ -70,11 +68,7 @@ fn sheet(
     model: &MaterialModel,
     size: DVec3,
 ) -> Option<Diagnostic> {
-    let thickness = match model {
-        MaterialModel::Petal(petal) => petal.thickness[0].max(petal.thickness[1]),
-        MaterialModel::Leaf(leaf) => leaf.thickness,
-        _ => return None,
-    };
+    let thickness = model.sheet()?.thickness;
     let mut sides = size.to_array();
     sides.sort_by(f64::total_cmp);
     let width = sides[1];
@@ -98,12 +92,11 @@ fn filling(
     model: &MaterialModel,
     size: DVec3,
 ) -> Option<Diagnostic> {
-    let (MaterialModel::Dielectric { inside, .. } | MaterialModel::Water { inside, .. }) = model
-    else {
-        return None;
+    let medium = &scene.media[model.inside()?.medium?];
+    let sigma_s = match medium.model {
+        MediumModel::Homogeneous { sigma_s, .. } => sigma_s,
+        MediumModel::Fog { .. } => return None,
     };
-    let medium = &scene.media[inside.medium?];
-    let MediumModel::Homogeneous { sigma_s, .. } = medium.model else { return None };
     let most = sigma_s.into_iter().fold(0.0, f64::max);
     let long = size.max_element();
     let share = -(-most * long).exp_m1();

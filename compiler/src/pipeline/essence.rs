@@ -4,10 +4,7 @@
 //! films, colours and the like. What is not taken away here counts, so a field that somebody adds to the language
 //! counts until it is named below.
 
-use lang::scene::{
-    Color, Material, MaterialModel, Medium, MediumModel, Name, Sampler, Scalar, Scene, SkyModel,
-    ToneMap,
-};
+use lang::scene::{Material, Medium, MediumModel, Name, Sampler, Scene, SkyModel, ToneMap};
 use lang::source::{SourceSet, Span};
 
 use super::load::beside;
@@ -102,24 +99,6 @@ fn forget_light(medium: &mut Medium) {
     }
 }
 
-fn plain(color: &mut Color) {
-    if let Color::Constant(rgb) = color {
-        *rgb = [1.0; 3];
-    }
-}
-
-fn number(scalar: &mut Scalar) {
-    if let Scalar::Constant(value) = scalar {
-        *value = 1.0;
-    }
-}
-
-fn zero<const N: usize>(values: [&mut f64; N]) {
-    for value in values {
-        *value = 0.0;
-    }
-}
-
 /// Numbers that only the record of the material has. Whether it gives light, is cut out by alpha and so on is
 /// compared in the records themselves, when they are made again.
 fn forget_numbers(material: &mut Material) {
@@ -127,71 +106,7 @@ fn forget_numbers(material: &mut Material) {
     if let Some(map) = &mut material.normal {
         map.strength = 1.0;
     }
-    match &mut material.model {
-        MaterialModel::Diffuse { color } => plain(color),
-        MaterialModel::Metal { color, fuzz } => {
-            plain(color);
-            zero([fuzz]);
-        }
-        MaterialModel::Dielectric { ior, roughness, inside: _ } => {
-            number(roughness);
-            zero([ior]);
-        }
-        MaterialModel::Water { ior, inside: _, sigma_a, depth_color, waves } => {
-            zero([ior]);
-            (*sigma_a, *depth_color, *waves) = ([0.0; 3], [0.0; 3], None);
-        }
-        MaterialModel::Emissive { color, strength, both_sides: _ } => {
-            plain(color);
-            zero([strength]);
-        }
-        MaterialModel::Conductor { color, roughness, anisotropy, compensation } => {
-            plain(color);
-            number(roughness);
-            zero([anisotropy]);
-            *compensation = false;
-        }
-        MaterialModel::Clearcoat { color, fuzz, coat_ior, coat_tint } => {
-            plain(color);
-            zero([fuzz, coat_ior]);
-            *coat_tint = [0.0; 3];
-        }
-        MaterialModel::Stone { color, vein, pattern, gloss } => {
-            (*color, *vein) = ([0.0; 3], None);
-            zero([&mut pattern.scale, &mut pattern.step, &mut pattern.height, gloss]);
-        }
-        MaterialModel::Wood { color, late, grain: _, grain_span, pattern, gloss, anisotropy } => {
-            (*color, *late, *grain_span) = ([0.0; 3], None, Span::default());
-            zero([&mut pattern.scale, &mut pattern.step, &mut pattern.height, gloss, anisotropy]);
-        }
-        MaterialModel::Fabric { color, pattern, roughness, gloss, translucency } => {
-            plain(color);
-            zero([&mut pattern.scale, &mut pattern.step, &mut pattern.height]);
-            zero([roughness, gloss, translucency]);
-        }
-        MaterialModel::Principled(model) => {
-            for color in [&mut model.color, &mut model.specular_color] {
-                plain(color);
-            }
-            number(&mut model.metallic);
-            number(&mut model.roughness);
-            number(&mut model.specular);
-            number(&mut model.coat);
-            number(&mut model.coat_roughness);
-            zero([&mut model.ior]);
-        }
-        MaterialModel::Leaf(leaf) => {
-            plain(&mut leaf.color);
-            zero([&mut leaf.translucency, &mut leaf.forward, &mut leaf.g]);
-            leaf.sigma_a = [0.0; 3];
-        }
-        MaterialModel::Petal(petal) => {
-            plain(&mut petal.color);
-            zero([&mut petal.fuzz_weight, &mut petal.fuzz, &mut petal.wax, &mut petal.ior]);
-            zero([&mut petal.sigma_s, &mut petal.g]);
-            petal.sigma_a = [0.0; 3];
-        }
-    }
+    material.model.forget_numbers();
 }
 
 #[cfg(test)]

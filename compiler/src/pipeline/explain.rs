@@ -271,7 +271,12 @@ impl Explain<'_> {
         let sky = sky.filter(|(_, record)| of_format(&record.texture));
         let sky = sky.map(|(sky, _)| by(text.clone(), &sky.name));
         let users = self.materials(&text, reads).map(|(_, by)| (text.clone(), by));
-        Self::row(name_of(format.feature()), self.features.textures.contains(&format), users.or(sky), None)
+        Self::row(
+            name_of(format.feature()),
+            self.features.textures.contains(&format),
+            users.or(sky),
+            None,
+        )
     }
 
     fn paths(&self) -> Vec<Row> {

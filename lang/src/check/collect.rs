@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::eval::value::Value;
 use crate::eval::{Evaluator, Scope};
 use crate::resolve::{ItemId, quoted_list};
-use crate::schema::{Field, FieldType, Kind, TypeSchema, pattern};
+use crate::schema::{Field, FieldType, Kind, TypeSchema};
 use crate::source::Span;
 use crate::suggest::suggest;
 use crate::syntax::{Arg, Expr, Ident};
@@ -108,10 +108,6 @@ impl<'p> Evaluator<'p> {
         let what = if schema.kind == Kind::Shape { "argument" } else { "field" };
         let text = format!("{} has no {what} `{}`", schema.described(), name.text);
         let error = Diagnostic::error(Code("E0201"), text);
-        if let Some((why, help)) = pattern::refusal(schema, &name.text) {
-            self.fault(error.at(name.span, "not written here").with_note(why).with_help(help));
-            return;
-        }
         let free = |ours: &str| !written.contains(ours);
         let names = schema.fields.iter().map(|field| field.name).filter(|ours| free(ours));
         let close = suggest(&name.text, names);

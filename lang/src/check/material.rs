@@ -1,7 +1,5 @@
 //! Material fields become the material of the scene.
 
-use std::collections::BTreeMap;
-
 use super::camera::one_of;
 use super::fields::Fields;
 use super::medium;
@@ -9,8 +7,9 @@ use super::pattern;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::eval::value::Value;
+use crate::material::{Lints, Traits as _};
 use crate::resolve::ItemId;
-use crate::scene::{Color, Leaf, MaterialModel, NormalMap, Petal, Principled, Scalar};
+use crate::scene::{Color, MaterialModel, NormalMap};
 use crate::source::Span;
 use crate::units;
 
@@ -78,140 +77,17 @@ fn invisible_coat(ev: &mut Evaluator<'_>, fields: &Fields) {
 
 /// A surface that reflects more than any real one.
 fn whiteness(ev: &mut Evaluator<'_>, fields: &Fields) {
-    let scatters = matches!(
-        fields.schema.name,
-        "diffuse" | "principled" | "clearcoat" | "stone" | "wood" | "fabric"
-    );
     let (Some(Value::Color(rgb)), Some(span)) = (fields.get("color"), fields.value_span("color"))
     else {
         return;
     };
-    if scatters && rgb.iter().all(|c| *c > WHITEST && *c <= 1.0) {
+    if Lints::of(fields.schema.name).albedo && rgb.iter().all(|c| *c > WHITEST && *c <= 1.0) {
         let text = "this surface is whiter than any real one";
         let warning = Diagnostic::warning(Code("W0401"), "white_albedo", text)
             .at(span, "reflects over 95% of the light")
             .with_note("paper reflects about 0.8, fresh snow 0.9; light then fades sooner, and so does noise");
         ev.tell(warning);
     }
-}
-
-/// Builds the model; `textures` gives the index of a texture, `media` that of a medium. `None` only for
-/// fields with faults.
-pub(super) fn model(
-    fields: &Fields,
-    textures: &dyn Fn(ItemId) -> usize,
-    media: &BTreeMap<ItemId, usize>,
-) -> Option<MaterialModel> {
-    let color = |name: &str| match fields.get(name) {
-        Some(Value::Color(rgb)) => Some(Color::Constant(rgb)),
-        Some(Value::TextureColor(id)) => Some(Color::Texture(textures(id))),
-        _ => None,
-    };
-    let scalar = |name: &str| match fields.get(name) {
-        Some(Value::Number(value, _)) => Some(Scalar::Constant(value)),
-        Some(Value::TextureChannel(id, channel)) => {
-            Some(Scalar::Texture { texture: textures(id), channel })
-        }
-        _ => None,
-    };
-    Some(match fields.schema.name {
-        "diffuse" => MaterialModel::Diffuse { color: color("color")? },
-        "metal" => MaterialModel::Metal { color: color("color")?, fuzz: fields.number("fuzz")? },
-        "dielectric" => MaterialModel::Dielectric {
-            ior: fields.number("ior")?,
-            roughness: scalar("roughness")?,
-            inside: medium::inside(fields, media)?,
-        },
-        "conductor" => MaterialModel::Conductor {
-            color: color("color")?,
-            roughness: scalar("roughness")?,
-            anisotropy: fields.number("anisotropy")?,
-            compensation: fields.word("compensation")? == "on",
-        },
-        "clearcoat" => MaterialModel::Clearcoat {
-            color: color("color")?,
-            fuzz: fields.number("fuzz")?,
-            coat_ior: fields.number("coat.ior")?,
-            coat_tint: fields.color("coat.tint")?,
-        },
-        "water" => MaterialModel::Water {
-            ior: fields.number("ior")?,
-            inside: medium::inside(fields, media)?,
-            sigma_a: fields.vector("sigma_a")?,
-            depth_color: fields.color("depth.color")?,
-            waves: match fields.word("waves")? {
-                "on" => Some([fields.number("waves.scale")?, fields.number("waves.height")?]),
-                _ => None,
-            },
-        },
-        "emissive" => MaterialModel::Emissive {
-            color: color("color")?,
-            strength: fields.number("strength")?,
-            both_sides: fields.word("sides")? == "both",
-        },
-        "stone" | "wood" | "fabric" => pattern::model(fields, &color)?,
-        "leaf" | "petal" => sheet(fields, &color, &scalar)?,
-        _ => MaterialModel::Principled(principled(fields, &color, &scalar)?),
-    })
-}
-
-type Slot<'a, T> = &'a dyn Fn(&str) -> Option<T>;
-
-fn sheet(
-    fields: &Fields,
-    color: Slot<'_, Color>,
-    scalar: Slot<'_, Scalar>,
-) -> Option<MaterialModel> {
-    Some(match fields.schema.name {
-        "leaf" => MaterialModel::Leaf(Leaf {
-            color: color("color")?,
-            alpha: scalar("alpha")?,
-            alpha_clip: fields.number("alpha.clip"),
-            translucency: fields.number("translucency")?,
-            sigma_a: fields.vector("sigma_a")?,
-            thickness: fields.number("thickness")?,
-            forward: fields.number("forward")?,
-            g: fields.number("g")?,
-            gap: fields.number("gap")?,
-        }),
-        _ => MaterialModel::Petal(Petal {
-            color: color("color")?,
-            alpha: scalar("alpha")?,
-            alpha_clip: fields.number("alpha.clip"),
-            fuzz_weight: fields.number("fuzz.weight")?,
-            fuzz: fields.number("fuzz.radius")?,
-            wax: fields.number("wax")?,
-            ior: fields.number("ior")?,
-            sigma_a: fields.vector("sigma_a")?,
-            sigma_s: fields.number("sigma_s")?,
-            g: fields.number("g")?,
-            thickness: fields.interval("thickness")?,
-            pillow: fields.number("pillow")?,
-            tilt: fields.number("tilt")?,
-        }),
-    })
-}
-
-fn principled(
-    fields: &Fields,
-    color: Slot<'_, Color>,
-    scalar: Slot<'_, Scalar>,
-) -> Option<Principled> {
-    Some(Principled {
-        color: color("color")?,
-        metallic: scalar("metallic")?,
-        roughness: scalar("roughness")?,
-        ior: fields.number("ior")?,
-        specular: scalar("specular")?,
-        specular_color: color("specular.color")?,
-        coat: scalar("coat.weight")?,
-        coat_roughness: scalar("coat.roughness")?,
-        transmission: scalar("transmission")?,
-        emission: color("emission.color")?,
-        emission_strength: fields.number("emission.strength")?,
-        alpha: scalar("alpha")?,
-        alpha_clip: fields.number("alpha.clip"),
-    })
 }
 
 /// The normal map, if there is one.
@@ -235,11 +111,8 @@ pub(super) fn textures(fields: &Fields) -> Vec<ItemId> {
 
 /// Does it give off light?
 pub(super) fn emits(model: &MaterialModel) -> bool {
-    let (color, strength) = match model {
-        MaterialModel::Emissive { color, strength, .. } => (color, *strength),
-        MaterialModel::Principled(p) => (&p.emission, p.emission_strength),
-        _ => return false,
-    };
-    let dark = matches!(color, Color::Constant(rgb) if rgb.iter().all(|c| *c == 0.0));
-    strength > 0.0 && !dark
+    model.emission().is_some_and(|(color, strength)| {
+        let dark = matches!(color, Color::Constant(rgb) if rgb.iter().all(|c| *c == 0.0));
+        strength > 0.0 && !dark
+    })
 }

@@ -1,14 +1,12 @@
 //! Media fields become coefficients per metre.
 
-use std::collections::BTreeMap;
-
 use super::camera::one_of;
 use super::fields::Fields;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::eval::value::Value;
 use crate::resolve::ItemId;
-use crate::scene::{Camera, Inside, Medium, MediumModel, Name, Render, Rgb};
+use crate::scene::{Camera, Medium, MediumModel, Name, Render, Rgb};
 use crate::source::Span;
 use crate::units::{self, Dim};
 
@@ -72,15 +70,6 @@ pub(super) fn medium(name: Name, fields: &Fields) -> Option<Medium> {
     };
     let model = MediumModel::Homogeneous { sigma_a, sigma_s, g: fields.number("g")? };
     Some(Medium { name, model, sky_distance })
-}
-
-/// What the fields of a material say about its inside; `media` gives the index of a medium.
-pub(super) fn inside(fields: &Fields, media: &BTreeMap<ItemId, usize>) -> Option<Inside> {
-    let medium = match fields.item("interior") {
-        Some(id) => Some(*media.get(&id)?),
-        None => None,
-    };
-    Some(Inside { medium, priority: fields.integer("priority")? })
 }
 
 /// Reports fog in a place where only a homogeneous medium can be.

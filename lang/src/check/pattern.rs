@@ -1,30 +1,17 @@
-//! Fields of stone, wood and fabric become their models.
+//! Warns of patterns that cannot be meant.
 
 use super::fields::Fields;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
-use crate::scene::{Color, MaterialModel, Pattern};
-
-/// Slope of the field of a material at `scale` 1, per metre: its root mean square, measured.
-fn slope(name: &str) -> Option<f64> {
-    match name {
-        "stone" => Some(STONE_SLOPE),
-        "wood" => Some(WOOD_SLOPE),
-        "fabric" => Some(FABRIC_SLOPE),
-        _ => None,
-    }
-}
-
-const STONE_SLOPE: f64 = 3.3;
-const WOOD_SLOPE: f64 = 2.8;
-const FABRIC_SLOPE: f64 = 7.9;
+use crate::material::Lints;
+use crate::scene::Pattern;
 
 /// Differences of a field never exceed this in the mean, however long the step.
 const LARGEST_DIFFERENCE: f64 = 0.15;
 
 /// Warns of bumps that are steeper than 45 degrees on average: they look like noise, not like a surface.
 pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
-    let Some(slope) = slope(fields.schema.name) else { return };
+    let Some(slope) = Lints::of(fields.schema.name).slope else { return };
     let Some(pattern) = pattern(fields) else { return };
     let steepness = pattern.height * (slope * pattern.scale).min(LARGEST_DIFFERENCE / pattern.step);
     let written = ["bump.strength", "scale", "bump.eps"];
@@ -44,39 +31,6 @@ pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
         .with_help(format!("write `bump.strength = {most}mm` or less"));
         ev.tell(warning);
     }
-}
-
-/// The model; `color` reads a colour or a texture. `None` only for fields with faults.
-pub(super) fn model(
-    fields: &Fields,
-    color: &dyn Fn(&str) -> Option<Color>,
-) -> Option<MaterialModel> {
-    let pattern = pattern(fields)?;
-    let gloss = fields.number("gloss")?;
-    Some(match fields.schema.name {
-        "stone" => MaterialModel::Stone {
-            color: fields.color("color")?,
-            vein: fields.color("color.vein"),
-            pattern,
-            gloss,
-        },
-        "wood" => MaterialModel::Wood {
-            color: fields.color("color")?,
-            late: fields.color("color.late"),
-            grain: ["x", "y", "z"].iter().position(|axis| fields.word("grain") == Some(axis))?,
-            grain_span: fields.value_span("grain")?,
-            pattern,
-            gloss,
-            anisotropy: fields.number("anisotropy")?,
-        },
-        _ => MaterialModel::Fabric {
-            color: color("color")?,
-            pattern,
-            roughness: fields.number("roughness")?,
-            gloss,
-            translucency: fields.number("translucency")?,
-        },
-    })
 }
 
 fn pattern(fields: &Fields) -> Option<Pattern> {

@@ -8,8 +8,11 @@ use super::{Checker, ids_of, is_in_world, light, material, medium, motion};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::eval::value::ShapeValue;
+use crate::material::Reader;
 use crate::resolve::ItemId;
-use crate::scene::{Asset, Instance, Light, Material, Medium, Name, Scene, Shape, Texture};
+use crate::scene::{
+    Asset, Instance, Light, Material, MaterialModel, Medium, Name, Scene, Shape, Texture,
+};
 use crate::schema::Kind;
 
 impl Checker {
@@ -47,7 +50,8 @@ impl Checker {
             .map(|(name, id)| {
                 let texture = |id: ItemId| texture_at.get(&id).copied().unwrap_or(0);
                 let fields = self.sound(*id)?;
-                let model = material::model(fields, &texture, &medium_at)?;
+                let from = Reader { fields, textures: &texture, media: &medium_at };
+                let model = MaterialModel::read(&from)?;
                 let normal = material::normal(fields, &texture);
                 Some(Material { name: name.clone(), model, normal })
             })

@@ -5,10 +5,10 @@ use crate::units::Dim;
 
 pub(super) const TYPES: &[&TypeSchema] = &[&HOMOGENEOUS, &FOG];
 
-pub(super) const COEFFICIENT: Bounds = Bounds::new(Dim::PER_LENGTH, "/m", 0.0, ANY);
+pub(crate) const COEFFICIENT: Bounds = Bounds::new(Dim::PER_LENGTH, "/m", 0.0, ANY);
 
 /// Names that other renderers give absorption.
-pub(super) const SIGMA_A_NAMES: &[(&str, &str)] = &[
+pub(crate) const SIGMA_A_NAMES: &[(&str, &str)] = &[
     ("absorption", "LuxCore"),
     ("absorption_coefficient", "common use"),
     ("sigmaA", "Mitsuba 0.6"),

@@ -87,9 +87,7 @@ fn surface(features: &FeatureSet) -> String {
     let flat = "triangle_uv(light.primitive, triangle_weights(light.primitive, x))";
     let cases = cases(features, |kind, _| match kind {
         LightKind::Sphere => Some(sphere.to_owned()),
-        LightKind::Rectangle | LightKind::Triangle => {
-            features.triangles.then(|| flat.to_owned())
-        }
+        LightKind::Rectangle | LightKind::Triangle => features.triangles.then(|| flat.to_owned()),
         LightKind::Sky => None,
     });
     let uv = if features.textures.is_empty() {

@@ -1,7 +1,7 @@
 //! All radiance times a power of two: the picture times that power. Which light is chosen, where paths end
 //! and what fog hides must not depend on how bright the scene is.
 
-use lang::scene::{MaterialModel, MediumModel, Rgb, Scene, SkyModel};
+use lang::scene::{MediumModel, Rgb, Scene, SkyModel};
 use tests::features::{changed, named};
 
 use crate::RICH;
@@ -10,26 +10,19 @@ use crate::compare::{assert_exact, film};
 /// The lowest makes 1e-6 of a light, the highest 1e9.
 const POWERS: [i32; 3] = [-20, 1, 30];
 
+/// Fields of materials that are radiance, or the factor on a colour that is.
+const RADIANCE: [&str; 3] = ["strength", "emission.strength", "depth.color"];
+
 /// Multiplies every radiance of the scene. Colours that come from images have a factor next to them.
 fn brighten(scene: &mut Scene, factor: f64) {
     let times = |color: &mut Rgb| *color = color.map(|c| c * factor);
     scene.lights.iter_mut().for_each(|light| times(&mut light.radiance));
     for material in &mut scene.materials {
-        match &mut material.model {
-            MaterialModel::Emissive { strength, .. } => *strength *= factor,
-            MaterialModel::Principled(principled) => principled.emission_strength *= factor,
-            MaterialModel::Water { depth_color, .. } => times(depth_color),
-            MaterialModel::Diffuse { .. }
-            | MaterialModel::Metal { .. }
-            | MaterialModel::Dielectric { .. }
-            | MaterialModel::Conductor { .. }
-            | MaterialModel::Clearcoat { .. }
-            | MaterialModel::Stone { .. }
-            | MaterialModel::Wood { .. }
-            | MaterialModel::Fabric { .. }
-            | MaterialModel::Leaf(_)
-            | MaterialModel::Petal(_) => {}
-        }
+        material.model.numbers_mut(&mut |field, values| {
+            if RADIANCE.contains(&field.name) {
+                values.iter_mut().for_each(|value| *value *= factor);
+            }
+        });
     }
     for medium in &mut scene.media {
         match &mut medium.model {

@@ -1,7 +1,9 @@
 //! The same scene in other units of length, or elsewhere in the world: the same picture. The compiler
 //! centres and scales every scene, so the kernel does not see the difference.
 
-use lang::scene::{AssetFormat, MaterialModel, MediumModel, Pattern, Scene, Shape};
+use lang::scene::{AssetFormat, MediumModel, Scene, Shape};
+use lang::schema::unit_of;
+use lang::units::Dim;
 use tests::features::{changed, named};
 
 use crate::RICH;
@@ -15,37 +17,16 @@ fn scale(scene: &mut Scene, power: i32) {
     let (by, per) = (2.0_f64.powi(power), 2.0_f64.powi(-power));
     lengths(scene, |length| *length *= by);
     for material in &mut scene.materials {
-        match &mut material.model {
-            MaterialModel::Stone { pattern, .. }
-            | MaterialModel::Wood { pattern, .. }
-            | MaterialModel::Fabric { pattern, .. } => {
-                let Pattern { scale, step, height } = pattern;
-                *scale *= per;
-                *step *= by;
-                *height *= by;
-            }
-            MaterialModel::Water { sigma_a, waves, inside: _, ior: _, depth_color: _ } => {
-                *sigma_a = sigma_a.map(|sigma| sigma * per);
-                // The scale of their coordinates; their height is a slope.
-                *waves = waves.map(|[scale, height]| [scale * per, height]);
-            }
-            MaterialModel::Leaf(leaf) => {
-                leaf.sigma_a = leaf.sigma_a.map(|sigma| sigma * per);
-                leaf.thickness *= by;
-            }
-            MaterialModel::Petal(petal) => {
-                petal.sigma_a = petal.sigma_a.map(|sigma| sigma * per);
-                petal.sigma_s *= per;
-                petal.thickness = petal.thickness.map(|length| length * by);
-            }
-            MaterialModel::Diffuse { .. }
-            | MaterialModel::Metal { .. }
-            | MaterialModel::Dielectric { .. }
-            | MaterialModel::Emissive { .. }
-            | MaterialModel::Principled(_)
-            | MaterialModel::Conductor { .. }
-            | MaterialModel::Clearcoat { .. } => {}
-        }
+        material.model.numbers_mut(&mut |field, values| {
+            let factor = match unit_of(field.ty) {
+                Some((Dim::LENGTH, _)) => by,
+                Some((Dim::PER_LENGTH, _)) => per,
+                // Scales of coordinates, which are metres of the object times this.
+                _ if ["scale", "waves.scale"].contains(&field.name) => per,
+                _ => 1.0,
+            };
+            values.iter_mut().for_each(|value| *value *= factor);
+        });
     }
     for medium in &mut scene.media {
         medium.sky_distance *= by;

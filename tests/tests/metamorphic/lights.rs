@@ -91,7 +91,7 @@ fn group(first: bool) -> Compiled {
         let off = if first { "pearl" } else { "lamp" };
         let off = scene.materials.iter_mut().find(|material| material.name.text == off);
         match off.map(|material| &mut material.model) {
-            Some(MaterialModel::Emissive { strength, .. }) => *strength = 0.0,
+            Some(MaterialModel::Emissive(emissive)) => emissive.strength = 0.0,
             other => panic!("{other:?} gives no light"),
         }
     })

@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec3};
 use pack::abi::MaterialKind;
 use runtime::kernel::{f32 as single, f64 as double};
+use tests::features::sample_at;
 use tests::kernel::{Bench, Lobe};
 use tests::layers::Layers;
 use tests::statistics::grid::{Grid, Shape};
@@ -298,33 +299,6 @@ fn lobes() -> Vec<Lobe> {
     let turned = lobes.clone().into_iter().map(|lobe| Lobe { normal: DVec3::NEG_Z, ..lobe });
     lobes.extend(turned.collect::<Vec<_>>());
     lobes
-}
-
-/// The sample of `lobe` for these numbers.
-pub(crate) fn sample_at(
-    kernel: &mut single::Kernel<'_>,
-    lobe: &Lobe,
-    wo: Vec3,
-    u: glam::Vec2,
-    v: f32,
-) -> single::Scattered {
-    let s = lobe.single();
-    match lobe.kind {
-        MaterialKind::Diffuse => kernel.diffuse_sample(s, u),
-        MaterialKind::Metal => kernel.metal_sample(s, wo, u, v),
-        MaterialKind::Dielectric => kernel.dielectric_sample(s, wo, v),
-        MaterialKind::Emissive => kernel.emissive_sample(),
-        MaterialKind::Principled => kernel.dispatch_principled_sample(s, wo, u, v),
-        MaterialKind::Stone => kernel.stone_sample(s, wo, u, v),
-        MaterialKind::Wood => kernel.wood_sample(s, wo, u, v),
-        MaterialKind::Fabric => kernel.fabric_sample(s, wo, u, v),
-        MaterialKind::Conductor => kernel.conductor_sample(s, wo, u, v),
-        MaterialKind::RoughDielectric => kernel.rough_dielectric_sample(s, wo, u, v),
-        MaterialKind::Clearcoat => kernel.clearcoat_sample(s, wo, u, v, 1.0 - v),
-        MaterialKind::Petal => kernel.petal_sample(s, wo, u, v, v),
-        MaterialKind::Leaf => kernel.leaf_sample(s, wo, u, v),
-        MaterialKind::Water => kernel.water_sample(s, wo, v),
-    }
 }
 
 #[test]

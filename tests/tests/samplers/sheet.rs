@@ -1,11 +1,11 @@
 //! Directions of thin sheets, on both sides of them.
 
 use pack::abi::{Material, MaterialKind};
+use tests::features::sample_at;
 use tests::kernel::{Bench, Lobe};
 use tests::statistics::Counts;
 use tests::statistics::grid::{Grid, Shape};
 
-use crate::bsdf::sample_at;
 use crate::{N, check, corners, key};
 
 /// Translucency, share that goes on forward, its mean cosine, cosine of the incident direction.

@@ -2,11 +2,12 @@
 
 use glam::DVec3;
 use runtime::kernel::f32 as single;
+use tests::features::sample_at;
 use tests::kernel::Lobe;
 use tests::statistics::Counts;
 use tests::statistics::grid::{Grid, Shape};
 
-use crate::bsdf::{Case, compare, lobe_grid, sample_at};
+use crate::bsdf::{Case, compare, lobe_grid};
 use crate::{N, check, corners, key};
 
 /// Roughness, anisotropy, compensation, cosine.

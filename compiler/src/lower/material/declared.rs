@@ -1,6 +1,10 @@
 //! A material that a scene declares becomes a record.
 
-use lang::scene::{self, Color, Inside, Leaf, MaterialModel, Pattern, Petal, Rgb, Scalar};
+use lang::material::{
+    self, Clearcoat, Conductor, Dielectric, Diffuse, Emissive, Fabric, Inside, Leaf, Metal,
+    Pattern, Petal, Stone, Wood,
+};
+use lang::scene::{self, Color, MaterialModel, Scalar};
 use pack::abi::{self, MaterialKind, NONE, material_flag};
 
 use super::{MaterialTable, blank, factor, set_normal_map, with_ior};
@@ -30,118 +34,90 @@ impl MaterialTable<'_> {
         record
     }
 
+    /// A kind that is forgotten here does not compile.
     fn model(&mut self, model: &MaterialModel) -> abi::Material {
         match model {
-            MaterialModel::Diffuse { color } => {
-                let (color, color_texture) = self.color(*color);
-                abi::Material { color, color_texture, ..blank(MaterialKind::Diffuse) }
-            }
-            MaterialModel::Metal { color, fuzz } => {
-                let (color, color_texture) = self.color(*color);
-                let fuzz = *fuzz as f32;
-                abi::Material { color, color_texture, fuzz, ..blank(MaterialKind::Metal) }
-            }
-            MaterialModel::Dielectric { ior, roughness, inside } => {
-                filled(self.dielectric(*ior, *roughness), *inside)
-            }
-            MaterialModel::Conductor { color, roughness, anisotropy, compensation } => {
-                self.conductor(*color, *roughness, *anisotropy, *compensation)
-            }
-            MaterialModel::Clearcoat { color, fuzz, coat_ior, coat_tint } => {
-                let (color, color_texture) = self.color(*color);
-                abi::Material {
-                    color,
-                    color_texture,
-                    fuzz: *fuzz as f32,
-                    tint: coat_tint.map(|c| c as f32),
-                    specular: fresnel::mean_from_within(*coat_ior) as f32,
-                    ..with_ior(blank(MaterialKind::Clearcoat), *coat_ior)
-                }
-            }
-            MaterialModel::Water { ior, inside, sigma_a, depth_color, waves } => {
-                self.water(*ior, *inside, (*sigma_a, *depth_color), *waves)
-            }
-            MaterialModel::Emissive { color, strength, both_sides } => {
-                let (emission, emission_texture) = self.emission(*color, *strength);
-                let flags = if *both_sides { material_flag::EMIT_BOTH_SIDES } else { 0 };
-                let base = blank(MaterialKind::Emissive);
-                abi::Material { emission, emission_texture, flags, ..base }
-            }
-            MaterialModel::Principled(principled) => self.principled(principled),
-            MaterialModel::Stone { color, vein, pattern, gloss } => {
-                stone(*color, *vein, pattern, *gloss)
-            }
-            MaterialModel::Wood {
-                color,
-                late,
-                grain,
-                grain_span: _,
-                pattern,
-                gloss,
-                anisotropy,
-            } => wood((*color, *late), *grain, pattern, *gloss, *anisotropy),
-            MaterialModel::Fabric { color, pattern, roughness, gloss, translucency } => {
-                self.fabric(*color, pattern, *roughness, *gloss, *translucency)
-            }
-            MaterialModel::Leaf(leaf) => self.leaf(leaf),
-            MaterialModel::Petal(petal) => self.petal(petal),
+            MaterialModel::Diffuse(from) => self.diffuse(from),
+            MaterialModel::Metal(from) => self.metal(from),
+            MaterialModel::Dielectric(from) => self.dielectric(from),
+            MaterialModel::Conductor(from) => self.conductor(from),
+            MaterialModel::Clearcoat(from) => self.clearcoat(from),
+            MaterialModel::Water(from) => self.water(from),
+            MaterialModel::Emissive(from) => self.emissive(from),
+            MaterialModel::Principled(from) => self.principled(from),
+            MaterialModel::Stone(from) => stone(from),
+            MaterialModel::Wood(from) => wood(from),
+            MaterialModel::Fabric(from) => self.fabric(from),
+            MaterialModel::Leaf(from) => self.leaf(from),
+            MaterialModel::Petal(from) => self.petal(from),
         }
     }
 
-    fn conductor(
-        &mut self,
-        color: Color,
-        roughness: Scalar,
-        anisotropy: f64,
-        compensation: bool,
-    ) -> abi::Material {
-        let (color, color_texture) = self.color(color);
+    fn diffuse(&mut self, from: &Diffuse) -> abi::Material {
+        let (color, color_texture) = self.color(from.color);
+        abi::Material { color, color_texture, ..blank(MaterialKind::Diffuse) }
+    }
+
+    fn metal(&mut self, from: &Metal) -> abi::Material {
+        let (color, color_texture) = self.color(from.color);
+        let fuzz = from.fuzz as f32;
+        abi::Material { color, color_texture, fuzz, ..blank(MaterialKind::Metal) }
+    }
+
+    fn clearcoat(&mut self, from: &Clearcoat) -> abi::Material {
+        let (color, color_texture) = self.color(from.color);
         abi::Material {
             color,
             color_texture,
-            roughness: factor(roughness),
-            metallic_roughness_texture: self.roughness_texture(roughness),
-            anisotropy: anisotropy as f32,
-            weight: if compensation { 1.0 } else { 0.0 },
-            flags: if anisotropy > 0.0 { material_flag::TANGENT } else { 0 },
+            fuzz: from.fuzz as f32,
+            tint: from.coat_tint.map(|c| c as f32),
+            specular: fresnel::mean_from_within(from.coat_ior) as f32,
+            ..with_ior(blank(MaterialKind::Clearcoat), from.coat_ior)
+        }
+    }
+
+    fn emissive(&mut self, from: &Emissive) -> abi::Material {
+        let (emission, emission_texture) = self.emission(from.color, from.strength);
+        let flags = if from.both_sides { material_flag::EMIT_BOTH_SIDES } else { 0 };
+        abi::Material { emission, emission_texture, flags, ..blank(MaterialKind::Emissive) }
+    }
+
+    fn conductor(&mut self, from: &Conductor) -> abi::Material {
+        let (color, color_texture) = self.color(from.color);
+        abi::Material {
+            color,
+            color_texture,
+            roughness: factor(from.roughness),
+            metallic_roughness_texture: self.roughness_texture(from.roughness),
+            anisotropy: from.anisotropy as f32,
+            weight: if from.compensation { 1.0 } else { 0.0 },
+            flags: if from.anisotropy > 0.0 { material_flag::TANGENT } else { 0 },
             ..blank(MaterialKind::Conductor)
         }
     }
 
-    fn fabric(
-        &mut self,
-        color: Color,
-        pattern: &Pattern,
-        roughness: f64,
-        gloss: f64,
-        translucency: f64,
-    ) -> abi::Material {
-        let (color, color_texture) = self.color(color);
+    fn fabric(&mut self, from: &Fabric) -> abi::Material {
+        let (color, color_texture) = self.color(from.color);
         abi::Material {
             color,
             color_texture,
-            roughness: roughness as f32,
-            gloss: gloss as f32,
-            weight: translucency as f32,
-            ..with_pattern(blank(MaterialKind::Fabric), pattern)
+            roughness: from.roughness as f32,
+            gloss: from.gloss as f32,
+            weight: from.translucency as f32,
+            ..with_pattern(blank(MaterialKind::Fabric), &from.pattern)
         }
     }
 
-    /// What it is filled with is said by a medium, or by `(sigma_a, depth_color)`.
-    fn water(
-        &mut self,
-        ior: f64,
-        mut inside: Inside,
-        (sigma_a, depth_color): (Rgb, Rgb),
-        waves: Option<[f64; 2]>,
-    ) -> abi::Material {
+    fn water(&mut self, from: &material::Water) -> abi::Material {
+        let (ior, filling) = (from.ior, &from.filling);
+        let mut inside = filling.inside;
         if inside.medium.is_none() {
             // Radiance in water is the square of its index times that in air.
-            let color = depth_color.map(|c| c * ior * ior);
+            let color = filling.depth_color.map(|c| c * ior * ior);
             inside.medium = Some(self.scene.media.len() + self.waters.len());
-            self.waters.push(Water { sigma_a, color });
+            self.waters.push(Water { sigma_a: filling.sigma_a, color });
         }
-        let [scale, height] = waves.unwrap_or([0.0; 2]);
+        let [scale, height] = from.waves.map_or([0.0; 2], |waves| [waves.scale, waves.height]);
         abi::Material {
             pattern_scale: scale as f32,
             bump_height: height as f32,
@@ -151,15 +127,18 @@ impl MaterialTable<'_> {
     }
 
     /// Polished glass has its own kind, so that scenes without rough glass do not carry its code.
-    fn dielectric(&mut self, ior: f64, roughness: Scalar) -> abi::Material {
-        if roughness == Scalar::Constant(0.0) {
-            return with_ior(blank(MaterialKind::Dielectric), ior);
-        }
-        abi::Material {
-            roughness: factor(roughness),
-            metallic_roughness_texture: self.roughness_texture(roughness),
-            ..with_ior(blank(MaterialKind::RoughDielectric), ior)
-        }
+    fn dielectric(&mut self, from: &Dielectric) -> abi::Material {
+        let roughness = from.roughness;
+        let surface = if roughness == Scalar::Constant(0.0) {
+            with_ior(blank(MaterialKind::Dielectric), from.ior)
+        } else {
+            abi::Material {
+                roughness: factor(roughness),
+                metallic_roughness_texture: self.roughness_texture(roughness),
+                ..with_ior(blank(MaterialKind::RoughDielectric), from.ior)
+            }
+        };
+        filled(surface, from.inside)
     }
 
     /// Sheets have no unit of their own: thickness in millimetres, coefficients per millimetre.
@@ -201,30 +180,24 @@ impl MaterialTable<'_> {
     }
 }
 
-fn stone(color: Rgb, vein: Option<Rgb>, pattern: &Pattern, gloss: f64) -> abi::Material {
+fn stone(from: &Stone) -> abi::Material {
+    let color = from.color;
     abi::Material {
         color: color.map(|c| c as f32),
-        tint: vein.unwrap_or(color.map(|c| c * VEIN)).map(|c| c as f32),
-        gloss: gloss as f32,
-        ..with_pattern(blank(MaterialKind::Stone), pattern)
+        tint: from.vein.unwrap_or(color.map(|c| c * VEIN)).map(|c| c as f32),
+        gloss: from.gloss as f32,
+        ..with_pattern(blank(MaterialKind::Stone), &from.pattern)
     }
 }
 
-/// Early and late wood; `grain`: the axis along which it runs.
-fn wood(
-    (early, late): (Rgb, Option<Rgb>),
-    grain: usize,
-    pattern: &Pattern,
-    gloss: f64,
-    anisotropy: f64,
-) -> abi::Material {
+fn wood(from: &Wood) -> abi::Material {
     abi::Material {
-        color: early.map(|c| c as f32),
-        tint: late.unwrap_or(late_wood(early)).map(|c| c as f32),
-        fuzz: GRAIN_CODES[grain],
-        gloss: gloss as f32,
-        anisotropy: anisotropy as f32,
-        ..with_pattern(blank(MaterialKind::Wood), pattern)
+        color: from.color.map(|c| c as f32),
+        tint: from.late.unwrap_or(late_wood(from.color)).map(|c| c as f32),
+        fuzz: GRAIN_CODES[from.grain.axis],
+        gloss: from.gloss as f32,
+        anisotropy: from.anisotropy as f32,
+        ..with_pattern(blank(MaterialKind::Wood), &from.pattern)
     }
 }
 

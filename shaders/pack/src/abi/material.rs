@@ -106,9 +106,7 @@ impl MaterialKind {
     pub const fn traits(self) -> Traits {
         use Number::{Direction, Lobe, Radius};
         match self {
-            Self::Diffuse => {
-                Traits { lobes: Lobes::Fixed, numbers: &[Direction], ..Traits::ROUGH }
-            }
+            Self::Diffuse => Traits { lobes: Lobes::Fixed, numbers: &[Direction], ..Traits::ROUGH },
             Self::Metal => Traits { numbers: &[Direction, Radius], ..Traits::ROUGH },
             Self::Emissive => Traits { lobes: Lobes::None, numbers: &[], ..Traits::ROUGH },
             Self::Principled => Traits {

@@ -1,0 +1,113 @@
+//! Fields of `principled` alone.
+
+use super::fields::{ROUGHNESS_NAMES, UNIT};
+use crate::schema::{ANY, Bounds, Default, Field, FieldType, WHITE};
+
+pub(super) const METALLIC: Field = Field::new(
+    "metallic",
+    FieldType::ScalarSlot(UNIT),
+    Default::Number(0.0),
+    "0 is a dielectric such as plastic, 1 a metal.",
+)
+.typical("0 or 1; between them only where a texture blends")
+.foreign(&[
+    ("metallicFactor", "glTF"),
+    ("metalness", "common use"),
+    ("Metallic", "Blender"),
+    ("Pm", "OBJ/MTL"),
+]);
+
+pub(super) const ROUGHNESS: Field = Field::new(
+    "roughness",
+    FieldType::ScalarSlot(UNIT),
+    Default::Number(0.5),
+    "Perceptual roughness; the width of the highlight grows with its square.",
+)
+.typical("lacquer 0.1, wood 0.4, stone 0.8")
+.foreign(ROUGHNESS_NAMES);
+
+pub(super) const SPECULAR: Field = Field::new(
+    "specular",
+    FieldType::ScalarSlot(UNIT),
+    Default::Number(1.0),
+    "Factor on what the dielectric part reflects; 0 is a surface without highlights.",
+)
+.typical("1; less where a hollow hides the sky")
+.foreign(&[("specularFactor", "glTF"), ("specularTexture", "glTF"), ("Specular", "Blender")]);
+
+pub(super) const SPECULAR_COLOR: Field = Field::new(
+    "specular.color",
+    FieldType::ColorSlot(ANY),
+    Default::Color(WHITE),
+    "Colour of what the dielectric part reflects at normal incidence.",
+)
+.typical("white; coloured for silk and feathers")
+.foreign(&[
+    ("specularColorFactor", "glTF"),
+    ("specularColorTexture", "glTF"),
+    ("spec_tint", "Mitsuba"),
+]);
+
+pub(super) const COAT_WEIGHT: Field = Field::new(
+    "coat.weight",
+    FieldType::ScalarSlot(UNIT),
+    Default::Number(0.0),
+    "Share of the surface under a clear coat of index 1.5.",
+)
+.typical("1 for lacquer and car paint")
+.foreign(&[
+    ("clearcoatFactor", "glTF"),
+    ("clearcoatTexture", "glTF"),
+    ("clearcoat", "Mitsuba and Blender"),
+    ("Pc", "OBJ/MTL"),
+]);
+
+pub(super) const COAT_ROUGHNESS: Field = Field::new(
+    "coat.roughness",
+    FieldType::ScalarSlot(UNIT),
+    Default::Number(0.0),
+    "Perceptual roughness of the coat.",
+)
+.typical("fresh lacquer 0.03, worn 0.3")
+.foreign(&[
+    ("clearcoatRoughnessFactor", "glTF"),
+    ("clearcoatRoughnessTexture", "glTF"),
+    ("clearcoat_gloss", "Mitsuba"),
+    ("Pcr", "OBJ/MTL"),
+]);
+
+pub(super) const TRANSMISSION: Field = Field::new(
+            "transmission",
+            FieldType::ScalarSlot(UNIT),
+            Default::Number(0.0),
+            "Share of the light entering that goes on through the surface, a thin sheet that bends nothing; `color` \
+             tints it. Solid glass is `dielectric`.",
+        )
+        .typical("1 for a window pane, 0.3 for paper")
+        .foreign(&[
+            ("transmissionFactor", "glTF"),
+            ("transmissionTexture", "glTF"),
+            ("spec_trans", "Mitsuba"),
+            ("Transmission", "Blender"),
+        ]);
+
+pub(super) const EMISSION_COLOR: Field = Field::new(
+    "emission.color",
+    FieldType::ColorSlot(ANY),
+    Default::Color(WHITE),
+    "Colour of the light it gives off.",
+)
+.foreign(&[
+    ("emissiveFactor", "glTF"),
+    ("emissiveTexture", "glTF"),
+    ("Ke", "OBJ/MTL"),
+    ("emission", "Blender"),
+]);
+
+pub(super) const EMISSION_STRENGTH: Field = Field::new(
+    "emission.strength",
+    FieldType::Number(Bounds::number(0.0, ANY)),
+    Default::Number(0.0),
+    "Factor on `emission.color`; 0 gives off nothing.",
+)
+.foreign(&[("emissiveStrength", "glTF"), ("emission_strength", "Blender")]);
