@@ -10,8 +10,11 @@ pub mod cli;
 pub mod depfile;
 pub mod import;
 pub mod input;
+// A kind that a match forgets is an error, not what the last arm says.
+#[warn(clippy::wildcard_enum_match_arm)]
 pub mod lower;
 pub mod normalize;
+#[warn(clippy::wildcard_enum_match_arm)]
 pub mod pipeline;
 pub mod report;
 pub mod reuse;

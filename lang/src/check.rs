@@ -13,23 +13,32 @@ use crate::schema::Kind;
 use crate::source::{Loader, SourceSet};
 use crate::syntax::ItemKind;
 
+// In what checks kinds, a kind that a match forgets is an error, not what the last arm says.
+#[warn(clippy::wildcard_enum_match_arm)]
 mod camera;
 pub(crate) mod collect;
 mod define;
 mod field;
 pub(crate) mod fields;
 mod instance;
+#[warn(clippy::wildcard_enum_match_arm)]
 mod light;
 mod lint;
+#[warn(clippy::wildcard_enum_match_arm)]
 mod material;
+#[warn(clippy::wildcard_enum_match_arm)]
 mod medium;
 mod motion;
 mod object;
 mod pattern;
+#[warn(clippy::wildcard_enum_match_arm)]
 mod render;
+#[warn(clippy::wildcard_enum_match_arm)]
 mod scene;
+#[warn(clippy::wildcard_enum_match_arm)]
 mod shape;
 mod slot;
+#[warn(clippy::wildcard_enum_match_arm)]
 pub(crate) mod texture;
 mod transform;
 mod unused;

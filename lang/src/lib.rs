@@ -6,12 +6,16 @@ mod eval;
 mod explain;
 pub mod format;
 mod lex;
+#[warn(clippy::wildcard_enum_match_arm)]
 pub mod material;
 pub mod parse;
 mod reference;
 mod resolve;
+#[warn(clippy::wildcard_enum_match_arm)]
 mod resolved;
+#[warn(clippy::wildcard_enum_match_arm)]
 pub mod scene;
+#[warn(clippy::wildcard_enum_match_arm)]
 pub mod schema;
 pub mod source;
 mod split;

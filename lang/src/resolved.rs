@@ -8,8 +8,8 @@ use std::fmt::{self, Write as _};
 
 use crate::material::Shown;
 use crate::scene::{
-    AssetFormat, Axis, Camera, ColorSpace, Instance, Medium, MediumModel, Rgb, Sampler, Scene,
-    Shape, Sky, SkyModel, ToneMap, Wrap,
+    AssetFormat, Axis, Camera, Instance, Medium, MediumModel, Rgb, Scene, Shape, Sky, SkyModel,
+    Wrap,
 };
 use crate::schema::color_text;
 use crate::units::{self, Dim};
@@ -34,8 +34,8 @@ fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
         }
     }
     for texture in &scene.textures {
-        let (name, path, space) = (&texture.name.text, &texture.path, space(texture.space));
-        let [u, v] = texture.wrap.map(wrap);
+        let (name, path, space) = (&texture.name.text, &texture.path, texture.space.word());
+        let [u, v] = texture.wrap.map(Wrap::word);
         writeln!(
             out,
             "texture {name} = image(\"{path}\", space: {space}, wrap_u: {u}, wrap_v: {v})"
@@ -197,15 +197,10 @@ fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {
     let (camera, film, render) = (&scene.camera, &scene.film, &scene.render);
     block(out, &format!("camera {}: perspective", camera.name.text), &camera_fields(camera))?;
     let [width, height] = film.size;
-    let tone_map = match film.tone_map {
-        ToneMap::None => "linear",
-        ToneMap::Reinhard => "reinhard",
-        ToneMap::Aces => "aces",
-    };
     let fields = [
         ("size", format!("({width}, {height})px")),
         ("exposure", units::show(film.exposure, Dim::EV)),
-        ("tone_map", tone_map.to_owned()),
+        ("tone_map", film.tone_map.word().to_owned()),
     ];
     block(out, &format!("film {}", film.name.text), &fields)?;
     let sky = scene.sky.as_ref().map_or("none", |sky| sky.name.text.as_str());
@@ -214,10 +209,6 @@ fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {
         output.clear();
         write!(output, "\"{path}\"")?;
     }
-    let sampler = match render.sampler {
-        Sampler::Sobol => "sobol",
-        Sampler::Pcg => "pcg",
-    };
     let fields = [
         ("camera", camera.name.text.clone()),
         ("film", film.name.text.clone()),
@@ -227,7 +218,7 @@ fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {
         ("depth", render.max_depth.to_string()),
         ("roulette", render.roulette_depth.to_string()),
         ("seed", render.seed.to_string()),
-        ("sampler", sampler.to_owned()),
+        ("sampler", render.sampler.word().to_owned()),
         ("output", output),
     ];
     block(out, &format!("render {}: path", render.name.text), &fields)
@@ -272,21 +263,5 @@ fn axis(axis: Axis) -> &'static str {
         Axis::MinusY => "-y",
         Axis::PlusZ => "+z",
         Axis::MinusZ => "-z",
-    }
-}
-
-fn space(space: ColorSpace) -> &'static str {
-    match space {
-        ColorSpace::Srgb => "srgb",
-        ColorSpace::Linear => "linear",
-        ColorSpace::Data => "data",
-    }
-}
-
-fn wrap(wrap: Wrap) -> &'static str {
-    match wrap {
-        Wrap::Repeat => "repeat",
-        Wrap::Clamp => "clamp",
-        Wrap::Mirror => "mirror",
     }
 }

@@ -5,16 +5,65 @@
 
 use crate::units::{self, Dim};
 
-mod asset;
-mod camera;
+/// The types of a kind: one list becomes the table of their schemas and the enum to match on, so that a type
+/// that nothing is made of does not compile.
+macro_rules! types {
+    ($name:ident { $($variant:ident = $schema:ident),* $(,)? }) => {
+        pub(super) const TYPES: &[&$crate::schema::TypeSchema] = &[$(&$schema),*];
+
+        /// The types of this kind.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub(crate) enum $name { $($variant),* }
+
+        impl $name {
+            /// The type that `schema` describes.
+            pub(crate) fn of(schema: &$crate::schema::TypeSchema) -> Self {
+                $(if schema.name == $schema.name { return Self::$variant; })*
+                unreachable!("`{}` is no type of this kind", schema.name)
+            }
+        }
+    };
+}
+
+/// Words of a field: one list becomes the table that is checked and shown, and an enum.
+macro_rules! words {
+    ($(#[$meta:meta])* pub enum $name:ident {
+        $($(#[$row:meta])* $variant:ident = $word:literal $doc:literal,)*
+    }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum $name { $($(#[$row])* $variant,)* }
+
+        impl $name {
+            /// Every word and what it means.
+            pub(crate) const WORDS: &[$crate::schema::Word] = &[$(($word, $doc)),*];
+
+            /// The one that is written so.
+            pub(crate) fn of(word: &str) -> Option<Self> {
+                $(if word == $word { return Some(Self::$variant); })*
+                None
+            }
+
+            /// As it is written.
+            #[must_use]
+            pub fn word(self) -> &'static str {
+                match self { $(Self::$variant => $word,)* }
+            }
+        }
+    };
+}
+pub(crate) use words;
+
+pub(crate) mod asset;
+pub(crate) mod camera;
 mod film;
 mod instance;
-mod light;
+pub(crate) mod light;
 pub(crate) mod medium;
 mod render;
-mod shape;
-mod sky;
-mod texture;
+pub(crate) mod shape;
+pub(crate) mod sky;
+pub(crate) mod texture;
 
 /// What a declaration is, or what a call makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -375,7 +424,16 @@ pub fn unit_of(ty: FieldType) -> Option<(Dim, &'static str)> {
         FieldType::Vector(dim, unit) => Some((dim, unit)),
         FieldType::Size(_) => Some((Dim::LENGTH, "m")),
         FieldType::Pixels => Some((Dim::PIXEL, "px")),
-        _ => None,
+        FieldType::Color(_)
+        | FieldType::ColorSlot(_)
+        | FieldType::NormalSlot
+        | FieldType::Word(_)
+        | FieldType::Name(_)
+        | FieldType::Shape
+        | FieldType::Text
+        | FieldType::Path
+        | FieldType::Axis
+        | FieldType::LengthUnit => None,
     }
 }
 
@@ -432,7 +490,15 @@ pub fn range_text(ty: FieldType) -> String {
         }
         FieldType::Color(_) | FieldType::ColorSlot(_) => "each channel at least 0".to_owned(),
         FieldType::Scale => "not zero".to_owned(),
-        _ => String::new(),
+        FieldType::Vector(..)
+        | FieldType::NormalSlot
+        | FieldType::Word(_)
+        | FieldType::Name(_)
+        | FieldType::Shape
+        | FieldType::Text
+        | FieldType::Path
+        | FieldType::Axis
+        | FieldType::LengthUnit => String::new(),
     }
 }
 

@@ -58,6 +58,7 @@ fn rows(fields: &[Field], size: usize) -> Vec<String> {
 }
 
 /// The type as the field tables write it; anything else as naga prints it.
+#[expect(clippy::wildcard_enum_match_arm, reason = "the types are naga's")]
 fn type_name(inner: &TypeInner) -> String {
     let scalar = |kind: ScalarKind, width: u8| match (kind, width) {
         (ScalarKind::Float, 4) => Some("f32"),

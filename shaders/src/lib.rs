@@ -14,6 +14,9 @@
 //!
 //! It does not know the scene language, wgpu, or what is in a pack besides its records.
 
+// A kind that a match forgets is an error, not what the last arm says.
+#![warn(clippy::wildcard_enum_match_arm)]
+
 mod declaration;
 mod error;
 mod features;

@@ -60,7 +60,7 @@ impl<'a> MaterialTable<'a> {
                 }
                 MaterialRef::Scene(index) if index >= scene.materials.len() => return None,
                 MaterialRef::Light(index) if index >= scene.lights.len() => return None,
-                _ => {
+                MaterialRef::Scene(_) | MaterialRef::Light(_) | MaterialRef::Default => {
                     table.index(known.of);
                 }
             }

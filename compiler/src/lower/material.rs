@@ -170,7 +170,7 @@ impl<'a> MaterialTable<'a> {
             // Bytes that are not colours are the same numbers under either linear name.
             let space = match map.space {
                 ColorSpace::Data => ColorSpace::Linear,
-                space => space,
+                space @ (ColorSpace::Srgb | ColorSpace::Linear) => space,
             };
             self.textures.whole(image, space, map.wrap)
         })

@@ -245,7 +245,7 @@ impl World {
                 // Spheres are all placed now: their numbers stay.
                 let shift = |emitter: &Emitter| match emitter.kind {
                     LightKind::Sphere => *emitter,
-                    _ => Emitter {
+                    LightKind::Rectangle | LightKind::Triangle | LightKind::Sky => Emitter {
                         primitive: emitter.primitive - from.triangles + first,
                         ..*emitter
                     },

@@ -44,7 +44,9 @@ pub(super) fn powers(
 ) -> Vec<f64> {
     let power = |emitter: &Emitter| match emitter.kind {
         LightKind::Sky => emitter.area * flux.unwrap_or(0.0),
-        _ => emitter.area * materials.glow(emitter.material),
+        LightKind::Sphere | LightKind::Rectangle | LightKind::Triangle => {
+            emitter.area * materials.glow(emitter.material)
+        }
     };
     emitters.iter().map(power).collect()
 }

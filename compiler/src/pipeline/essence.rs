@@ -66,7 +66,7 @@ fn paths(scene: &mut Scene) -> Vec<(&mut String, &mut Span)> {
     let textures = textures.map(|texture| (&mut texture.path, &mut texture.path_span));
     let sky = scene.sky.iter_mut().filter_map(|sky| match &mut sky.model {
         SkyModel::Image { path, path_span, .. } => Some((path, path_span)),
-        _ => None,
+        SkyModel::Constant(_) | SkyModel::Gradient { .. } => None,
     });
     assets.chain(textures).chain(sky).collect()
 }

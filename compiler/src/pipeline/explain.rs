@@ -81,7 +81,10 @@ impl Explain<'_> {
 
     fn shapes(&self) -> Vec<Row> {
         let Lowered { triangles, spheres, instances, wide_nodes, .. } = self.lowered;
-        let ball = |shape: &Shape| matches!(shape, Shape::Sphere { .. });
+        let ball = |shape: &Shape| match shape {
+            Shape::Sphere { .. } => true,
+            Shape::Rectangle { .. } | Shape::Box { .. } | Shape::Mesh { .. } => false,
+        };
         let first = |wanted: &dyn Fn(&Shape) -> bool, text: String| {
             let found = self.scene.instances.iter().find(|instance| wanted(&instance.shape));
             found.map(|instance| by(text, &instance.name))

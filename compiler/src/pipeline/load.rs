@@ -214,7 +214,17 @@ fn failed(error: &ImportError, span: Span, written: &str) -> Diagnostic {
     let message = match error.kind {
         ErrorKind::Missing if itself => format!("there is no file `{written}`"),
         ErrorKind::Missing => format!("`{written}` needs a file that is not there"),
-        _ => format!("`{written}` cannot be used"),
+        ErrorKind::Io
+        | ErrorKind::Format
+        | ErrorKind::Number
+        | ErrorKind::Index
+        | ErrorKind::Accessor
+        | ErrorKind::Extension
+        | ErrorKind::Empty
+        | ErrorKind::Limit
+        | ErrorKind::Image
+        | ErrorKind::Outside
+        | ErrorKind::Memory => format!("`{written}` cannot be used"),
     };
     let found = Diagnostic::error(Code(code), message).at(span, "named here");
     let found = found.with_note(error.to_string());

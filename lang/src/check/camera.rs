@@ -6,6 +6,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::scene::{Camera, Film, Name, ToneMap};
 use crate::schema;
+use crate::schema::camera::CameraType;
 use crate::units::{self, Dim};
 
 /// Focal length when nothing is said, metres.
@@ -97,11 +98,7 @@ pub(super) fn film(name: Name, fields: &Fields) -> Option<Film> {
     let size = fields.vector::<2>("size")?;
     #[expect(clippy::cast_possible_truncation, reason = "whole and at most MAX_FILM_SIDE")]
     let size = size.map(|pixels| pixels as u32);
-    let tone_map = match fields.word("tone_map")? {
-        "reinhard" => ToneMap::Reinhard,
-        "aces" => ToneMap::Aces,
-        _ => ToneMap::None,
-    };
+    let tone_map = ToneMap::of(fields.word("tone_map")?)?;
     Some(Film { name, size, exposure: fields.number("exposure")?, tone_map })
 }
 
@@ -115,6 +112,7 @@ pub(super) fn default_film(span: crate::source::Span) -> Film {
 
 /// Builds the camera. `None` only for fields with faults.
 pub(super) fn camera(name: Name, fields: &Fields, film: &Film) -> Option<Camera> {
+    let CameraType::Perspective = CameraType::of(fields.schema);
     let (from, to) = (fields.vector::<3>("from")?, fields.vector::<3>("to")?);
     let aspect = f64::from(film.size[1]) / f64::from(film.size[0]);
     let sensor = fields.number("sensor.width")?;

@@ -5,6 +5,8 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::resolve::ItemId;
 use crate::scene::{Light, Name, Rgb, Sky, SkyModel, Tint};
+use crate::schema::light::LightType;
+use crate::schema::sky::SkyType;
 
 /// Checks how the fields of a light go together.
 pub(super) fn check_light(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
@@ -106,6 +108,7 @@ fn tint(fields: &Fields, center: [f64; 3]) -> Option<Tint> {
 
 /// Builds a light. `None` only for fields with faults.
 pub(super) fn light(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Option<Light> {
+    let LightType::Sphere = LightType::of(fields.schema);
     let (center, radius) = place(fields)?;
     // A sphere of radiance L gives off L * pi * 4 pi r^2 watts.
     let strength = match fields.number("power") {
@@ -128,8 +131,9 @@ pub(super) fn light(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Opti
 
 /// Checks how the fields of a sky go together.
 pub(super) fn check_sky(ev: &mut Evaluator<'_>, fields: &Fields) {
-    if fields.schema.name != "gradient" {
-        return;
+    match SkyType::of(fields.schema) {
+        SkyType::Gradient => {}
+        SkyType::Constant | SkyType::Image => return,
     }
     if !fields.has("sun.direction") {
         for name in ["glow.color", "glow.power", "disc.color", "disc.power"] {
@@ -150,15 +154,15 @@ pub(super) fn check_sky(ev: &mut Evaluator<'_>, fields: &Fields) {
 pub(super) fn sky(name: Name, fields: &Fields) -> Option<Sky> {
     let strength = fields.number("strength")?;
     let color = |field: &str| Some(scaled(fields.color(field)?, strength));
-    let model = match fields.schema.name {
-        "constant" => SkyModel::Constant(color("color")?),
-        "image" => SkyModel::Image {
+    let model = match SkyType::of(fields.schema) {
+        SkyType::Constant => SkyModel::Constant(color("color")?),
+        SkyType::Image => SkyModel::Image {
             path: fields.text("file")?,
             path_span: fields.value_span("file")?,
             rotate: fields.number("rotate")?,
             strength,
         },
-        _ => gradient(fields, strength)?,
+        SkyType::Gradient => gradient(fields, strength)?,
     };
     Some(Sky { name, model })
 }

@@ -7,6 +7,7 @@ use crate::eval::Evaluator;
 use crate::eval::value::Value;
 use crate::resolve::ItemId;
 use crate::scene::{Camera, Medium, MediumModel, Name, Render, Rgb};
+use crate::schema::medium::MediumType;
 use crate::source::Span;
 use crate::units::{self, Dim};
 
@@ -15,19 +16,29 @@ const VISIBILITY: f64 = 3.912_023_005_428_146;
 
 /// Checks how the fields of a medium go together.
 pub(super) fn check(ev: &mut Evaluator<'_>, name: Span, fields: &Fields) {
-    let lacks = |text: &str, help: &str| {
-        Diagnostic::error(Code("E0207"), text)
-            .at(name, format!("{} needs more", fields.schema.described()))
-            .with_help(help)
-    };
-    if fields.schema.name == "fog" {
-        one_of(ev, fields, &["visibility", "density"], "how thick the fog is");
-        if !fields.has("visibility") && !fields.has("density") {
-            let text = "this fog says neither `visibility` nor `density`";
-            ev.fault(lacks(text, "for example `visibility = 500m`"));
-        }
-        return;
+    match MediumType::of(fields.schema) {
+        MediumType::Fog => check_fog(ev, name, fields),
+        MediumType::Homogeneous => check_homogeneous(ev, name, fields),
     }
+}
+
+/// The error for a medium that says too little.
+fn lacks(name: Span, fields: &Fields, text: &str, help: &str) -> Diagnostic {
+    Diagnostic::error(Code("E0207"), text)
+        .at(name, format!("{} needs more", fields.schema.described()))
+        .with_help(help)
+}
+
+fn check_fog(ev: &mut Evaluator<'_>, name: Span, fields: &Fields) {
+    one_of(ev, fields, &["visibility", "density"], "how thick the fog is");
+    if !fields.has("visibility") && !fields.has("density") {
+        let text = "this fog says neither `visibility` nor `density`";
+        ev.fault(lacks(name, fields, text, "for example `visibility = 500m`"));
+    }
+}
+
+fn check_homogeneous(ev: &mut Evaluator<'_>, name: Span, fields: &Fields) {
+    let lacks = |text: &str, help: &str| lacks(name, fields, text, help);
     for own in ["sigma_a", "sigma_s"] {
         for other in ["mean_free_path", "albedo"] {
             one_of(ev, fields, &[own, other], "what this medium does to light");
@@ -53,14 +64,20 @@ pub(super) fn check(ev: &mut Evaluator<'_>, name: Span, fields: &Fields) {
 /// Builds a medium. `None` only for fields with faults.
 pub(super) fn medium(name: Name, fields: &Fields) -> Option<Medium> {
     let sky_distance = fields.number("sky_distance")?;
-    if fields.schema.name == "fog" {
-        let density = match fields.number("visibility") {
-            Some(visibility) => VISIBILITY / visibility,
-            None => fields.number("density")?,
-        };
-        let model = MediumModel::Fog { density, color: fields.color("color")? };
-        return Some(Medium { name, model, sky_distance });
-    }
+    let model = match MediumType::of(fields.schema) {
+        MediumType::Fog => {
+            let density = match fields.number("visibility") {
+                Some(visibility) => VISIBILITY / visibility,
+                None => fields.number("density")?,
+            };
+            MediumModel::Fog { density, color: fields.color("color")? }
+        }
+        MediumType::Homogeneous => homogeneous(fields)?,
+    };
+    Some(Medium { name, model, sky_distance })
+}
+
+fn homogeneous(fields: &Fields) -> Option<MediumModel> {
     let clear: Rgb = [0.0; 3];
     let (sigma_a, sigma_s) = match (fields.vector::<3>("mean_free_path"), fields.color("albedo")) {
         (Some(path), Some(albedo)) => {
@@ -68,13 +85,12 @@ pub(super) fn medium(name: Name, fields: &Fields) -> Option<Medium> {
         }
         _ => (fields.vector("sigma_a").unwrap_or(clear), fields.vector("sigma_s").unwrap_or(clear)),
     };
-    let model = MediumModel::Homogeneous { sigma_a, sigma_s, g: fields.number("g")? };
-    Some(Medium { name, model, sky_distance })
+    Some(MediumModel::Homogeneous { sigma_a, sigma_s, g: fields.number("g")? })
 }
 
 /// Reports fog in a place where only a homogeneous medium can be.
 pub(super) fn refuse_fog(ev: &mut Evaluator<'_>, id: ItemId, at: Span) {
-    if ev.models.get(&id).is_some_and(|model| model.schema.name == "fog") {
+    if ev.models.get(&id).is_some_and(|model| MediumType::of(model.schema) == MediumType::Fog) {
         let error = Diagnostic::error(Code("E0532"), "fog cannot fill a thing")
             .at(at, "fog is everywhere")
             .because(ev.program.name_span(id), "declared here")

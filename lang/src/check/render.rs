@@ -54,10 +54,7 @@ impl Checker {
             max_depth: fields.integer("depth")?,
             roulette_depth: fields.integer("roulette")?,
             seed: fields.integer("seed")?,
-            sampler: match fields.word("sampler")? {
-                "pcg" => Sampler::Pcg,
-                _ => Sampler::Sobol,
-            },
+            sampler: Sampler::of(fields.word("sampler")?)?,
             output: fields.text("output"),
         };
         if let Some(fields) = atmosphere.and_then(|id| self.sound(id)) {

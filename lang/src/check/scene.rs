@@ -34,7 +34,11 @@ impl Checker {
             .iter()
             .filter_map(|p| match *p.shape {
                 ShapeValue::Mesh(id, _) => Some(id),
-                _ => None,
+                ShapeValue::Sphere(_)
+                | ShapeValue::Rectangle(_)
+                | ShapeValue::Box(_)
+                | ShapeValue::Object(..)
+                | ShapeValue::Objects(_) => None,
             })
             .collect();
         let (texture_order, material_order, asset_order) =

@@ -5,6 +5,7 @@ use std::rc::Rc;
 use crate::eval::value::{ShapeValue, Value};
 use crate::eval::{Evaluator, Scope};
 use crate::schema::TypeSchema;
+use crate::schema::shape::ShapeType;
 use crate::syntax::{Arg, Ident};
 
 impl Evaluator<'_> {
@@ -20,10 +21,10 @@ impl Evaluator<'_> {
         if !fields.ok {
             return Value::Poison;
         }
-        let shape = match schema.name {
-            "sphere" => fields.number("radius").map(ShapeValue::Sphere),
-            "rectangle" => fields.vector("size").map(ShapeValue::Rectangle),
-            _ => fields.vector("size").map(ShapeValue::Box),
+        let shape = match ShapeType::of(schema) {
+            ShapeType::Sphere => fields.number("radius").map(ShapeValue::Sphere),
+            ShapeType::Rectangle => fields.vector("size").map(ShapeValue::Rectangle),
+            ShapeType::Box => fields.vector("size").map(ShapeValue::Box),
         };
         shape.map_or(Value::Poison, |shape| Value::Shape(Rc::new(shape)))
     }

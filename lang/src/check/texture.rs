@@ -5,7 +5,9 @@ use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::eval::value::Value;
 use crate::eval::{Evaluator, Scope};
 use crate::resolve::{ItemId, did_you_mean};
-use crate::scene::{AssetFormat, Axis, ColorSpace, Wrap};
+use crate::scene::{AssetFormat, ColorSpace, Wrap};
+use crate::schema::asset::AssetType;
+use crate::schema::texture::TextureType;
 use crate::schema::{self, Kind};
 use crate::source::Span;
 use crate::syntax::{Binding, Expr, ExprKind, Ident};
@@ -34,15 +36,12 @@ pub(crate) struct AssetInfo {
 /// Checks an `asset`.
 pub(super) fn asset(ev: &mut Evaluator<'_>, id: ItemId, binding: &Binding) -> Option<AssetInfo> {
     let fields = file_call(ev, id, Kind::Asset, &binding.value)?;
-    let format = match fields.schema.name {
-        "obj" => {
-            let up = match fields.get("up") {
-                Some(Value::Axis(axis)) => axis,
-                _ => Axis::PlusY,
-            };
+    let format = match AssetType::of(fields.schema) {
+        AssetType::Obj => {
+            let Some(Value::Axis(up)) = fields.get("up") else { return None };
             AssetFormat::Obj { metres_per_unit: fields.number("unit")?, up }
         }
-        _ => AssetFormat::Gltf,
+        AssetType::Gltf => AssetFormat::Gltf,
     };
     Some(AssetInfo { path: fields.text("path")?, path_span: fields.value_span("path")?, format })
 }
@@ -54,30 +53,21 @@ pub(super) fn texture(
     binding: &Binding,
 ) -> Option<TextureInfo> {
     let fields = file_call(ev, id, Kind::Texture, &binding.value)?;
-    let space = match fields.word("space")? {
-        "srgb" => ColorSpace::Srgb,
-        "linear" => ColorSpace::Linear,
-        _ => ColorSpace::Data,
-    };
-    let wrap = |name: &str| {
-        let word = fields.word(name).or_else(|| fields.word("wrap"));
-        match word {
-            Some("clamp") => Wrap::Clamp,
-            Some("mirror") => Wrap::Mirror,
-            _ => Wrap::Repeat,
-        }
-    };
+    let TextureType::Image = TextureType::of(fields.schema);
+    let space = ColorSpace::of(fields.word("space")?)?;
+    let wrap = |name: &str| Wrap::of(fields.word(name).or_else(|| fields.word("wrap"))?);
     Some(TextureInfo {
         path: fields.text("path")?,
         path_span: fields.value_span("path")?,
         space,
         space_span: fields.span("space")?,
         space_value: fields.value_span("space")?,
-        wrap: [wrap("wrap_u"), wrap("wrap_v")],
+        wrap: [wrap("wrap_u")?, wrap("wrap_v")?],
     })
 }
 
 /// The fields of the call that a declaration must be.
+#[expect(clippy::wildcard_enum_match_arm, reason = "any other expression is wrong here")]
 fn file_call(ev: &mut Evaluator<'_>, id: ItemId, kind: Kind, expr: &Expr) -> Option<Fields> {
     let scope = Scope { module: id.module, local: None };
     match &expr.kind {

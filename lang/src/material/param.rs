@@ -273,9 +273,9 @@ fn is_on(word: &str) -> bool {
 
 impl Param for Color {
     fn read(from: &Reader<'_>, names: &[&'static str]) -> Option<Self> {
-        match from.fields.get(names[0])? {
-            Value::Color(rgb) => Some(Self::Constant(rgb)),
-            Value::TextureColor(id) => Some(Self::Texture((from.textures)(id))),
+        match from.fields.get(names[0]) {
+            Some(Value::Color(rgb)) => Some(Self::Constant(rgb)),
+            Some(Value::TextureColor(id)) => Some(Self::Texture((from.textures)(id))),
             _ => None,
         }
     }
@@ -303,9 +303,9 @@ impl Param for Color {
 
 impl Param for Scalar {
     fn read(from: &Reader<'_>, names: &[&'static str]) -> Option<Self> {
-        match from.fields.get(names[0])? {
-            Value::Number(value, _) => Some(Self::Constant(value)),
-            Value::TextureChannel(id, channel) => {
+        match from.fields.get(names[0]) {
+            Some(Value::Number(value, _)) => Some(Self::Constant(value)),
+            Some(Value::TextureChannel(id, channel)) => {
                 Some(Self::Texture { texture: (from.textures)(id), channel })
             }
             _ => None,

@@ -1,6 +1,7 @@
 //! Files that a scene uses: meshes and images.
 
 use super::Name;
+use crate::schema::words;
 use crate::source::Span;
 
 /// A mesh file.
@@ -62,24 +63,26 @@ pub struct Texture {
     pub wrap: [Wrap; 2],
 }
 
-/// Encoding of an image's colour channels; alpha is always linear.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ColorSpace {
-    /// sRGB transfer curve.
-    Srgb,
-    /// Linear colour.
-    Linear,
-    /// Linear numbers that are not colours: roughness, normals.
-    Data,
+words! {
+    /// Encoding of an image's colour channels; alpha is always linear.
+    pub enum ColorSpace {
+        /// sRGB transfer curve.
+        Srgb = "srgb" "colours with the sRGB curve: photographs and painted textures",
+        /// Linear colour.
+        Linear = "linear" "colours without a curve: HDR images",
+        /// Linear numbers that are not colours: roughness, normals.
+        Data = "data" "numbers that are not colours: roughness, masks",
+    }
 }
 
-/// What lies outside 0..1 of a texture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wrap {
-    /// The image repeats.
-    Repeat,
-    /// The edge texel goes on.
-    Clamp,
-    /// The image repeats mirrored.
-    Mirror,
+words! {
+    /// What lies outside 0..1 of a texture.
+    pub enum Wrap {
+        /// The image repeats.
+        Repeat = "repeat" "the image repeats",
+        /// The edge texel goes on.
+        Clamp = "clamp" "the edge goes on",
+        /// The image repeats mirrored.
+        Mirror = "mirror" "the image repeats mirrored",
+    }
 }

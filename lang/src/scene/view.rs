@@ -1,6 +1,7 @@
 //! Who looks, and what becomes of it.
 
 use super::Name;
+use crate::schema::words;
 
 /// A perspective camera.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,24 +39,26 @@ pub struct Film {
     pub tone_map: ToneMap,
 }
 
-/// Film response of the PNG; the EXR is always linear.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ToneMap {
-    /// sRGB encoding only.
-    None,
-    /// `x / (1 + x)`.
-    Reinhard,
-    /// Filmic.
-    Aces,
+words! {
+    /// Film response of the PNG; the EXR is always linear.
+    pub enum ToneMap {
+        /// sRGB encoding only.
+        None = "linear" "the sRGB curve only; what is brighter than 1 is white",
+        /// `x / (1 + x)`.
+        Reinhard = "reinhard" "`x / (1 + x)`",
+        /// Filmic.
+        Aces = "aces" "a filmic curve with a soft shoulder",
+    }
 }
 
-/// Where random numbers come from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sampler {
-    /// Owen-scrambled Sobol pairs.
-    Sobol,
-    /// Independent numbers.
-    Pcg,
+words! {
+    /// Where random numbers come from.
+    pub enum Sampler {
+        /// Owen-scrambled Sobol pairs.
+        Sobol = "sobol" "evenly spread: Owen-scrambled Sobol points",
+        /// Independent numbers.
+        Pcg = "pcg" "independent of each other: plain Monte Carlo, for comparison",
+    }
 }
 
 /// How the picture is made.

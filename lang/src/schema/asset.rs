@@ -2,7 +2,7 @@
 
 use super::{Default, Field, FieldType, Kind, TypeSchema};
 
-pub(super) const TYPES: &[&TypeSchema] = &[&OBJ, &GLTF];
+types!(AssetType { Obj = OBJ, Gltf = GLTF });
 
 const PATH: Field = Field::new(
     "path",

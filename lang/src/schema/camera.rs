@@ -3,7 +3,7 @@
 use super::{Bounds, Default, Field, FieldType, Kind, TypeSchema};
 use crate::units::Dim;
 
-pub(super) const TYPES: &[&TypeSchema] = &[&PERSPECTIVE];
+types!(CameraType { Perspective = PERSPECTIVE });
 
 /// 179 degrees: at 180 the image plane is infinite.
 const MAX_FOV: f64 = 179.0 * std::f64::consts::PI / 180.0;

@@ -1,15 +1,10 @@
 //! Films: `film NAME { ... }`.
 
-use super::{Bounds, Default, Field, FieldType, Kind, TypeSchema, Word};
+use super::{Bounds, Default, Field, FieldType, Kind, TypeSchema};
+use crate::scene::ToneMap;
 use crate::units::Dim;
 
 pub(super) const TYPES: &[&TypeSchema] = &[&FILM];
-
-const TONE_MAPS: &[Word] = &[
-    ("linear", "the sRGB curve only; what is brighter than 1 is white"),
-    ("reinhard", "`x / (1 + x)`"),
-    ("aces", "a filmic curve with a soft shoulder"),
-];
 
 const FILM: TypeSchema = TypeSchema {
     kind: Kind::Film,
@@ -35,7 +30,7 @@ const FILM: TypeSchema = TypeSchema {
         .foreign(&[("iso", "pbrt"), ("imagingratio", "pbrt"), ("gain", "common use")]),
         Field::new(
             "tone_map",
-            FieldType::Word(TONE_MAPS),
+            FieldType::Word(ToneMap::WORDS),
             Default::Word("linear"),
             "How brightness becomes the eight bits of the PNG.",
         )

@@ -3,7 +3,7 @@
 use super::{ANY, Bounds, Default, Field, FieldType, Kind, TypeSchema, WHITE};
 use crate::units::Dim;
 
-pub(super) const TYPES: &[&TypeSchema] = &[&SPHERE];
+types!(LightType { Sphere = SPHERE });
 
 /// 80 degrees: at 90 the origin of the world would touch the light.
 const MAX_ANGULAR_RADIUS: f64 = 80.0 * std::f64::consts::PI / 180.0;

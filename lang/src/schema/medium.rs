@@ -3,7 +3,7 @@
 use super::{ANY, Bounds, Default, Field, FieldType, Kind, TypeSchema};
 use crate::units::Dim;
 
-pub(super) const TYPES: &[&TypeSchema] = &[&HOMOGENEOUS, &FOG];
+types!(MediumType { Homogeneous = HOMOGENEOUS, Fog = FOG });
 
 pub(crate) const COEFFICIENT: Bounds = Bounds::new(Dim::PER_LENGTH, "/m", 0.0, ANY);
 

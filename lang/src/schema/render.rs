@@ -1,13 +1,9 @@
 //! The render: `render NAME: path { ... }`.
 
-use super::{Default, Field, FieldType, Kind, TypeSchema, Word};
+use super::{Default, Field, FieldType, Kind, TypeSchema};
+use crate::scene::Sampler;
 
 pub(super) const TYPES: &[&TypeSchema] = &[&PATH];
-
-const SAMPLERS: &[Word] = &[
-    ("sobol", "evenly spread: Owen-scrambled Sobol points"),
-    ("pcg", "independent of each other: plain Monte Carlo, for comparison"),
-];
 
 const PATH: TypeSchema = TypeSchema {
     kind: Kind::Render,
@@ -83,7 +79,7 @@ const PATH: TypeSchema = TypeSchema {
         ),
         Field::new(
             "sampler",
-            FieldType::Word(SAMPLERS),
+            FieldType::Word(Sampler::WORDS),
             Default::Word("sobol"),
             "Which random numbers; both converge to the same picture. Powers of two suit `sobol` best as `samples`.",
         )

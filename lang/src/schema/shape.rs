@@ -3,7 +3,7 @@
 use super::{Bounds, Default, Field, FieldType, Kind, TypeSchema};
 use crate::units::Dim;
 
-pub(super) const TYPES: &[&TypeSchema] = &[&SPHERE, &RECTANGLE, &BOX];
+types!(ShapeType { Sphere = SPHERE, Rectangle = RECTANGLE, Box = BOX });
 
 const SPHERE: TypeSchema = TypeSchema {
     kind: Kind::Shape,

@@ -3,7 +3,7 @@
 use super::{ANY, Bounds, Default, Field, FieldType, Kind, TypeSchema, WHITE};
 use crate::units::Dim;
 
-pub(super) const TYPES: &[&TypeSchema] = &[&CONSTANT, &GRADIENT, &IMAGE];
+types!(SkyType { Constant = CONSTANT, Gradient = GRADIENT, Image = IMAGE });
 
 const STRENGTH: Field = Field::new(
     "strength",

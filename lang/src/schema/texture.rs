@@ -1,20 +1,9 @@
 //! Image files: `texture NAME = image(...)`.
 
-use super::{Default, Field, FieldType, Kind, TypeSchema, Word};
+use super::{Default, Field, FieldType, Kind, TypeSchema};
+use crate::scene::{ColorSpace, Wrap};
 
-pub(super) const TYPES: &[&TypeSchema] = &[&IMAGE];
-
-const SPACES: &[Word] = &[
-    ("srgb", "colours with the sRGB curve: photographs and painted textures"),
-    ("linear", "colours without a curve: HDR images"),
-    ("data", "numbers that are not colours: roughness, masks"),
-];
-
-const WRAPS: &[Word] = &[
-    ("repeat", "the image repeats"),
-    ("clamp", "the edge goes on"),
-    ("mirror", "the image repeats mirrored"),
-];
+types!(TextureType { Image = IMAGE });
 
 const IMAGE: TypeSchema = TypeSchema {
     kind: Kind::Texture,
@@ -32,7 +21,7 @@ const IMAGE: TypeSchema = TypeSchema {
         .foreign(&[("filename", "pbrt, Mitsuba"), ("file", "LuxCore"), ("uri", "glTF")]),
         Field::new(
             "space",
-            FieldType::Word(SPACES),
+            FieldType::Word(ColorSpace::WORDS),
             Default::Required,
             "How the numbers in the file are to be read.",
         )
@@ -45,21 +34,21 @@ const IMAGE: TypeSchema = TypeSchema {
         ]),
         Field::new(
             "wrap",
-            FieldType::Word(WRAPS),
+            FieldType::Word(Wrap::WORDS),
             Default::Word("repeat"),
             "What lies outside 0..1, along both axes.",
         )
         .foreign(&[("wrap_mode", "Mitsuba"), ("extension", "Blender")]),
         Field::new(
             "wrap_u",
-            FieldType::Word(WRAPS),
+            FieldType::Word(Wrap::WORDS),
             Default::Absent("what `wrap` says"),
             "What lies outside 0..1 along u.",
         )
         .foreign(&[("wrapS", "glTF")]),
         Field::new(
             "wrap_v",
-            FieldType::Word(WRAPS),
+            FieldType::Word(Wrap::WORDS),
             Default::Absent("what `wrap` says"),
             "What lies outside 0..1 along v.",
         )

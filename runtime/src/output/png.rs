@@ -28,10 +28,10 @@ pub(crate) fn encode_rgb(pixels: &[[u8; 3]], size: [u32; 2]) -> Result<Vec<u8>, 
 pub fn tone_map(means: &[[f64; 3]], exposure: f32, curve: u32) -> Vec<[u8; 3]> {
     let scale = libm::exp2(f64::from(exposure));
     let encoder = SrgbEncoder::new();
-    let map: fn(f64) -> f64 = match curve {
-        c if c == ToneMap::Reinhard as u32 => |x| if x.is_finite() { x / (1.0 + x) } else { 1.0 },
-        c if c == ToneMap::Aces as u32 => aces,
-        _ => |x| x,
+    let map: fn(f64) -> f64 = match ToneMap::from_tag(curve) {
+        Some(ToneMap::Reinhard) => |x| if x.is_finite() { x / (1.0 + x) } else { 1.0 },
+        Some(ToneMap::Aces) => aces,
+        Some(ToneMap::None) | None => |x| x,
     };
     means.iter().map(|rgb| rgb.map(|x| encoder.encode(map((x * scale).max(0.0))))).collect()
 }

@@ -64,7 +64,11 @@ fn needs<N: InnerNode>(nodes: &[N], door: impl Fn(u32) -> u32) -> Vec<u32> {
         for word in node.children() {
             let need = match ChildRef::decode(word) {
                 ChildRef::Inner(child) if child as usize <= index => 0,
-                _ => need_of(&needs, &door, word),
+                ChildRef::Inner(_)
+                | ChildRef::Triangles { .. }
+                | ChildRef::Spheres { .. }
+                | ChildRef::Instance(_)
+                | ChildRef::Empty => need_of(&needs, &door, word),
             };
             others += 1;
             below = need.max(below);

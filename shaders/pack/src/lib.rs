@@ -18,6 +18,9 @@
 //! # }
 //! ```
 
+// A kind that a match forgets is an error, not what the last arm says.
+#![warn(clippy::wildcard_enum_match_arm)]
+
 #[cfg(target_endian = "big")]
 compile_error!("packs are little-endian and read in place; this machine is big-endian");
 

@@ -258,7 +258,7 @@ pub(crate) fn ends(features: &FeatureSet) -> String {
              return {triangle};\n"
         ),
         (true, false) => format!("    return {sphere};\n"),
-        _ => format!("    return {triangle};\n"),
+        (false, _) => format!("    return {triangle};\n"),
     };
     function(
         &mut text,

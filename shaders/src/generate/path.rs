@@ -113,7 +113,7 @@ fn tangent(features: &FeatureSet) -> String {
             (true, false) => {
                 format!("    {sphere}\n    (*s).handed = select(-1.0, 1.0, (*s).front);\n")
             }
-            _ => format!("    {triangle}\n"),
+            (false, _) => format!("    {triangle}\n"),
         };
         body += &lines;
     }

@@ -33,7 +33,9 @@ pub(super) fn gather(channels: [Option<(&Image, u8)>; 4], space: ColorSpace) -> 
     }
     let (format, mean) = match space {
         ColorSpace::Srgb => (TextureFormat::Rgba8Srgb, byte_mean(&bytes, srgb_to_linear)),
-        _ => (TextureFormat::Rgba8Linear, byte_mean(&bytes, |x| x)),
+        ColorSpace::Linear | ColorSpace::Data => {
+            (TextureFormat::Rgba8Linear, byte_mean(&bytes, |x| x))
+        }
     };
     Made { size, format, words: byte_words(&bytes), mean }
 }
@@ -44,7 +46,7 @@ pub(super) fn whole(source: &Image, space: ColorSpace) -> Made {
         (Pixels::Rgba8(bytes), ColorSpace::Srgb) => {
             (TextureFormat::Rgba8Srgb, byte_words(bytes), byte_mean(bytes, srgb_to_linear))
         }
-        (Pixels::Rgba8(bytes), _) => {
+        (Pixels::Rgba8(bytes), ColorSpace::Linear | ColorSpace::Data) => {
             (TextureFormat::Rgba8Linear, byte_words(bytes), byte_mean(bytes, |x| x))
         }
         (Pixels::Rgba16F(bits), space) => {

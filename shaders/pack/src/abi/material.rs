@@ -65,6 +65,7 @@ pub enum Lobes {
 
 /// What kernels and checks know of a kind of material beside its functions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a question with a name")]
 pub struct Traits {
     /// Where it sends light.
     pub lobes: Lobes,

@@ -277,7 +277,9 @@ impl Walk<'_> {
             }
             ChildRef::Inner(child) => self.node(side, child, in_mesh),
             ChildRef::Empty => Err(BvhFault::NoChild { side }),
-            _ => self.end(side, word, in_mesh),
+            ChildRef::Triangles { .. } | ChildRef::Spheres { .. } | ChildRef::Instance(_) => {
+                self.end(side, word, in_mesh)
+            }
         }
     }
 
