@@ -35,8 +35,6 @@ mod pattern;
 mod render;
 #[warn(clippy::wildcard_enum_match_arm)]
 mod scene;
-#[warn(clippy::wildcard_enum_match_arm)]
-mod shape;
 mod slot;
 #[warn(clippy::wildcard_enum_match_arm)]
 pub(crate) mod texture;

@@ -17,6 +17,8 @@ mod resolved;
 pub mod scene;
 #[warn(clippy::wildcard_enum_match_arm)]
 pub mod schema;
+#[warn(clippy::wildcard_enum_match_arm)]
+mod shape;
 pub mod source;
 mod split;
 pub mod stack;

@@ -91,19 +91,15 @@ fn block(out: &mut String, head: &str, fields: &[(&str, String)]) -> fmt::Result
 }
 
 fn instance_fields(scene: &Scene, instance: &Instance) -> Vec<(&'static str, String)> {
-    let shape = match &instance.shape {
-        Shape::Sphere { radius } => format!("sphere(radius: {})", length(*radius)),
-        Shape::Rectangle { size: [x, z] } => {
-            format!("rectangle(size: ({}, {})m)", number(*x), number(*z))
-        }
-        Shape::Box { size } => format!("box(size: {})", vector(*size, "m")),
-        Shape::Mesh { asset, part } => {
+    let shape = match (&instance.shape, instance.shape.shown()) {
+        (Shape::Mesh { asset, part }, _) => {
             let asset = scene.assets.get(*asset).map_or("", |asset| asset.name.text.as_str());
             match part {
                 Some(part) => format!("{asset}.part(\"{part}\")"),
                 None => asset.to_owned(),
             }
         }
+        (_, shown) => shown.unwrap_or_default(),
     };
     let material = instance.material.and_then(|material| scene.materials.get(material));
     let material = material.map_or("none", |material| material.name.text.as_str());

@@ -15,7 +15,7 @@ mod medium;
 mod view;
 
 pub use file::{Asset, AssetFormat, Axis, ColorSpace, Texture, Wrap};
-pub use instance::{Instance, Shape};
+pub use instance::Instance;
 pub use light::{Light, Sky, SkyModel, Tint};
 pub use medium::{Medium, MediumModel};
 pub use view::{Camera, Film, Render, Sampler, ToneMap};
@@ -23,6 +23,7 @@ pub use view::{Camera, Film, Render, Sampler, ToneMap};
 pub use crate::material::{
     Color, Inside, Material, MaterialModel, NormalMap, Pattern, Principled, Scalar,
 };
+pub use crate::shape::Shape;
 use crate::source::Span;
 
 /// A whole checked scene.

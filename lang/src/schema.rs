@@ -9,7 +9,7 @@ use crate::units::{self, Dim};
 /// that nothing is made of does not compile.
 macro_rules! types {
     ($name:ident { $($variant:ident = $schema:ident),* $(,)? }) => {
-        pub(super) const TYPES: &[&$crate::schema::TypeSchema] = &[$(&$schema),*];
+        pub(crate) const TYPES: &[&$crate::schema::TypeSchema] = &[$(&$schema),*];
 
         /// The types of this kind.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,7 +52,7 @@ macro_rules! words {
         }
     };
 }
-pub(crate) use words;
+pub(crate) use {types, words};
 
 pub(crate) mod asset;
 pub(crate) mod camera;
@@ -61,7 +61,6 @@ mod instance;
 pub(crate) mod light;
 pub(crate) mod medium;
 mod render;
-pub(crate) mod shape;
 pub(crate) mod sky;
 pub(crate) mod texture;
 
@@ -163,7 +162,7 @@ impl Kind {
             Self::Texture => texture::TYPES,
             Self::Material => crate::material::TYPES,
             Self::Medium => medium::TYPES,
-            Self::Shape => shape::TYPES,
+            Self::Shape => crate::shape::TYPES,
             Self::Object => instance::OBJECT_TYPES,
             Self::Instance => instance::INSTANCE_TYPES,
             Self::Light => light::TYPES,

@@ -29,27 +29,23 @@ pub(super) fn check(
         if filling.medium.is_none() && !matters {
             continue;
         }
-        match &instance.shape {
-            Shape::Rectangle { .. } => {
-                diagnostics.push(open(instance, &filling, "a rectangle has no inside".to_owned()));
-            }
-            Shape::Mesh { asset, part } => {
-                let Some(file) = &loaded.assets[*asset] else { continue };
-                let found = known.entry((*asset, part.as_deref())).or_insert_with(|| {
-                    let parts = match part {
-                        Some(name) => file.find_parts(name),
-                        None => (0..file.parts.len()).collect(),
-                    };
-                    let parts: Vec<_> = parts.iter().map(|part| &file.parts[*part]).collect();
-                    topology(&parts)
-                });
-                if found.boundary_edges > 0 {
-                    diagnostics.push(open(instance, &filling, holes(found)));
-                } else if found.signed_volume < 0.0 {
-                    diagnostics.push(inverted(instance, &filling));
-                }
-            }
-            Shape::Sphere { .. } | Shape::Box { .. } => {}
+        if let Some(what) = instance.shape.open() {
+            diagnostics.push(open(instance, &filling, format!("{what} has no inside")));
+        }
+        let Shape::Mesh { asset, part } = &instance.shape else { continue };
+        let Some(file) = &loaded.assets[*asset] else { continue };
+        let found = known.entry((*asset, part.as_deref())).or_insert_with(|| {
+            let parts = match part {
+                Some(name) => file.find_parts(name),
+                None => (0..file.parts.len()).collect(),
+            };
+            let parts: Vec<_> = parts.iter().map(|part| &file.parts[*part]).collect();
+            topology(&parts)
+        });
+        if found.boundary_edges > 0 {
+            diagnostics.push(open(instance, &filling, holes(found)));
+        } else if found.signed_volume < 0.0 {
+            diagnostics.push(inverted(instance, &filling));
         }
     }
 }

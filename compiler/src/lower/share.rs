@@ -218,12 +218,7 @@ fn scale(linear: DMat3) -> f64 {
 fn extent(scene: &Scene, shutter: Shutter) -> f64 {
     let things = scene.instances.iter().map(|instance| {
         let Transform { linear, translation, .. } = Transform::of(instance, shutter);
-        let size = match instance.shape {
-            Shape::Sphere { radius } => radius,
-            Shape::Rectangle { size: [x, z] } => x.max(z),
-            Shape::Box { size: [x, y, z] } => x.max(y).max(z),
-            Shape::Mesh { .. } => 0.0,
-        };
+        let size = instance.shape.reach();
         let longest = linear.to_cols_array().into_iter().map(f64::abs).fold(0.0, f64::max);
         translation.abs().max_element() + 3.0 * longest * size
     });

@@ -38,23 +38,20 @@ pub(super) fn matters(scene: &Scene, instance: &Instance) -> bool {
 
 /// Sizes of the thing along its own axes, metres; `None` where nothing can be said.
 fn size(instance: &Instance, loaded: &Loaded) -> Option<DVec3> {
-    let own = match &instance.shape {
-        Shape::Sphere { radius } => DVec3::splat(2.0 * radius),
-        Shape::Rectangle { size: [x, z] } => DVec3::new(*x, 0.0, *z),
-        Shape::Box { size } => DVec3::from(*size),
-        Shape::Mesh { asset, part } => {
-            let file = loaded.assets[*asset].as_ref()?;
-            let parts = match part {
-                Some(name) => file.find_parts(name),
-                None => (0..file.parts.len()).collect(),
-            };
-            let positions = parts.iter().flat_map(|part| &file.parts[*part].positions);
-            let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-            for p in positions.map(|p| DVec3::from(p.map(f64::from))) {
-                (low, high) = (low.min(p), high.max(p));
-            }
-            high - low
+    let own = if let Shape::Mesh { asset, part } = &instance.shape {
+        let file = loaded.assets[*asset].as_ref()?;
+        let parts = match part {
+            Some(name) => file.find_parts(name),
+            None => (0..file.parts.len()).collect(),
+        };
+        let positions = parts.iter().flat_map(|part| &file.parts[*part].positions);
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for p in positions.map(|p| DVec3::from(p.map(f64::from))) {
+            (low, high) = (low.min(p), high.max(p));
         }
+        high - low
+    } else {
+        DVec3::from(instance.shape.size()?)
     };
     let m = &instance.world_from_object;
     let scale = [0, 1, 2].map(|k| DVec3::new(m[0][k], m[1][k], m[2][k]).length());

@@ -34,11 +34,7 @@ impl Checker {
             .iter()
             .filter_map(|p| match *p.shape {
                 ShapeValue::Mesh(id, _) => Some(id),
-                ShapeValue::Sphere(_)
-                | ShapeValue::Rectangle(_)
-                | ShapeValue::Box(_)
-                | ShapeValue::Object(..)
-                | ShapeValue::Objects(_) => None,
+                ShapeValue::Plain(_) | ShapeValue::Object(..) | ShapeValue::Objects(_) => None,
             })
             .collect();
         let (texture_order, material_order, asset_order) =
@@ -134,9 +130,7 @@ fn instances(
         .into_iter()
         .map(|placed| {
             let shape = match &*placed.shape {
-                ShapeValue::Sphere(radius) => Shape::Sphere { radius: *radius },
-                ShapeValue::Rectangle(size) => Shape::Rectangle { size: *size },
-                ShapeValue::Box(size) => Shape::Box { size: *size },
+                ShapeValue::Plain(shape) => shape.clone(),
                 ShapeValue::Mesh(id, part) => {
                     Shape::Mesh { asset: *asset_at.get(id)?, part: part.clone() }
                 }

@@ -7,6 +7,7 @@ use super::value::{ShapeValue, Value};
 use super::{Evaluator, Scope, with_unit_fix};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::resolve::{Found, did_you_mean, item_kind};
+use crate::scene::Shape;
 use crate::schema::{self, Kind};
 use crate::source::Span;
 use crate::syntax::{Arg, Expr, ExprKind, Ident, Path};
@@ -28,7 +29,10 @@ impl Evaluator<'_> {
             return self.function(function, name, args, (span, scope));
         }
         if let Some(schema) = schema::find_type(Kind::Shape, &name.text) {
-            return self.shape_call(schema, name, args, scope);
+            let fields = self.call_fields(schema, name, args, scope);
+            let shape = Shape::read(&fields).filter(|_| fields.ok);
+            return shape
+                .map_or(Value::Poison, |shape| Value::Shape(Rc::new(ShapeValue::Plain(shape))));
         }
         for arg in args {
             self.eval(&arg.value, scope);

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use crate::resolve::ItemId;
-use crate::scene::{Axis, Rgb};
+use crate::scene::{Axis, Rgb, Shape};
 use crate::schema::Kind;
 use crate::source::Span;
 use crate::units::{self, Dim};
@@ -53,12 +53,8 @@ pub(crate) enum Value {
 /// Geometry of an object or an instance.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum ShapeValue {
-    /// Radius.
-    Sphere(f64),
-    /// Sizes along x and z.
-    Rectangle([f64; 2]),
-    /// Sizes along x, y and z.
-    Box([f64; 3]),
+    /// A shape that needs no file.
+    Plain(Shape),
     /// A mesh file or one part of it.
     Mesh(ItemId, Option<String>),
     /// Another object, with the place where it is named.

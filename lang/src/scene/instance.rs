@@ -1,6 +1,7 @@
 //! Things in the world.
 
 use super::Name;
+use crate::shape::Shape;
 use crate::source::Span;
 
 /// A thing in the world.
@@ -21,31 +22,4 @@ pub struct Instance {
     pub world_from_object: [[f64; 4]; 3],
     /// World frame, metres per second; `world_from_object` is that of the moment 0.
     pub velocity: [f64; 3],
-}
-
-/// Geometry of an instance, object frame, metres.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
-    /// Sphere around the origin.
-    Sphere {
-        /// Radius, > 0.
-        radius: f64,
-    },
-    /// Rectangle in the xz plane around the origin, normal +y.
-    Rectangle {
-        /// Sizes along x and z.
-        size: [f64; 2],
-    },
-    /// Box around the origin.
-    Box {
-        /// Sizes along x, y, z.
-        size: [f64; 3],
-    },
-    /// A mesh file, or one named part of it (OBJ group or object; glTF node or mesh).
-    Mesh {
-        /// Index into `Scene::assets`.
-        asset: usize,
-        /// Name of the part as written after the dot; `None` is the whole file.
-        part: Option<String>,
-    },
 }

@@ -1,7 +1,7 @@
 //! The same scene in other units of length, or elsewhere in the world: the same picture. The compiler
 //! centres and scales every scene, so the kernel does not see the difference.
 
-use lang::scene::{AssetFormat, MediumModel, Scene, Shape};
+use lang::scene::{AssetFormat, MediumModel, Scene};
 use lang::schema::unit_of;
 use lang::units::Dim;
 use tests::features::{changed, named};
@@ -52,12 +52,7 @@ fn lengths(scene: &mut Scene, mut change: impl FnMut(&mut f64)) {
     for instance in &mut scene.instances {
         instance.world_from_object.iter_mut().for_each(|row| change(&mut row[3]));
         instance.velocity.iter_mut().for_each(&mut change);
-        match &mut instance.shape {
-            Shape::Sphere { radius } => change(radius),
-            Shape::Rectangle { size } => size.iter_mut().for_each(&mut change),
-            Shape::Box { size } => size.iter_mut().for_each(&mut change),
-            Shape::Mesh { .. } => {}
-        }
+        instance.shape.lengths_mut().iter_mut().for_each(&mut change);
     }
     for light in &mut scene.lights {
         light.center.iter_mut().chain(&mut light.velocity).for_each(&mut change);
