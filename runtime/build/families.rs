@@ -1,6 +1,6 @@
 //! Families of feature sets: in each, one group of features takes all its values, and all others are there.
 
-use pack::abi::{LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat};
+use pack::abi::{LightKind, LightSurface, MaterialKind, SamplerKind, SkyKind, TextureFormat};
 use pack::features as bit;
 use shaders::{FeatureSet, NodeLayout};
 use std::collections::BTreeSet;
@@ -215,10 +215,10 @@ fn geometry() -> Family {
                 bits |= if spheres { bit::SPHERES } else { 0 };
                 bits |= if alpha_clip { bit::ALPHA_CLIP } else { 0 };
                 bits |= if tangents { bit::TANGENTS } else { 0 };
-                let possible = lights.iter().all(|kind| match kind {
-                    LightKind::Sphere => spheres,
-                    LightKind::Rectangle | LightKind::Triangle => triangles,
-                    LightKind::Sky => triangles || spheres,
+                let possible = lights.iter().all(|kind| match kind.surface() {
+                    Some(LightSurface::Sphere) => spheres,
+                    Some(LightSurface::Triangles) => triangles,
+                    None => triangles || spheres,
                 });
                 if !possible {
                     continue;

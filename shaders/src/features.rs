@@ -199,7 +199,7 @@ impl FeatureSet {
     /// Whether some light is a surface that rays can hit.
     #[must_use]
     pub fn surface_lights(&self) -> bool {
-        self.lights.iter().any(|kind| *kind != LightKind::Sky)
+        self.lights.iter().any(|kind| kind.surface().is_some())
     }
 
     /// The buffers that the linked kernel declares, by number. An error if they are more than any kernel may

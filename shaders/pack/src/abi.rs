@@ -32,7 +32,7 @@ pub use geometry::{
     MOVES, Node, Sphere, TRI_SMOOTH, TriShade, Triangle, WIDTH, WideNode,
 };
 pub use instance::{Instance, OBJECT_OF_INSTANCE};
-pub use light::{Light, LightKind};
+pub use light::{Light, LightKind, LightSurface};
 pub use light_node::{LIGHT_LEAF, LightNode, MAX_LIGHT_DEPTH};
 pub use material::{Lobes, Material, MaterialKind, Number, Traits, material_flag};
 pub use medium::Medium;

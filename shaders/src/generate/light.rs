@@ -2,7 +2,7 @@
 
 use super::{imports, switch, tag};
 use crate::FeatureSet;
-use pack::abi::LightKind;
+use pack::abi::{LightKind, LightSurface};
 use std::fmt::Write as _;
 
 /// The functions of a light kind.
@@ -22,18 +22,13 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
         "trace/alpha.wgsl",
     ]);
     text += &imports(files.iter().map(String::as_str));
-    let sample = cases(features, |kind, stem| match kind {
-        LightKind::Sky => Some("sky_light_sample(u)".to_owned()),
-        LightKind::Sphere | LightKind::Rectangle | LightKind::Triangle => {
-            Some(format!("{stem}_light_sample(light, p, u)"))
-        }
+    let sample = cases(features, |surface, stem| match surface {
+        None => Some(format!("{stem}_light_sample(u)")),
+        Some(_) => Some(format!("{stem}_light_sample(light, p, u)")),
     });
-    let pdf = cases(features, |kind, stem| match kind {
-        LightKind::Sky => None,
-        LightKind::Sphere => Some("sphere_light_pdf(light, p)".to_owned()),
-        LightKind::Rectangle | LightKind::Triangle => {
-            Some(format!("{stem}_light_pdf(light, p, x, cos_l)"))
-        }
+    let pdf = cases(features, |surface, stem| match surface? {
+        LightSurface::Sphere => Some(format!("{stem}_light_pdf(light, p)")),
+        LightSurface::Triangles => Some(format!("{stem}_light_pdf(light, p, x, cos_l)")),
     });
     let _ = write!(
         text,
@@ -54,25 +49,24 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
 /// to do.
 fn cases(
     features: &FeatureSet,
-    call: impl Fn(LightKind, &str) -> Option<String>,
+    call: impl Fn(Option<LightSurface>, &str) -> Option<String>,
 ) -> Vec<(String, String)> {
     let case = |kind: &LightKind| {
         let stem = kind.stem();
-        Some((tag("LIGHT", &stem), call(*kind, &stem)?))
+        Some((tag("LIGHT", &stem), call(kind.surface(), &stem)?))
     };
     features.lights.iter().filter_map(case).collect()
 }
 
 /// Where a light is.
 fn shift(features: &FeatureSet) -> String {
-    let cases = cases(features, |kind, _| match kind {
-        LightKind::Sphere => {
+    let cases = cases(features, |surface, _| match surface? {
+        LightSurface::Sphere => {
             features.spheres.then(|| "dispatch_sphere_shift(light.primitive, time)".to_owned())
         }
-        LightKind::Rectangle | LightKind::Triangle => {
+        LightSurface::Triangles => {
             features.triangles.then(|| "dispatch_triangle_shift(light.primitive, time)".to_owned())
         }
-        LightKind::Sky => None,
     });
     format!(
         "\n// How far the light has come at `time`.\n\
@@ -85,10 +79,9 @@ fn shift(features: &FeatureSet) -> String {
 fn surface(features: &FeatureSet) -> String {
     let sphere = "sphere_uv(vector_unit_or(x - light.origin, vec3f(0.0, 1.0, 0.0)))";
     let flat = "triangle_uv(light.primitive, triangle_weights(light.primitive, x))";
-    let cases = cases(features, |kind, _| match kind {
-        LightKind::Sphere => Some(sphere.to_owned()),
-        LightKind::Rectangle | LightKind::Triangle => features.triangles.then(|| flat.to_owned()),
-        LightKind::Sky => None,
+    let cases = cases(features, |surface, _| match surface? {
+        LightSurface::Sphere => Some(sphere.to_owned()),
+        LightSurface::Triangles => features.triangles.then(|| flat.to_owned()),
     });
     let uv = if features.textures.is_empty() {
         "    return vec2f(0.0);\n".to_owned()

@@ -17,6 +17,27 @@ tags! {
     }
 }
 
+/// Which primitives a light is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightSurface {
+    /// One sphere.
+    Sphere,
+    /// Triangles, from `primitive` on.
+    Triangles,
+}
+
+impl LightKind {
+    /// What rays hit of it; `None` for the sky.
+    #[must_use]
+    pub const fn surface(self) -> Option<LightSurface> {
+        match self {
+            Self::Sphere => Some(LightSurface::Sphere),
+            Self::Rectangle | Self::Triangle => Some(LightSurface::Triangles),
+            Self::Sky => None,
+        }
+    }
+}
+
 abi_struct! {
     /// An emitter in the selection table, 64 bytes. Normalised world frame.
     pub struct Light {

@@ -4,9 +4,9 @@
 //! field that is not in it may hold any value, and the comment there says why.
 
 use crate::abi::{
-    Camera, Instance, Light, LightKind, LightNode, MOVES, Material, MaterialKind, Medium, Node,
-    OBJECT_OF_INSTANCE, Object, RenderSettings, SamplerKind, Sky, SkyKind, Sphere, TRI_SMOOTH,
-    Texture, TextureFormat, ToneMap, TriShade, Triangle, WideNode, Wrap, material_flag,
+    Camera, Instance, Light, LightKind, LightNode, LightSurface, MOVES, Material, MaterialKind,
+    Medium, Node, OBJECT_OF_INSTANCE, Object, RenderSettings, SamplerKind, Sky, SkyKind, Sphere,
+    TRI_SMOOTH, Texture, TextureFormat, ToneMap, TriShade, Triangle, WideNode, Wrap, material_flag,
 };
 use crate::contents::Contents;
 use crate::fault::ElementFault;
@@ -330,22 +330,18 @@ fn sky(record: &Sky, pack: &Contents<'_>) -> Option<Broken> {
 
 /// What `primitive`, `edge1` and `area` mean depends on the kind.
 fn light(record: &Light, pack: &Contents<'_>) -> Option<Broken> {
-    let kind = LightKind::from_tag(record.kind)?;
-    let target = match kind {
-        LightKind::Sphere => Kind::SPHERE,
-        LightKind::Rectangle | LightKind::Triangle => Kind::TRIANGLE,
-        // What it is, `check::sky` compares with the sky.
-        LightKind::Sky => return None,
+    // What a light without a surface is, `check::sky` compares with the sky.
+    let surface = LightKind::from_tag(record.kind)?.surface()?;
+    let target = match surface {
+        LightSurface::Sphere => Kind::SPHERE,
+        LightSurface::Triangles => Kind::TRIANGLE,
     };
     if let Some(fault) = index(record.primitive, table(pack, target)) {
         return Some(("primitive", fault));
     }
-    match kind {
-        LightKind::Sphere => positive(record.edge1[0]).map(|fault| ("edge1", fault)),
-        LightKind::Rectangle | LightKind::Triangle => {
-            positive(record.area).map(|fault| ("area", fault))
-        }
-        LightKind::Sky => None,
+    match surface {
+        LightSurface::Sphere => positive(record.edge1[0]).map(|fault| ("edge1", fault)),
+        LightSurface::Triangles => positive(record.area).map(|fault| ("area", fault)),
     }
 }
 
