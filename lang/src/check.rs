@@ -12,22 +12,21 @@ use crate::scene::Scene;
 use crate::schema::Kind;
 use crate::source::{Loader, SourceSet};
 use crate::syntax::ItemKind;
+use crate::{medium, sky};
 
 // In what checks kinds, a kind that a match forgets is an error, not what the last arm says.
 #[warn(clippy::wildcard_enum_match_arm)]
-mod camera;
+pub(crate) mod camera;
 pub(crate) mod collect;
 mod define;
 mod field;
 pub(crate) mod fields;
 mod instance;
 #[warn(clippy::wildcard_enum_match_arm)]
-mod light;
+pub(crate) mod light;
 mod lint;
 #[warn(clippy::wildcard_enum_match_arm)]
 mod material;
-#[warn(clippy::wildcard_enum_match_arm)]
-mod medium;
 mod motion;
 mod object;
 mod pattern;
@@ -198,7 +197,7 @@ impl Checker {
             Kind::Material => material::check(ev, &fields),
             Kind::Medium => medium::check(ev, ev.program.name_span(id), &fields),
             Kind::Light => light::check_light(ev, id, &fields),
-            Kind::Sky => light::check_sky(ev, &fields),
+            Kind::Sky => sky::check(ev, &fields),
             Kind::Camera => camera::check(ev, &fields),
             _ => {}
         }

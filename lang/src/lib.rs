@@ -8,6 +8,8 @@ pub mod format;
 mod lex;
 #[warn(clippy::wildcard_enum_match_arm)]
 pub mod material;
+#[warn(clippy::wildcard_enum_match_arm)]
+mod medium;
 pub mod parse;
 mod reference;
 mod resolve;
@@ -19,6 +21,8 @@ pub mod scene;
 pub mod schema;
 #[warn(clippy::wildcard_enum_match_arm)]
 mod shape;
+#[warn(clippy::wildcard_enum_match_arm)]
+mod sky;
 pub mod source;
 mod split;
 pub mod stack;

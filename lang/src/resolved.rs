@@ -7,10 +7,7 @@
 use std::fmt::{self, Write as _};
 
 use crate::material::Shown;
-use crate::scene::{
-    AssetFormat, Axis, Camera, Instance, Medium, MediumModel, Rgb, Scene, Shape, Sky, SkyModel,
-    Wrap,
-};
+use crate::scene::{AssetFormat, Axis, Camera, Instance, Scene, Shape, Wrap};
 use crate::schema::color_text;
 use crate::units::{self, Dim};
 
@@ -73,13 +70,18 @@ fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
         block(out, &format!("light {}: sphere", light.name.text), &fields)?;
     }
     for medium in &scene.media {
-        write_medium(out, medium)?;
+        let (kind, fields) = medium.shown();
+        block(out, &format!("medium {}: {kind}", medium.name.text), &fields)?;
     }
     if let Some(sky) = &scene.sky {
-        write_sky(out, sky)?;
+        let (kind, fields) = sky.shown();
+        block(out, &format!("sky {}: {kind}", sky.name.text), &fields)?;
     }
     write_view(out, scene)
 }
+
+/// Name of a type, and the fields of a declaration as they would be written.
+pub(crate) type Declared = (&'static str, Vec<(&'static str, String)>);
 
 /// A declaration with its fields, one on each line.
 fn block(out: &mut String, head: &str, fields: &[(&str, String)]) -> fmt::Result {
@@ -119,74 +121,6 @@ fn instance_fields(scene: &Scene, instance: &Instance) -> Vec<(&'static str, Str
         fields.push(("velocity", vector(instance.velocity, "m/s")));
     }
     fields
-}
-
-fn write_medium(out: &mut String, medium: &Medium) -> fmt::Result {
-    let (kind, mut fields) = match medium.model {
-        MediumModel::Homogeneous { sigma_a, sigma_s, g } => {
-            let fields = vec![
-                ("sigma_a", vector(sigma_a, "/m")),
-                ("sigma_s", vector(sigma_s, "/m")),
-                ("g", number(g)),
-            ];
-            ("homogeneous", fields)
-        }
-        MediumModel::Fog { density, color } => {
-            let density = units::show(density, Dim::PER_LENGTH);
-            ("fog", vec![("density", density), ("color", color_text(color))])
-        }
-    };
-    fields.push(("sky_distance", length(medium.sky_distance)));
-    block(out, &format!("medium {}: {kind}", medium.name.text), &fields)
-}
-
-fn write_sky(out: &mut String, sky: &Sky) -> fmt::Result {
-    let one = ("strength", "1".to_owned());
-    let (kind, fields) = match &sky.model {
-        SkyModel::Constant(rgb) => ("constant", vec![("color", color_text(*rgb)), one]),
-        SkyModel::Gradient {
-            zenith,
-            middle,
-            horizon,
-            ground,
-            blend_high,
-            blend_low,
-            blend_ground,
-            sun_direction,
-            glow,
-            glow_power,
-            disc,
-            disc_power,
-        } => {
-            let rgb = |rgb: &Rgb| color_text(*rgb);
-            let fields = vec![
-                ("zenith", rgb(zenith)),
-                ("middle", rgb(middle)),
-                ("horizon", rgb(horizon)),
-                ("ground", rgb(ground)),
-                ("base", "1".to_owned()),
-                ("blend.high", number(*blend_high)),
-                ("blend.low", number(*blend_low)),
-                ("blend.ground", number(*blend_ground)),
-                one,
-                ("sun.direction", vector(*sun_direction, "")),
-                ("glow.color", rgb(glow)),
-                ("glow.power", number(*glow_power)),
-                ("disc.color", rgb(disc)),
-                ("disc.power", number(*disc_power)),
-            ];
-            ("gradient", fields)
-        }
-        SkyModel::Image { path, rotate, strength, .. } => {
-            let fields = vec![
-                ("file", format!("\"{path}\"")),
-                ("rotate", units::show(*rotate, Dim::ANGLE)),
-                ("strength", number(*strength)),
-            ];
-            ("image", fields)
-        }
-    };
-    block(out, &format!("sky {}: {kind}", sky.name.text), &fields)
 }
 
 fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {
@@ -239,15 +173,18 @@ fn texture_name(scene: &Scene, texture: usize) -> &str {
     scene.textures.get(texture).map_or("", |texture| texture.name.text.as_str())
 }
 
-fn number(value: f64) -> String {
+/// A plain number.
+pub(crate) fn number(value: f64) -> String {
     units::show_number(value)
 }
 
-fn length(metres: f64) -> String {
+/// A length.
+pub(crate) fn length(metres: f64) -> String {
     units::show(metres, Dim::LENGTH)
 }
 
-fn vector([x, y, z]: [f64; 3], unit: &str) -> String {
+/// Three numbers and their unit.
+pub(crate) fn vector([x, y, z]: [f64; 3], unit: &str) -> String {
     format!("({}, {}, {}){unit}", number(x), number(y), number(z))
 }
 

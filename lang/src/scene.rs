@@ -11,19 +11,19 @@
 mod file;
 mod instance;
 mod light;
-mod medium;
 mod view;
 
 pub use file::{Asset, AssetFormat, Axis, ColorSpace, Texture, Wrap};
 pub use instance::Instance;
-pub use light::{Light, Sky, SkyModel, Tint};
-pub use medium::{Medium, MediumModel};
+pub use light::{Light, Tint};
 pub use view::{Camera, Film, Render, Sampler, ToneMap};
 
 pub use crate::material::{
     Color, Inside, Material, MaterialModel, NormalMap, Pattern, Principled, Scalar,
 };
+pub use crate::medium::{Medium, MediumModel};
 pub use crate::shape::Shape;
+pub use crate::sky::{Sky, SkyModel};
 use crate::source::Span;
 
 /// A whole checked scene.

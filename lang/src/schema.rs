@@ -59,9 +59,7 @@ pub(crate) mod camera;
 mod film;
 mod instance;
 pub(crate) mod light;
-pub(crate) mod medium;
 mod render;
-pub(crate) mod sky;
 pub(crate) mod texture;
 
 /// What a declaration is, or what a call makes.
@@ -161,12 +159,12 @@ impl Kind {
             Self::Asset => asset::TYPES,
             Self::Texture => texture::TYPES,
             Self::Material => crate::material::TYPES,
-            Self::Medium => medium::TYPES,
+            Self::Medium => crate::medium::TYPES,
             Self::Shape => crate::shape::TYPES,
             Self::Object => instance::OBJECT_TYPES,
             Self::Instance => instance::INSTANCE_TYPES,
             Self::Light => light::TYPES,
-            Self::Sky => sky::TYPES,
+            Self::Sky => crate::sky::TYPES,
             Self::Camera => camera::TYPES,
             Self::Film => film::TYPES,
             Self::Render => render::TYPES,

@@ -48,7 +48,7 @@ pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
 }
 
 /// At most one of these fields may be written.
-pub(super) fn one_of(ev: &mut Evaluator<'_>, fields: &Fields, names: &[&str], what: &str) {
+pub(crate) fn one_of(ev: &mut Evaluator<'_>, fields: &Fields, names: &[&str], what: &str) {
     let written: Vec<&str> = names.iter().copied().filter(|name| fields.has(name)).collect();
     let [first, second, ..] = written.as_slice() else { return };
     let (Some(a), Some(b)) = (fields.span(first), fields.span(second)) else { return };

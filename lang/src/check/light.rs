@@ -1,12 +1,11 @@
-//! `light` and `sky` fields become radiance.
+//! `light` fields become radiance.
 
 use super::fields::Fields;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::resolve::ItemId;
-use crate::scene::{Light, Name, Rgb, Sky, SkyModel, Tint};
+use crate::scene::{Light, Name, Rgb, Tint};
 use crate::schema::light::LightType;
-use crate::schema::sky::SkyType;
 
 /// Checks how the fields of a light go together.
 pub(super) fn check_light(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
@@ -76,7 +75,7 @@ fn lacking(fields: &Fields) -> Option<&'static str> {
 }
 
 /// Reports a direction of length zero.
-fn check_direction(ev: &mut Evaluator<'_>, fields: &Fields, name: &str) {
+pub(crate) fn check_direction(ev: &mut Evaluator<'_>, fields: &Fields, name: &str) {
     if let (Some(direction), Some(span)) = (fields.vector::<3>(name), fields.value_span(name))
         && direction.iter().all(|c| *c == 0.0)
     {
@@ -129,82 +128,8 @@ pub(super) fn light(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Opti
     Some(Light { name, center, velocity, radius, radiance, tint })
 }
 
-/// Checks how the fields of a sky go together.
-pub(super) fn check_sky(ev: &mut Evaluator<'_>, fields: &Fields) {
-    match SkyType::of(fields.schema) {
-        SkyType::Gradient => {}
-        SkyType::Constant | SkyType::Image => return,
-    }
-    if !fields.has("sun.direction") {
-        for name in ["glow.color", "glow.power", "disc.color", "disc.power"] {
-            if let Some(span) = fields.span(name).filter(|_| fields.has(name)) {
-                let text = format!("`{name}` does nothing without `sun.direction`");
-                let error = Diagnostic::error(Code("E0207"), text)
-                    .at(span, "around which direction?")
-                    .with_help("write `sun.direction = (0.69, 0.2, -0.69)`, or leave this out");
-                ev.fault(error);
-                return;
-            }
-        }
-    }
-    check_direction(ev, fields, "sun.direction");
-}
-
-/// Builds a sky. `None` only for fields with faults.
-pub(super) fn sky(name: Name, fields: &Fields) -> Option<Sky> {
-    let strength = fields.number("strength")?;
-    let color = |field: &str| Some(scaled(fields.color(field)?, strength));
-    let model = match SkyType::of(fields.schema) {
-        SkyType::Constant => SkyModel::Constant(color("color")?),
-        SkyType::Image => SkyModel::Image {
-            path: fields.text("file")?,
-            path_span: fields.value_span("file")?,
-            rotate: fields.number("rotate")?,
-            strength,
-        },
-        SkyType::Gradient => gradient(fields, strength)?,
-    };
-    Some(Sky { name, model })
-}
-
-fn gradient(fields: &Fields, strength: f64) -> Option<SkyModel> {
-    let base = fields.number("base")? * strength;
-    let color = |field: &str| Some(scaled(fields.color(field)?, strength));
-    let band = |field: &str| Some(scaled(fields.color(field)?, base));
-    let direction = fields.vector::<3>("sun.direction");
-    let around_sun = |field: &str| match direction {
-        Some(_) => color(field),
-        None => Some([0.0; 3]),
-    };
-    Some(SkyModel::Gradient {
-        zenith: band("zenith")?,
-        middle: band("middle")?,
-        horizon: band("horizon")?,
-        ground: band("ground")?,
-        blend_high: fields.number("blend.high")?,
-        blend_low: fields.number("blend.low")?,
-        blend_ground: fields.number("blend.ground")?,
-        sun_direction: unit(direction.unwrap_or([0.0, 1.0, 0.0]))?,
-        glow: around_sun("glow.color")?,
-        glow_power: fields.number("glow.power")?,
-        disc: around_sun("disc.color")?,
-        disc_power: fields.number("disc.power")?,
-    })
-}
-
-/// Is it black everywhere?
-pub(super) fn is_black(sky: &Sky) -> bool {
-    let black = |rgb: &Rgb| rgb.iter().all(|c| *c == 0.0);
-    match &sky.model {
-        SkyModel::Constant(rgb) => black(rgb),
-        SkyModel::Gradient { zenith, middle, horizon, ground, glow, disc, .. } => {
-            [zenith, middle, horizon, ground, glow, disc].into_iter().all(black)
-        }
-        SkyModel::Image { strength, .. } => *strength <= 0.0,
-    }
-}
-
-fn scaled(rgb: Rgb, factor: f64) -> Rgb {
+/// Times `factor`.
+pub(crate) fn scaled(rgb: Rgb, factor: f64) -> Rgb {
     rgb.map(|c| c * factor)
 }
 
@@ -213,7 +138,7 @@ fn length(v: [f64; 3]) -> f64 {
 }
 
 /// The unit vector of this direction, also of very short and very long ones.
-pub(super) fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
+pub(crate) fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
     let largest = v.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
     if largest == 0.0 {
         return None;

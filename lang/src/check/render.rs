@@ -1,7 +1,7 @@
 //! The one `render` declaration, and the camera, film and sky it takes.
 
 use super::fields::Fields;
-use super::{Checker, camera, ids_of, light, medium};
+use super::{Checker, camera, ids_of, medium, sky};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::eval::Evaluator;
 use crate::resolve::{ItemId, quoted_list};
@@ -41,7 +41,7 @@ impl Checker {
         let camera = camera::camera(name(ev, camera), self.sound(camera)?, &film)?;
         camera::check_built(ev, &camera);
         let sky = match sky {
-            Choice::Item(sky) => Some(light::sky(name(ev, sky), self.sound(sky)?)?),
+            Choice::Item(sky) => Some(sky::read(name(ev, sky), self.sound(sky)?)?),
             Choice::Nothing => None,
             Choice::Fault => return None,
         };

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::instance::Placed;
 use super::render::name;
-use super::{Checker, ids_of, is_in_world, light, material, medium, motion};
+use super::{Checker, ids_of, is_in_world, light, material, medium, motion, sky};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::eval::value::ShapeValue;
@@ -86,7 +86,7 @@ impl Checker {
     }
 
     fn media(&self, order: &[(Name, ItemId)]) -> Option<Vec<Medium>> {
-        order.iter().map(|(name, id)| medium::medium(name.clone(), self.sound(*id)?)).collect()
+        order.iter().map(|(name, id)| medium::read(name.clone(), self.sound(*id)?)).collect()
     }
 
     fn assets(&self, order: &[(Name, ItemId)]) -> Option<Vec<Asset>> {
@@ -177,7 +177,7 @@ fn nothing_in_the_air(ev: &mut Evaluator<'_>, scene: &Scene) {
 /// Reports a scene in which nothing gives off light. A mesh that brings its own materials may.
 fn no_light(ev: &mut Evaluator<'_>, scene: &Scene) {
     let lit = scene.lights.iter().any(|light| light.radiance.iter().any(|c| *c > 0.0))
-        || scene.sky.as_ref().is_some_and(|sky| !light::is_black(sky))
+        || scene.sky.as_ref().is_some_and(|sky| !sky::is_black(sky))
         || scene.instances.iter().any(|instance| {
             instance
                 .material

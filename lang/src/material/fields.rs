@@ -1,6 +1,6 @@
 //! Fields that several materials have, and those of the simple ones.
 
-use crate::schema::medium::{COEFFICIENT, SIGMA_A_NAMES};
+use crate::medium::{COEFFICIENT, SIGMA_A_NAMES};
 use crate::schema::{ANY, Bounds, Default, Field, FieldType, Kind, Word};
 use crate::units::Dim;
 
