@@ -2,7 +2,7 @@
 //!
 //! Turns paths into bytes and bytes into files. It keeps these promises:
 //! - An output is there whole or not at all, follows symbolic links, keeps the mode and the owner of the file that
-//!   it replaces, and never takes the place of a device, a pipe or a folder ([`write`]).
+//!   it replaces, and never takes the place of a device, a pipe or a folder ([`write()`]).
 //! - An output is no input and no other output ([`Claims`]).
 //! - An input is a regular file, of a bounded size ([`open_regular`], [`read`]).
 //! - What is shown of a name cannot steer a terminal ([`ShowPath`], [`escape`]).

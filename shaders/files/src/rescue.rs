@@ -19,7 +19,7 @@ pub enum Saved {
     Elsewhere(PathBuf, FileError),
 }
 
-/// As [`write`]; when that fails, the content is written to a new file of that name in the working folder, else in
+/// As [`write()`]; when that fails, the content is written to a new file of that name in the working folder, else in
 /// the system's folder for temporary files. `content` is called once for each try.
 pub fn save(
     path: &Path,
