@@ -4,12 +4,12 @@
 //! before they are met, since Rust ends a process that gets no memory. It knows no scenes and no
 //! packs.
 
-mod drivers;
+mod environment;
 mod interrupt;
 mod limit;
 mod memory;
 
-pub use drivers::without_device_select;
+pub use environment::{Uses, prepare};
 pub use interrupt::{exit_now, on_interrupt};
 pub use limit::{Room, room};
 pub use memory::{free, machine};

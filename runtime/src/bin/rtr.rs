@@ -1,6 +1,6 @@
 //! Wires the command line.
 
 fn main() -> std::process::ExitCode {
-    host::without_device_select();
+    host::prepare(host::Uses::Drivers);
     host::run(|| runtime::cli::run(std::env::args_os()))
 }

@@ -490,7 +490,7 @@ fn every_rule_has_a_bad_pack() {
         cases.iter().flatten().map(|(mutation, _)| format!("{:?}", error(mutation))).collect();
     // Shown by tests of their own, here and in `files.rs`, `round_trip.rs`, `bad_skies.rs`, `bad_lights.rs`,
     // `bad_instances.rs` and `changes.rs`.
-    let files = ["Io", "NotAFile", "SceneSource", "Manifest", "Hash", "Layout"];
+    let files = ["Io", "File", "NotAFile", "SceneSource", "Manifest", "Hash", "Layout"];
     let changes = ["TooLarge", "Altered", "Length", "Written", "Lost"];
     let elsewhere = [files.as_slice(), &changes, &LIGHTS, &INSTANCES].concat();
     let mut rules = 0;

@@ -23,7 +23,7 @@ const CHUNK: usize = 1 << 16;
 /// Bytes that a position, UV or normal takes: in `tobj`'s list, which doubles as it grows.
 const VALUE_BYTES: u64 = 24;
 /// Bytes that a corner of a face takes at most: `tobj`'s face, its index lists and map, copies of the three values
-/// in its model and here, and the lists of triangles, all of which may have doubled. 110 were measured.
+/// in its model and here, and the lists of triangles, all of which may have doubled.
 const CORNER_BYTES: u64 = 160;
 /// Bytes of a model of `tobj` and of its tag.
 const MODEL_BYTES: u64 = 600;
