@@ -110,7 +110,10 @@ mod tests {
                 let node = &nodes[index as usize];
                 1 + by_definition(nodes, node.left).max(by_definition(nodes, node.right))
             }
-            _ => 0,
+            ChildRef::Triangles { .. }
+            | ChildRef::Spheres { .. }
+            | ChildRef::Instance(_)
+            | ChildRef::Empty => 0,
         }
     }
 

@@ -35,8 +35,11 @@ fn features() -> Vec<(String, Switch)> {
     rows
 }
 
+/// A feature and what switches it on.
+type Other = (&'static str, fn(&mut FeatureSet));
+
 /// Features that are no kind of a record.
-const OTHERS: &[(&str, fn(&mut FeatureSet))] = &[
+const OTHERS: &[Other] = &[
     ("triangles", |f| f.triangles = true),
     ("spheres", |f| f.spheres = true),
     ("smooth_normals", |f| f.smooth_normals = true),

@@ -20,7 +20,9 @@ fn brighten(scene: &mut Scene, factor: f64) {
     for material in &mut scene.materials {
         material.model.numbers_mut(&mut |field, values| {
             if RADIANCE.contains(&field.name) {
-                values.iter_mut().for_each(|value| *value *= factor);
+                for value in values {
+                    *value *= factor;
+                }
             }
         });
     }

@@ -25,7 +25,9 @@ fn scale(scene: &mut Scene, power: i32) {
                 _ if ["scale", "waves.scale"].contains(&field.name) => per,
                 _ => 1.0,
             };
-            values.iter_mut().for_each(|value| *value *= factor);
+            for value in values {
+                *value *= factor;
+            }
         });
     }
     for medium in &mut scene.media {
