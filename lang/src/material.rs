@@ -1,4 +1,4 @@
-//! Materials: each is declared once, in [`materials`].
+//! Materials: each is declared once, in `materials!`.
 //!
 //! From that list come the schema (and with it checking, `rtc explain` and `docs/reference.md`), the typed
 //! value, how it is read from checked fields, how `rtc show --resolved` writes it, and which of its numbers

@@ -3,7 +3,7 @@
 //! Not written by hand and not edited: `build.rs` links every WGSL module and translates the text.
 
 /// The kernel in single precision: the same bits as a GPU that rounds as IEEE 754 says. Its `trace` is
-/// [`crate::walk`]'s, what was generated for it is `generated_trace`.
+/// `walk`'s, what was generated for it is `generated_trace`.
 #[allow(
     clippy::all,
     clippy::pedantic,

@@ -1,6 +1,6 @@
 //! Inputs at the edge of what numbers can hold → what the renderer makes of them, in `f32` and in `f64`.
 //!
-//! The 53 cases are one table. `tests/extreme.rs` asserts that each row holds; [`page`] writes them down as
+//! The 53 cases are one table. `tests/extreme.rs` asserts that each row holds; [`page()`] writes them down as
 //! `docs/stability.md`. A row that does not hold is kept with its reason ([`Row::known`]), and the test fails
 //! as soon as it does hold. What takes minutes or gigabytes is in [`heavy`]: measured by hand, its results are
 //! a file. Seeds are fixed, and no row depends on the clock.
