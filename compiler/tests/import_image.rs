@@ -171,10 +171,7 @@ fn foreign_and_cut_off_files_are_one_clear_line() {
         (b"", "a.png: the file is empty"),
         (b"GIF89a", "a.png: this is a GIF image; images are PNG, JPEG, HDR or EXR"),
         (b"RIFF....WEBP", "a.png: this is a WebP image; images are PNG, JPEG, HDR or EXR"),
-        (
-            b"hello there",
-            "a.png: this is not a PNG, JPEG, HDR or EXR image: it begins with `hello th`",
-        ),
+        (b"hello there", "a.png: this is not a PNG, JPEG, HDR or EXR image"),
     ];
     for (bytes, expected) in cases {
         assert_eq!(load("a.png", bytes).expect_err("foreign").to_string(), expected);

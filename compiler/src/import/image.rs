@@ -14,7 +14,7 @@ mod guard;
 mod hdr;
 
 use super::budget::{Loan, no_memory, zeroed};
-use super::error::{ErrorKind, ImportError, excerpt};
+use super::error::{ErrorKind, ImportError};
 use super::file::{Limits, read_file};
 use ::image::{ImageDecoder, ImageFormat, ImageReader};
 pub use environment::{Environment, load_environment};
@@ -119,10 +119,8 @@ fn recognise(bytes: &[u8], place: &str) -> Result<Format, ImportError> {
     let message = match other {
         Some((_, name)) => format!("this is a {name} image; images are PNG, JPEG, HDR or EXR"),
         None if bytes.is_empty() => "the file is empty".to_owned(),
-        None => {
-            let start = excerpt(&bytes[..bytes.len().min(8)]);
-            format!("this is not a PNG, JPEG, HDR or EXR image: it begins with `{start}`")
-        }
+        // Nothing of it is shown: a scene may name any file of its reader.
+        None => "this is not a PNG, JPEG, HDR or EXR image".to_owned(),
     };
     Err(ImportError::new(ErrorKind::Image, place, message).with_help("convert it to PNG or EXR"))
 }

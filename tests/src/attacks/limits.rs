@@ -33,7 +33,7 @@ pub(super) fn rows(lab: &Lab) -> io::Result<Vec<Row>> {
         .map(|mb| format!("ulimit -v {};", mb * 1000))
         .collect();
     let others: Vec<String> =
-        ["-u 1", "-u 2", "-n 3", "-n 4", "-n 8", "-n 16", "-s 32", "-s 64", "-s 128", "-s 1024"]
+        ["-u 1", "-u 2", "-n 4", "-n 8", "-n 16", "-s 32", "-s 64", "-s 128", "-s 1024"]
             .iter()
             .map(|limit| format!("ulimit {limit};"))
             .collect();

@@ -437,10 +437,10 @@ impl<'a> Scanner<'a> {
     fn skip(&mut self, keyword: &[u8]) -> Checked {
         const MAX_KEYWORD: usize = 32; // longer ones exist in no dialect
         const MAX_KINDS: usize = 64; // a text with more unknown words is not an OBJ file
-        let plain = keyword.iter().all(u8::is_ascii_graphic);
+        let plain = keyword.iter().all(|c| c.is_ascii_alphanumeric() || matches!(c, b'_' | b'-'));
         if !plain || keyword.len() > MAX_KEYWORD || self.out.skipped.len() >= MAX_KINDS {
-            let found = excerpt(keyword);
-            return format_error(format!("`{found}` is not an OBJ keyword; is this an OBJ file?"));
+            // Nothing of it is shown: a scene may name any file of its reader.
+            return format_error("this is no OBJ keyword; is this an OBJ file?".to_owned());
         }
         let key = excerpt(keyword);
         let line = self.line;
