@@ -40,7 +40,7 @@ pub(super) fn rows(lab: &Lab) -> io::Result<Vec<Row>> {
     let mut rows = Vec::new();
     for (name, limits, commands) in [
         ("address space of 20 MB to 8 GB, films up to 134 million pixels", memory, &commands[..]),
-        ("one or two threads, 3 to 16 files, stacks of 32 kB to 1 MB", others, &commands[..2]),
+        ("one or two threads, 4 to 16 files, stacks of 32 kB to 1 MB", others, &commands[..2]),
     ] {
         let mut row = Row::new(name, "exit 0 or 3");
         for limit in &limits {
