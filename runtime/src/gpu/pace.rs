@@ -1,7 +1,9 @@
 //! How much to hand to the GPU at once: measured durations → sizes of tiles and submissions.
 //!
 //! A submission should take long enough to hide what it costs to make one, and short enough that
-//! the desktop stays alive and no watchdog bites. Pure arithmetic, no device.
+//! the desktop stays alive and no watchdog bites. It also has to fill the device: one that leaves
+//! most of a large GPU idle takes as long as its slowest thread, however few threads there are, and
+//! making it smaller gains nothing. Pure arithmetic, no device.
 
 use std::time::{Duration, Instant};
 
@@ -20,39 +22,75 @@ const CAP: Duration = Duration::from_secs(1);
 /// A submission grows at most by this factor over the one before.
 const GROWTH: f64 = 4.0;
 
+/// Measured submissions of each size before two sizes are compared.
+const ROUNDS: u32 = 4;
+/// A larger size is kept when it raises the rate at least by this factor.
+const GAIN: f64 = 1.2;
+/// Submissions from a failed trial to the next, at first and at most; twice as many each time.
+const WAIT: [u32; 2] = [32, 1024];
+/// What is left per submission of the slowest pixel samples seen.
+const FORGET: f64 = 0.9;
+
+/// A finished submission.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Work {
+    /// Pixel samples that it was to have: [`Pace::next`].
+    pub(super) planned: f64,
+    /// Pixel samples that it had: fewer at the end of a pass.
+    pub(super) samples: u64,
+    /// Rays that they took.
+    pub(super) rays: u64,
+    /// How long it kept the device busy.
+    pub(super) busy: Duration,
+}
+
 /// The controller.
 pub(super) struct Pace {
     target: f64,
-    /// Pixel samples of the next submission.
+    /// Pixel samples of a submission.
+    wanted: f64,
+    /// Those of the next one.
     cost: f64,
     /// Never more than this; shrinks when a device is lost.
     ceiling: f64,
+    /// The slowest pixel samples of late, in seconds each.
+    slowest: f64,
+    fill: Fill,
 }
 
 impl Pace {
     pub(super) fn new(target: Duration) -> Self {
         let target = target.clamp(Duration::from_millis(1), CAP).as_secs_f64();
-        Self { target, cost: FIRST, ceiling: f64::INFINITY }
+        let (ceiling, fill) = (f64::INFINITY, Fill::default());
+        Self { target, wanted: FIRST, cost: FIRST, ceiling, slowest: 0.0, fill }
     }
 
-    /// Pixel samples that the next submission is to have.
-    pub(super) fn cost(&self) -> f64 {
+    /// Plans the next submission. Returns the pixel samples that it is to have.
+    pub(super) fn next(&mut self) -> f64 {
+        self.cost = self.fill.next().unwrap_or(self.wanted).min(self.ceiling.max(LEAST));
         self.cost
     }
 
-    /// A submission that was to have `planned` pixel samples, and had `cost`, kept the device busy for `busy`.
-    pub(super) fn measured(&mut self, planned: f64, cost: u64, busy: Duration) {
-        let ideal = cost as f64 * self.target / busy.as_secs_f64().max(1e-6);
-        self.cost = ideal.min(planned * GROWTH).clamp(LEAST, self.ceiling.max(LEAST));
+    /// A submission has ended.
+    pub(super) fn measured(&mut self, work: Work) {
+        let seconds = work.busy.as_secs_f64().max(1e-6);
+        let each = seconds / work.samples.max(1) as f64;
+        self.slowest = each.max(self.slowest * FORGET);
+        let ideal = (self.target / each).min(work.planned * GROWTH);
+        let longest = CAP.as_secs_f64() / self.slowest;
+        let least = self.fill.measured(work, ideal, longest);
+        self.wanted = ideal.max(least.min(longest)).clamp(LEAST, self.ceiling.max(LEAST));
     }
 
     /// The device was lost: half of what it last got is the most it gets from now on.
     pub(super) fn halve(&mut self) {
         self.ceiling = (self.cost * 0.5).max(LEAST);
-        self.cost = self.ceiling.min(FIRST);
+        self.wanted = self.ceiling.min(FIRST);
+        self.cost = self.wanted;
+        self.fill = Fill::default();
     }
 
-    /// Number of tiles of the next submission and pixels of each, for a batch of `samples`.
+    /// Number of tiles of the submission that was planned last and pixels of each, for a batch of `samples`.
     pub(super) fn tiles(&self, samples: u32) -> (usize, u64) {
         let pixels = self.cost / f64::from(samples.max(1));
         let split = MAX_TILES as f64;
@@ -61,6 +99,101 @@ impl Pace {
         #[expect(clippy::cast_possible_truncation, reason = "bounded by MAX_TILE")]
         let each = each.min(MAX_TILE as f64) as u64;
         (n, each.max(64))
+    }
+}
+
+/// The least size that fills the device. From time to time a larger one is tried in turns with the
+/// wanted one, so that both see the same parts of the picture: if its rate is higher, the device
+/// was not full.
+#[derive(Default)]
+struct Fill {
+    /// Pixel samples below which the device is known not to be full.
+    least: f64,
+    trial: Option<Trial>,
+    /// Submissions until the next trial.
+    wait: u32,
+    /// Trials that failed one after the other.
+    failed: u32,
+}
+
+/// Two sizes in turns.
+struct Trial {
+    /// The larger one, in pixel samples.
+    cost: f64,
+    /// Whether it is next.
+    is_next: bool,
+    /// What the usual size and the larger one achieve.
+    rates: [Rate; 2],
+    /// Submissions after which the trial ends in any case.
+    left: u32,
+}
+
+/// Rays and the time they took.
+#[derive(Clone, Copy, Default)]
+struct Rate {
+    rays: f64,
+    seconds: f64,
+    n: u32,
+}
+
+impl Rate {
+    fn add(&mut self, work: Work) {
+        self.rays += work.rays as f64;
+        self.seconds += work.busy.as_secs_f64().max(1e-6);
+        self.n += 1;
+    }
+
+    fn per_second(self) -> f64 {
+        self.rays / self.seconds.max(1e-6)
+    }
+}
+
+impl Fill {
+    /// The size of the next submission, if a trial decides it.
+    fn next(&mut self) -> Option<f64> {
+        let trial = self.trial.as_mut()?;
+        trial.is_next = !trial.is_next;
+        (!trial.is_next).then_some(trial.cost)
+    }
+
+    /// The least size of submissions, after one has ended. `ideal` takes the wanted duration,
+    /// `longest` the longest that is allowed.
+    fn measured(&mut self, work: Work, ideal: f64, longest: f64) -> f64 {
+        // What is left at the end of a pass says nothing of its planned size.
+        let is_full = work.samples as f64 >= 0.5 * work.planned;
+        self.wait = self.wait.saturating_sub(1);
+        if let Some(trial) = &mut self.trial {
+            let k = usize::from(work.planned >= 0.9 * trial.cost);
+            if is_full {
+                trial.rates[k].add(work);
+            }
+            trial.left -= 1;
+            let [usual, larger] = trial.rates;
+            if trial.left == 0 || usual.n.min(larger.n) >= ROUNDS {
+                let gains = larger.n > 0 && larger.per_second() >= GAIN * usual.per_second();
+                let kept = gains.then_some(trial.cost);
+                self.end(kept);
+            }
+        } else if self.wait == 0 && is_full && ideal < 1.5 * work.planned {
+            // It does not grow by itself any more.
+            let cost = (work.planned * GROWTH).min(longest);
+            if cost >= 1.5 * work.planned {
+                let rates = [Rate::default(); 2];
+                self.trial = Some(Trial { cost, is_next: false, rates, left: 4 * ROUNDS });
+            }
+        }
+        self.least
+    }
+
+    /// Ends the trial, with the size that is kept.
+    fn end(&mut self, kept: Option<f64>) {
+        self.trial = None;
+        if let Some(cost) = kept {
+            (self.least, self.failed) = (cost, 0);
+        } else {
+            self.wait = WAIT[0].saturating_mul(1 << self.failed.min(8)).min(WAIT[1]);
+            self.failed += 1;
+        }
     }
 }
 
@@ -111,24 +244,36 @@ impl Busy {
 mod tests {
     use super::*;
 
-    /// Runs submissions on a device of `rate` pixel samples a second; returns their durations.
-    fn durations(rate: f64, pace: &mut Pace, n: usize) -> Vec<f64> {
+    const TARGET: Duration = Duration::from_millis(100);
+
+    /// Runs `n` submissions on a device that takes `seconds` for a number of pixel samples; returns their
+    /// durations.
+    fn run(pace: &mut Pace, n: usize, seconds: impl Fn(f64) -> f64) -> Vec<f64> {
         (0..n)
             .map(|_| {
+                let planned = pace.next();
                 let (tiles, pixels) = pace.tiles(16);
-                let cost = tiles as u64 * pixels * 16;
-                let seconds = cost as f64 / rate;
-                pace.measured(pace.cost(), cost, Duration::from_secs_f64(seconds));
-                seconds
+                let samples = tiles as u64 * pixels * 16;
+                let time = seconds(samples as f64);
+                let busy = Duration::from_secs_f64(time);
+                pace.measured(Work { planned, samples, rays: 5 * samples, busy });
+                time
             })
             .collect()
+    }
+
+    /// A device of `rate` pixel samples a second that any tile fills.
+    fn durations(rate: f64, pace: &mut Pace, n: usize) -> Vec<f64> {
+        run(pace, n, |samples| samples / rate)
     }
 
     #[test]
     fn submissions_approach_the_wanted_duration() {
         // From one that does a tile of 64 x 64 in a second to a large GPU.
         for rate in [65_536.0, 1e6, 1e7, 1e8] {
-            let times = durations(rate, &mut Pace::new(Duration::from_millis(100)), 12);
+            let times = durations(rate, &mut Pace::new(TARGET), 30);
+            let near = times.iter().filter(|t| (0.05..=0.11).contains(*t)).count();
+            assert!(near >= 15, "{rate}: {times:?}");
             assert!((0.05..=0.11).contains(times.last().unwrap()), "{rate}: {times:?}");
         }
     }
@@ -142,13 +287,30 @@ mod tests {
     }
 
     #[test]
+    fn a_large_device_is_filled_though_its_slowest_thread_takes_longer_than_wanted() {
+        // 4.8 million pixel samples fill it.
+        let (latency, rate) = (0.12, 4e7);
+        let mut pace = Pace::new(TARGET);
+        let times = run(&mut pace, 60, |samples| (samples / rate).max(latency));
+        assert!(times.iter().all(|t| *t <= 1.01), "{times:?}");
+        assert!(pace.wanted >= 4e6, "{}", pace.wanted);
+    }
+
+    #[test]
+    fn a_larger_size_that_gains_nothing_is_tried_rarely() {
+        let times = durations(1e6, &mut Pace::new(TARGET), 1000);
+        let long = times.iter().filter(|t| **t > 0.2).count();
+        assert!((4..40).contains(&long), "{long}");
+    }
+
+    #[test]
     fn a_lost_device_never_gets_as_much_again() {
-        let mut pace = Pace::new(Duration::from_millis(100));
+        let mut pace = Pace::new(TARGET);
         durations(1e7, &mut pace, 10);
-        let before = pace.cost;
+        let before = pace.next();
         pace.halve();
         durations(1e7, &mut pace, 10);
-        assert!(pace.cost <= before / 2.0);
+        assert!(pace.next() <= before / 2.0);
     }
 
     #[test]
@@ -168,16 +330,17 @@ mod tests {
 
     #[test]
     fn what_is_left_at_an_edge_does_not_make_the_next_tiles_small() {
-        let mut pace = Pace::new(Duration::from_millis(100));
-        durations(1e6, &mut pace, 10);
-        let before = pace.cost();
-        pace.measured(before, 1024, Duration::from_secs_f64(1024e-6));
-        assert!(pace.cost() > 0.9 * before, "{before} to {}", pace.cost());
+        let mut pace = Pace::new(TARGET);
+        durations(1e6, &mut pace, 30);
+        let planned = pace.next();
+        let busy = Duration::from_secs_f64(1024e-6);
+        pace.measured(Work { planned, samples: 1024, rays: 5120, busy });
+        assert!(pace.next() > 0.9 * planned, "{planned} to {}", pace.next());
     }
 
     #[test]
     fn tiles_of_few_samples_have_more_pixels() {
-        let pace = Pace::new(Duration::from_millis(100));
+        let pace = Pace::new(TARGET);
         let cost = |samples| {
             let (n, pixels) = pace.tiles(samples);
             n as u64 * pixels * u64::from(samples)
@@ -187,10 +350,8 @@ mod tests {
 
     #[test]
     fn tiles_stay_within_their_film() {
-        let mut pace = Pace::new(Duration::from_millis(100));
-        for _ in 0..40 {
-            pace.measured(pace.cost(), u64::MAX / 2, Duration::from_nanos(1));
-        }
+        let mut pace = Pace::new(TARGET);
+        run(&mut pace, 40, |_| 1e-9);
         assert_eq!(pace.tiles(1), (MAX_TILES, MAX_TILE));
         assert_eq!(pace.tiles(16), (MAX_TILES, MAX_TILE));
     }

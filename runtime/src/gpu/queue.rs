@@ -7,7 +7,7 @@
 
 use super::GpuError;
 use super::device::Device;
-use super::pace::{Busy, MAX_TILES, Pace};
+use super::pace::{Busy, MAX_TILES, Pace, Work};
 use super::slot::{Slot, Slots, submit};
 use super::stopwatch::Stopwatch;
 use crate::cpu;
@@ -88,7 +88,7 @@ impl Device {
                 self.gpu.destroy();
             }
             while under_way.len() < IN_FLIGHT {
-                let planned = pace.cost();
+                let planned = pace.next();
                 let items = claim(run, pace);
                 if items.is_empty() {
                     break;
@@ -138,15 +138,16 @@ impl Device {
         waited?;
         let own = oldest.watch.as_ref().and_then(Stopwatch::read);
         run.timed(own);
-        let time = tally.busy.ended(oldest.submitted, Instant::now(), own);
-        let cost = oldest.slots.iter().map(|slot| slot.item.cost()).sum();
-        pace.measured(oldest.planned, cost, time);
+        let busy = tally.busy.ended(oldest.submitted, Instant::now(), own);
+        let samples = oldest.slots.iter().map(|slot| slot.item.cost()).sum();
+        let mut work = Work { planned: oldest.planned, samples, rays: 0, busy };
         free.watches.extend(oldest.watch.take());
         while let Some(slot) = oldest.slots.last_mut() {
             let item = slot.item;
             let is_cut = slot.read(self, |pixels| {
                 let is_cut = pixels.iter().any(|pixel| pixel.rays == FilmPixel::CUT);
                 if !is_cut {
+                    work.rays += pixels.iter().map(|pixel| u64::from(pixel.rays)).sum::<u64>();
                     run.deposit(&item, pixels);
                 }
                 is_cut
@@ -160,6 +161,7 @@ impl Device {
             tally.cut += u64::from(is_cut);
             free.free.extend(oldest.slots.pop());
         }
+        pace.measured(work);
         under_way.pop_front();
         Ok(())
     }
