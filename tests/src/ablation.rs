@@ -23,7 +23,7 @@ struct Effort {
 }
 
 /// The effort where devices are quick.
-const PAGE: Effort = Effort { size: [240, 135], samples: 16, rounds: 3 };
+const PAGE: Effort = Effort { size: [640, 360], samples: 16, rounds: 3 };
 /// The effort where software adapters count, whose full kernel is slow.
 const ON_SOFTWARE: Effort = Effort { size: [120, 68], samples: 4, rounds: 3 };
 

@@ -4,6 +4,7 @@
 //! it that are the same program under another name: CPU seconds (user + system of the whole process, so that
 //! threads of a software adapter count), medians of interleaved rounds.
 
+mod agreement;
 mod compiling;
 mod devices;
 mod first;
@@ -32,8 +33,13 @@ pub struct Table {
 }
 
 /// All of them, in the order of the page.
-pub const TABLES: [Table; 8] = [
+pub const TABLES: [Table; 9] = [
     Table { name: "devices", about: "path tracing on the CPU and others", write: devices::table },
+    Table {
+        name: "agreement",
+        about: "pictures of GPUs against those of the CPU",
+        write: agreement::table,
+    },
     Table { name: "walks", about: "the walk through the tree", write: walks::table },
     Table { name: "trees", about: "building a tree", write: trees::table },
     Table { name: "compile", about: "text to pack, cold and warm", write: compiling::table },
@@ -73,7 +79,7 @@ pub fn page(names: &[String]) -> Result<String, Box<dyn Error>> {
     }
     let wanted = |table: &&Table| names.is_empty() || names.iter().any(|name| name == table.name);
     let mut packs = Packs::new()?;
-    let mut text = header();
+    let mut text = header(names);
     for table in TABLES.iter().filter(wanted) {
         // What others took minutes to measure is not lost.
         if let Err(error) = (table.write)(&mut packs, &mut text) {
@@ -83,14 +89,21 @@ pub fn page(names: &[String]) -> Result<String, Box<dyn Error>> {
     Ok(text)
 }
 
-fn header() -> String {
+fn header(names: &[String]) -> String {
     let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let mut text = String::from("# Benchmarks\n\n");
+    let command = "cargo run --release -p tests --bin benchmarks";
+    let _ = match names {
+        [] => write!(
+            text,
+            "Made by `{command}`; edit the program, not this page. With names of tables \
+             (`benchmarks open first`) it only prints those. "
+        ),
+        _ => write!(text, "Printed by `{command} {}`. ", names.join(" ")),
+    };
     let _ = writeln!(
         text,
-        "Made by `cargo run --release -p tests --bin benchmarks`; edit the program, not this page. With names of tables \
-         (`benchmarks open first`) it only prints those. \
-         CPU seconds are user + system time of the process, medians of {ROUNDS} interleaved rounds. \
+        "CPU seconds are user + system time of the process, medians of {ROUNDS} interleaved rounds. \
          Compare rows of one page, not pages: machines differ.\n\n\
          Machine: {} {}, {threads} hardware threads, {}.",
         std::env::consts::ARCH,
