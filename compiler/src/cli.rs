@@ -3,6 +3,7 @@
 //! Exit codes: 0 done, 1 the scene is wrong, 2 the command line is wrong, 3 a file cannot be read
 //! or written, 70 a bug of ours.
 
+mod args;
 mod build;
 mod cache;
 mod compile;
@@ -10,35 +11,24 @@ mod explain;
 mod files;
 mod fmt;
 mod inspect;
+mod last;
 mod mapped;
 mod outputs;
-mod record;
 mod show;
 mod summary;
 mod watch;
 
 use std::ffi::OsString;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use ::files::ShowPath as _;
 use clap::error::ContextKind;
-use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use lang::stack::on_large_stack;
 
-use crate::import::{Budget, Limits};
-use crate::input::Root;
 use crate::report::{Color, ErrorFormat, Reporter};
+use args::ReportArgs;
 
-/// Done.
-pub const OK: u8 = 0;
-/// The scene has errors.
-pub const SCENE: u8 = 1;
-/// The command line has errors.
-pub const USAGE: u8 = 2;
-/// A file cannot be read or written.
-pub const IO: u8 = 3;
-/// A bug of ours.
-pub const BUG: u8 = 70;
+pub use args::{BUG, IO, OK, SCENE, USAGE};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -80,99 +70,6 @@ enum Command {
     Inspect(inspect::InspectArgs),
     /// Look at or clear the BVH cache.
     Cache(cache::CacheArgs),
-}
-
-/// How to report; the same for every command that reads scenes.
-#[derive(Debug, Clone, Args)]
-struct ReportArgs {
-    /// How errors look.
-    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
-    error_format: ErrorFormat,
-    /// Colours on the terminal.
-    #[arg(long, value_enum, default_value_t, value_name = "WHEN")]
-    color: Color,
-    /// Errors shown, and as many warnings; 0 shows all.
-    #[arg(long, default_value_t = 50, value_name = "N")]
-    max_errors: usize,
-}
-
-/// Prints what the user asked for; gives the exit code.
-fn printed(reporter: &Reporter, text: &str) -> u8 {
-    if reporter.output(text) { OK } else { IO }
-}
-
-impl ReportArgs {
-    fn reporter(&self) -> Reporter {
-        let max = if self.max_errors == 0 { usize::MAX } else { self.max_errors };
-        Reporter::new(self.error_format, self.color, max)
-    }
-}
-
-/// A scene and the values that override its parameters.
-#[derive(Debug, Clone, Args)]
-struct SceneArgs {
-    /// The scene text (`.rts`).
-    scene: PathBuf,
-    /// Override a `param`, as in `-D hour=7h`; may be given several times.
-    #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = parse_define)]
-    define: Vec<(String, String)>,
-    /// Refuse files of the scene that lie outside of this folder once all links are resolved; absolute paths may
-    /// lead into it [default: any file].
-    #[arg(long, value_name = "DIR")]
-    root: Option<PathBuf>,
-    /// Memory that meshes and images may take together, as in `8GB` [default: three quarters of what is free].
-    #[arg(long, value_name = "SIZE", value_parser = parse_bytes)]
-    memory: Option<u64>,
-}
-
-impl SceneArgs {
-    /// Where files may lie; a folder that is not there is reported and becomes an exit code.
-    fn root(&self, reporter: &Reporter) -> Result<Root, u8> {
-        let Some(folder) = &self.root else { return Ok(Root::ANYWHERE) };
-        Root::new(folder).map_err(|error| {
-            reporter.failure(&format!("--root {}: {error}", folder.shown()));
-            USAGE
-        })
-    }
-
-    /// What files may be. Asked once a compilation: free memory changes.
-    fn limits(&self, reporter: &Reporter) -> Result<Limits, u8> {
-        let memory = self.memory.map_or_else(Budget::usual, Budget::of);
-        Ok(Limits { memory, root: self.root(reporter)?, ..Limits::default() })
-    }
-}
-
-/// `8GB`, `500 MB`, `2GiB`: bytes.
-fn parse_bytes(text: &str) -> Result<u64, String> {
-    let units = [
-        ("TiB", 1 << 40),
-        ("GiB", 1 << 30),
-        ("MiB", 1 << 20),
-        ("KiB", 1 << 10),
-        ("TB", 1_000_000_000_000),
-        ("GB", 1_000_000_000),
-        ("MB", 1_000_000),
-        ("kB", 1_000),
-        ("B", 1_u64),
-    ];
-    let found = units.iter().find_map(|(unit, bytes)| Some((text.strip_suffix(unit)?, *bytes)));
-    let bytes = found.and_then(|(number, unit)| {
-        let number = number.trim().parse::<f64>().ok()?;
-        let bytes = number * unit as f64;
-        // A float becomes the nearest integer that there is.
-        #[expect(clippy::cast_possible_truncation, reason = "checked just before")]
-        (number.is_finite() && (1.0..=1e18).contains(&bytes)).then_some(bytes as u64)
-    });
-    bytes.ok_or_else(|| "write a number and a unit, as in 8GB, 500MB or 2GiB".to_owned())
-}
-
-fn parse_define(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=') {
-        Some((name, value)) if !name.is_empty() && !value.is_empty() => {
-            Ok((name.trim().to_owned(), value.trim().to_owned()))
-        }
-        _ => Err("write it as NAME=VALUE, for instance -D hour=7h".to_owned()),
-    }
 }
 
 /// Runs `rtc` with these arguments, the program's name first; returns the exit code.
@@ -262,18 +159,6 @@ mod tests {
         }
         for word in ["check.rts", "chek.rts", "-D", "scene", "a/chek", "", "é"] {
             assert_eq!(second(word), "build", "{word}");
-        }
-    }
-
-    #[test]
-    fn sizes_have_units() {
-        for (text, bytes) in
-            [("8GB", 8_000_000_000), ("1.5 MB", 1_500_000), ("2GiB", 2 << 30), ("7B", 7)]
-        {
-            assert_eq!(parse_bytes(text), Ok(bytes));
-        }
-        for text in ["", "8", "GB", "-1GB", "0B", "1e40GB", "nanGB", "8gb", "infGB"] {
-            assert!(parse_bytes(text).is_err(), "{text}");
         }
     }
 

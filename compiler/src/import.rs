@@ -10,6 +10,7 @@
 mod budget;
 mod check;
 mod error;
+mod facts;
 mod file;
 mod gltf;
 mod image;
@@ -24,6 +25,7 @@ mod topology;
 
 pub use self::budget::Budget;
 pub use self::error::{ErrorKind, ImportError};
+pub use self::facts::{EnvironmentFacts, ImageFacts, MeshFacts, PartFacts};
 pub use self::file::Limits;
 pub use self::gltf::{load_gltf, read_gltf};
 pub use self::image::{Environment, Image, Pixels, decode_image, load_environment, load_image};

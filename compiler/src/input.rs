@@ -65,6 +65,11 @@ impl Root {
         Ok(Self(Some(Arc::new(real))))
     }
 
+    /// The folder, if there is one.
+    pub(crate) fn folder(&self) -> Option<&Path> {
+        self.0.as_deref().map(PathBuf::as_path)
+    }
+
     /// Opens a regular file.
     ///
     /// # Errors

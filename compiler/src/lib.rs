@@ -10,12 +10,14 @@ pub mod cli;
 pub mod depfile;
 pub mod import;
 pub mod input;
+pub mod kept;
 // A kind that a match forgets is an error, not what the last arm says.
 #[warn(clippy::wildcard_enum_match_arm)]
 pub mod lower;
 pub mod normalize;
 #[warn(clippy::wildcard_enum_match_arm)]
 pub mod pipeline;
+pub mod reads;
 pub mod report;
-pub mod reuse;
+pub mod stage;
 pub mod weld;

@@ -1,6 +1,6 @@
 //! A checked scene and its loaded files become the records of a pack.
 //!
-//! Each submodule turns one kind of declaration into one kind of record; `assemble` puts them
+//! Each submodule turns one kind of declaration into one kind of record; `lower` puts them
 //! together. What no instance uses never gets here: materials and textures are numbered in the
 //! order in which geometry first asks for them. It does not know text or the disk.
 
@@ -9,66 +9,204 @@
     reason = "records hold f32 and u32; indices are bounded by the format's limits before"
 )]
 
-mod again;
-mod assemble;
 mod camera;
 mod closed;
 mod extent;
+mod files;
 mod finish;
 mod fresnel;
 mod geometry;
 mod grain;
 mod inside;
-mod known;
 mod light;
 mod light_tree;
 mod lowered;
 mod material;
 mod medium;
 mod motion;
-mod moved;
 mod object;
 mod order;
 mod pieces;
 mod power;
-mod roster;
 mod rows;
 mod share;
 mod sheet;
-mod sketch;
+mod shutter;
 mod sky;
-mod sky_source;
 mod sky_table;
 mod stored;
+mod survey;
 mod texture;
 mod thick;
 mod trees;
+mod world;
 
-pub use again::lower_again;
-pub use assemble::lower;
-pub use geometry::Placement;
-pub use lowered::{Counters, LowerError, Lowered, Times};
-pub use moved::{Left, files_of_moved, lower_moved};
-pub use roster::Roster;
+use glam::DVec3;
+use lang::diagnostic::Diagnostic;
+use lang::scene::Scene;
+use pack::abi::{self, MOVES, NONE, TRI_SMOOTH};
+
+use self::geometry::body::Bodies;
+use self::inside::{Boundary, Solids};
+use self::material::MaterialTable;
+use self::object::Thing;
+use self::share::Plan;
+use self::shutter::Shutter;
+use self::texture::Textures;
+use self::world::{Sections, World};
+use crate::normalize::Normalization;
+use crate::stage::Stages;
+
+pub use files::{Files, Meshes};
+pub use lowered::{Counters, LowerError, Lowered, Reused, Times};
 pub use rows::{Kept, Rows};
 pub use share::{Instancing, MIN_SAVED, MIN_TRIANGLES, UnknownInstancing};
-pub use sketch::Sketch;
-pub use stored::{Placed, Stored};
-pub use texture::{TextureTable, srgb_table};
+pub use texture::srgb_table;
 pub use trees::Trees;
 
-use std::sync::Arc;
+/// Lowers a scene. Faults of single instances are added to `diagnostics`.
+///
+/// Results of the last compilation that `stages` has are taken from there.
+///
+/// # Errors
+/// When the scene is too large for the format, or a file cannot be loaded.
+pub fn lower(
+    scene: &Scene,
+    files: &dyn Files,
+    trees: &Trees<'_>,
+    stages: &Stages,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<Lowered, LowerError> {
+    // What things are, and their materials.
+    let plan = Plan::new(scene, files.assets(), trees.instancing, Shutter::of(&scene.camera));
+    let mut materials = MaterialTable::new(scene, files, stages);
+    let bodies = Bodies::of(scene, &plan, stages, &mut materials, diagnostics)?;
+    let sky = sky::sky(scene.sky.as_ref(), (files, stages), &mut materials.textures)?;
+    let (textures, has_textures) = materials.textures.made()?;
 
-use crate::import::{Environment, Image, MeshFile};
+    // Where they are.
+    let inside = medium::matters(scene, materials.records());
+    closed::check(scene, (files, stages), inside, diagnostics)?;
+    thick::check(scene, files.assets(), diagnostics);
+    let objects = finish::asks_about_objects(materials.records());
+    let world = World { bodies: &bodies, materials: &materials, stages, trees, inside, objects };
+    let progress = world.begin()?;
+    let frame = progress.frame();
+    let boundaries = inside.then(|| progress.boundaries());
+    let inside = around_camera(scene, &materials, &bodies.things, boundaries, diagnostics);
 
-/// What the files of a scene turned out to contain, in the order of `Scene::assets` and
-/// `Scene::textures`; an entry is `None` when its file could not be read.
-#[derive(Debug, Default)]
-pub struct Loaded {
-    /// Mesh files.
-    pub assets: Vec<Option<Arc<MeshFile>>>,
-    /// Images.
-    pub textures: Vec<Option<Arc<Image>>>,
-    /// The image of the sky, if it has one.
-    pub environment: Option<Environment>,
+    // What gives light.
+    let flux = sky.as_ref().and_then(sky::LoweredSky::flux);
+    let mut emitters = progress.emitters();
+    let n_emitters = emitters.len();
+    emitters.extend(flux.and(progress.sky_area()).map(power::sky));
+    let choices = light::choices(&power::powers(&emitters, &materials, flux));
+    let ids = light::ids(&choices);
+
+    // Triangles, spheres and the tree over them.
+    let (sections, times, has_geometry) = world.finish(progress, &ids[..n_emitters])?;
+    let mut lights = light::table(&emitters, &choices, &sections.lights);
+    let motions = motion::displacements(&bodies.things, &frame);
+    let motion = |light: &abi::Light| displacement(light, &sections, &motions);
+    let light_nodes = finish::light_tree(&mut lights, materials.records(), motion, stages);
+    let (sky, sky_table) = finish::sky_records(sky, &lights);
+    diagnostics.extend(finish::darkness(scene, &lights, sky.as_ref()));
+
+    let moves = !motions.is_empty();
+    let reused =
+        Reused { geometry: has_geometry, parts: stages.used_parts(), textures: has_textures };
+    let lit = Lit { sections, times, lights, light_nodes, sky, sky_table, frame, inside, moves };
+    Ok(records(scene, &bodies, materials, lit, textures, reused))
+}
+
+/// A scene whose geometry and lights are there.
+struct Lit {
+    sections: Sections,
+    times: Times,
+    lights: Vec<abi::Light>,
+    light_nodes: Vec<abi::LightNode>,
+    sky: Option<abi::Sky>,
+    sky_table: Vec<[f32; 4]>,
+    frame: Normalization,
+    /// What the camera is inside of.
+    inside: [u32; 4],
+    /// Something moves.
+    moves: bool,
+}
+
+/// Adds what surfaces and the space between them do.
+fn records(
+    scene: &Scene,
+    bodies: &Bodies,
+    materials: MaterialTable<'_>,
+    lit: Lit,
+    textures: Textures,
+    reused: Reused,
+) -> Lowered {
+    let frame = &lit.frame;
+    let material_names = materials.names();
+    let declared = medium::records(scene, materials.waters(), frame);
+    let mut materials = materials.into_records();
+    let (media, around) = medium::used(scene, &declared, &mut materials);
+    let objects = if lit.moves || finish::asks_about_objects(&materials) {
+        bodies.things.iter().map(|thing| thing.record(frame)).collect()
+    } else {
+        Vec::new()
+    };
+    let Sections { nodes, wide_nodes, triangles, shades, spheres, instances, .. } = lit.sections;
+    let inside = (lit.inside, around);
+    Lowered {
+        render: finish::settings(scene, frame, lit.sections.entry, inside, lit.lights.len()),
+        camera: camera::camera(&scene.camera, frame),
+        sky: lit.sky,
+        sky_table: lit.sky_table,
+        nodes,
+        wide_nodes,
+        triangles,
+        shades,
+        spheres,
+        objects,
+        instances,
+        materials,
+        media,
+        material_names,
+        counters: Counters { lights: lit.lights.len() as u64, ..lit.sections.counters },
+        lights: lit.lights,
+        light_nodes: lit.light_nodes,
+        textures: textures.records,
+        texels: textures.texels,
+        times: lit.times,
+        trees: lit.sections.trees,
+        reused,
+    }
+}
+
+/// What the camera is inside of, as `RenderSettings` holds it; nothing without `boundaries`.
+fn around_camera(
+    scene: &Scene,
+    materials: &MaterialTable<'_>,
+    things: &[Thing],
+    boundaries: Option<&[Boundary]>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> [u32; 4] {
+    let Some(boundaries) = boundaries else { return [NONE; 4] };
+    let materials = materials.records();
+    let solids = Solids::new(boundaries, DVec3::from(scene.camera.from));
+    solids.warn_of_overlaps(things, materials, scene, diagnostics);
+    solids.around_camera(scene, materials, diagnostics)
+}
+
+/// How far a light comes while the shutter is open; `motions` is empty where nothing moves.
+fn displacement(light: &abi::Light, sections: &Sections, motions: &[[f32; 3]]) -> DVec3 {
+    if motions.is_empty() || light.kind == abi::LightKind::Sky as u32 {
+        return DVec3::ZERO;
+    }
+    let primitive = light.primitive as usize;
+    let object = if light.kind == abi::LightKind::Sphere as u32 {
+        sections.spheres.get(primitive).map(|sphere| sphere.object & !MOVES)
+    } else {
+        sections.shades.get(primitive).map(|shade| shade.object & !TRI_SMOOTH)
+    };
+    let motion = object.and_then(|object| motions.get(object as usize));
+    motion.map_or(DVec3::ZERO, |motion| motion.map(f64::from).into())
 }

@@ -2,43 +2,30 @@
 //!
 //! It does not parse, print, or decide where the pack goes.
 
-mod again;
-mod essence;
 mod explain;
 mod features;
-mod load;
+mod files;
 mod manifest;
+mod options;
+mod session;
 
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use lang::diagnostic::Diagnostic;
 use lang::scene::Scene;
 use lang::source::SourceSet;
 use pack::manifest::KernelSize;
-use pack::{Pack, PackError, PackWriter};
+use pack::{PackError, PackWriter};
 use shaders::{FeatureSet, LayoutError, Linked, ShaderError};
 
-use crate::import::{ImportError, Limits};
-use crate::lower::{self, LowerError, Lowered, Rows, Trees};
-use crate::reuse::{Geometry, Reuse, Reused, Share};
+use crate::import::ImportError;
+use crate::lower::{self, LowerError, Lowered, Rows};
+use crate::stage::{KeyOf, Share, Stages};
+use files::{Origin, SceneFiles};
 
-pub use again::{EncodedRoster, Memory, compile_again};
-pub use essence::Essence;
-pub use load::FileRead;
-
-/// What a compilation is given besides the scene.
-#[derive(Debug)]
-pub struct Options<'a> {
-    /// Directory of the root `.rts` file; names in the pack are relative to it.
-    pub root: &'a Path,
-    /// How trees are made.
-    pub trees: Trees<'a>,
-    /// How large inputs may be.
-    pub limits: Limits,
-    /// Overrides of parameters, for the manifest.
-    pub defines: &'a [(String, String)],
-}
+pub use files::FileRead;
+pub use options::Options;
+pub use session::Session;
 
 /// A phase and what it took.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,16 +51,29 @@ pub struct Compiled {
     pub recipe_id: [u8; 32],
     /// Files that were read besides the scene texts.
     pub files: Vec<FileRead>,
-    /// What is left for the next compilation; `None` where it could not use it.
-    pub memory: Option<Memory>,
-    /// What is left of each thing; `None` also where that is in the cache.
-    pub roster: Option<EncodedRoster>,
     /// The mapped pack that some of it was taken from; it must not have changed when a pack is written of it.
     pub source: Option<pack::Witness>,
-    /// What was taken over from earlier compilations.
+    /// What was known from earlier compilations.
     pub reused: Reused,
     /// What took how long.
     pub phases: Vec<Phase>,
+}
+
+/// How much of a pack earlier compilations had made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Reused {
+    /// Texts, all of which are read anew.
+    pub texts: usize,
+    /// Mesh files, and what they hold.
+    pub meshes: Share,
+    /// Image files, and what they hold.
+    pub images: Share,
+    /// Sections.
+    pub lowered: lower::Reused,
+    /// Trees.
+    pub trees: Share,
+    /// The proof of the kernel.
+    pub kernel: Share,
 }
 
 /// Why there is no pack, apart from faults in the scene's text or files.
@@ -109,94 +109,52 @@ pub fn compile(
     options: &Options<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Compiled, CompileError> {
-    compile_reusing(scene, sources, options, &Reuse::once(), diagnostics)
+    let (session, stages) = (Session::once(), Stages::new());
+    compile_after((scene, sources), options, (&session, &stages), diagnostics)
 }
 
-/// As `compile`, with what earlier compilations left in `reuse`. The pack has the same bytes.
+/// As `compile`, with what earlier compilations left. The pack has the same bytes.
 ///
 /// # Errors
 /// As those of `compile`.
-pub fn compile_reusing(
-    scene: &Scene,
-    sources: &SourceSet,
+pub fn compile_after(
+    (scene, sources): (&Scene, &SourceSet),
     options: &Options<'_>,
-    reuse: &Reuse,
+    (session, stages): (&Session, &Stages),
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Compiled, CompileError> {
     let mut clock = Clock::start();
-    let (loaded, files) = load::load(scene, sources, options, reuse, diagnostics)?;
-    clock.phase("read files");
-    if diagnostics.iter().any(Diagnostic::is_error) {
+    let origin = Origin { scene, sources, options, session, stages };
+    let Some((found, files, counts)) = SceneFiles::new(origin, diagnostics)? else {
         return Err(CompileError::Scene);
-    }
-    let lowered = lower::lower(scene, loaded, &options.trees, diagnostics)?;
+    };
+    clock.phase("read files");
+    let lowered = lower::lower(scene, &found, &options.trees, stages, diagnostics)?;
+    drop(found);
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(CompileError::Scene);
     }
     clock.times(&lowered.times);
-    let essence = Essence::new(scene, sources);
-    let made = Made { lowered, files, geometry: Geometry::Nothing, earlier: None };
-    complete((scene, &essence), sources, options, reuse, made, clock)
-}
-
-/// What was lowered, and from what.
-struct Made<'a> {
-    lowered: Lowered,
-    files: Vec<FileRead>,
-    geometry: Geometry,
-    /// What some of it was taken over from.
-    earlier: Option<(&'a Pack, &'a Memory)>,
-}
-
-/// Adds the kernel and all that is said of a scene to what was lowered.
-fn complete(
-    (scene, essence): (&Scene, &Essence),
-    sources: &SourceSet,
-    options: &Options<'_>,
-    reuse: &Reuse,
-    made: Made<'_>,
-    mut clock: Clock,
-) -> Result<Compiled, CompileError> {
-    let Made { mut lowered, files, geometry, earlier } = made;
-    let (features, kernel, size) = link(&lowered, reuse, earlier.map(|(pack, _)| pack))?;
+    let mut reused = Reused {
+        texts: sources.ids().count(),
+        meshes: counts.meshes,
+        images: counts.images,
+        lowered: lowered.reused,
+        trees: Share { reused: lowered.trees.loaded, all: lowered.trees.groups },
+        kernel: Share::default(),
+    };
+    let features = features::of(&lowered);
+    let kernel = shaders::link(&features)?;
+    let key = KeyOf::stage("kernel").text(&kernel.text).end();
+    reused.kernel.count(stages.get::<KernelSize>(key).is_some());
+    let size = stages.try_value(key, || prove(&kernel))?;
     clock.phase("link and prove the kernel");
     let context = manifest::Context { scene, sources, options, files: &files };
     let manifest = context.manifest(&lowered, &features, size);
     let recipe_id = context.recipe_id();
-    let trees = Share { reused: lowered.trees.loaded, all: lowered.trees.groups };
-    let reused = Reused { texts: sources.ids().count(), geometry, trees, ..reuse.counts() };
-    let source = earlier.and_then(|(pack, _)| pack.witness());
-    let before = earlier.map(|(_, memory)| memory);
-    let (memory, roster) = Memory::of(essence, &files, &mut lowered, before);
-    Ok(Compiled {
-        lowered,
-        features,
-        kernel,
-        manifest,
-        recipe_id,
-        files,
-        memory,
-        roster,
-        source,
-        reused,
-        phases: clock.phases,
-    })
-}
-
-/// The kernel of a scene and its size. It is proven to read the bytes that the pack has; that of a pack which this
-/// program made, `earlier`, was.
-fn link(
-    lowered: &Lowered,
-    reuse: &Reuse,
-    earlier: Option<&Pack>,
-) -> Result<(FeatureSet, Linked, KernelSize), CompileError> {
-    let features = features::of(lowered);
-    let kernel = shaders::link(&features)?;
-    if let Some(earlier) = earlier.filter(|pack| pack.kernel() == kernel.text) {
-        reuse.know_kernel(&kernel.text, earlier.manifest()?.kernel);
-    }
-    let size = reuse.kernel(&kernel.text, || prove(&kernel))?;
-    Ok((features, kernel, size))
+    let source = stages.pack().and_then(|pack| pack.witness());
+    let phases = clock.phases;
+    Ok(Compiled { lowered, features, kernel, manifest, recipe_id, files, source, reused, phases })
 }
 
 /// Whether the kernel is valid and reads what the compiler writes; then its size.

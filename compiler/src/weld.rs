@@ -17,6 +17,9 @@ pub struct Welded {
     pub n_ids: u32,
 }
 
+/// Most labels: as many as corners of the triangles that a tree allows.
+const MAX_LABELS: usize = 3 << 27;
+
 /// Welds the corners of fewer than 2^32 / 3 triangles; coordinates are in the frame in which the
 /// kernel sees them.
 #[must_use]
@@ -44,18 +47,20 @@ pub fn weld(triangles: &[[[f32; 3]; 3]]) -> Welded {
     Welded { ids, n_ids }
 }
 
-/// As [`weld`], where most triangles were welded before: `before` has the ids of their corners then, below `n_before`,
-/// and `u32::MAX` three times for the others. `None` if these cannot be such ids.
+/// As [`weld`], where most corners have labels: numbers that ascend as ids do, equal for equal positions. A triangle
+/// without has `u32::MAX` three times. `None` if these cannot be such labels.
 #[must_use]
-pub fn weld_again(
-    triangles: &[[[f32; 3]; 3]],
-    before: Vec<[u32; 3]>,
-    n_before: u64,
-) -> Option<Welded> {
+pub fn weld_labelled(triangles: &[[[f32; 3]; 3]], labels: Vec<[u32; 3]>) -> Option<Welded> {
     const NEW: u32 = u32::MAX;
-    let n_before = usize::try_from(n_before).ok().filter(|_| before.len() == triangles.len())?;
-    let (mut ids, corners) = (before, triangles.as_flattened());
-    let mut known: Vec<Option<u128>> = vec![None; n_before];
+    let is_label = |label: &&u32| **label != NEW;
+    let largest = labels.as_flattened().iter().filter(is_label).max();
+    let n_labels = largest.map_or(0, |largest| *largest as usize + 1);
+    // Ids are labels: no more than there are corners.
+    if labels.len() != triangles.len() || n_labels > MAX_LABELS {
+        return None;
+    }
+    let (mut ids, corners) = (labels, triangles.as_flattened());
+    let mut known: Vec<Option<u128>> = vec![None; n_labels];
     let mut new: Vec<u128> = Vec::new();
     for (id, p) in ids.as_flattened().iter().zip(corners) {
         if *id == NEW {
@@ -67,7 +72,7 @@ pub fn weld_again(
     new.sort_unstable();
     new.dedup();
     // Both lists ascend: one walk through both gives every position its rank.
-    let (mut id_of_known, mut id_of_new) = (vec![NEW; n_before], vec![NEW; new.len()]);
+    let (mut id_of_known, mut id_of_new) = (vec![NEW; n_labels], vec![NEW; new.len()]);
     let (mut n_ids, mut next, mut last) = (0_u32, 0, None);
     for (id, position) in id_of_known.iter_mut().zip(&known) {
         let Some(position) = *position else { continue };
@@ -124,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn welding_again_gives_what_welding_gives() {
+    fn labels_change_nothing() {
         let all: Vec<_> = (0..60_u16)
             .map(|i| {
                 let at = |k: u16| f32::from(i * k % 17) - 8.0;
@@ -138,13 +143,13 @@ mod tests {
                 moved[i] = tri(0.25 * f32::from(k), all[i][0][0], -0.0);
                 ids[i] = [u32::MAX; 3];
             }
-            let again = weld_again(&moved, ids, before.n_ids.into());
-            assert_eq!(again, Some(weld(&moved)));
+            assert_eq!(weld_labelled(&moved, ids), Some(weld(&moved)));
         }
-        assert_eq!(weld_again(&all, before.ids.clone(), 1), None);
+        assert_eq!(weld_labelled(&all[1..], before.ids.clone()), None);
+        assert_eq!(weld_labelled(&all, vec![[u32::MAX - 1; 3]; all.len()]), None);
         let mut wrong = before.ids;
         wrong.reverse();
-        assert_eq!(weld_again(&all, wrong, before.n_ids.into()), None);
+        assert_eq!(weld_labelled(&all, wrong), None);
     }
 
     #[test]

@@ -65,7 +65,7 @@ fn nothing_is_done_when_nothing_changed_and_everything_else_is_noticed() {
 }
 
 #[test]
-fn warnings_are_said_every_time() {
+fn warnings_are_said_every_time_and_need_no_new_pack() {
     let folder = tempfile::tempdir().expect("a folder");
     // A triangle without area is left out, with a warning.
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 1 2 4\n";
@@ -78,9 +78,13 @@ fn warnings_are_said_every_time() {
         .replace("shape = sphere(radius: size)", "shape = t");
     std::fs::write(folder.path().join("scene.rts"), scene).expect("writable");
     std::fs::write(folder.path().join("t.obj"), obj).expect("writable");
-    for _ in 0..2 {
-        let log = rtc(folder.path(), &[]);
-        assert!(log.contains("warning[W0520]") && !log.contains("up to date"), "{log}");
+    let warnings = |log: &str| log.split("a.pack").next().unwrap_or_default().to_owned();
+    for format in ["human", "short", "json"] {
+        let _ = std::fs::remove_file(folder.path().join("a.pack"));
+        let [first, second] = [0, 1].map(|_| rtc(folder.path(), &["--error-format", format]));
+        assert!(first.contains("W0520") && !first.contains("up to date"), "{first}");
+        assert_eq!(warnings(&first), warnings(&second));
+        assert!(format == "json" || second.contains("a.pack is up to date"), "{second}");
     }
 }
 

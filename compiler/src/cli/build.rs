@@ -2,23 +2,26 @@
 
 use files::ShowPath as _;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
 
 use clap::Args;
 
+use super::args::{IO, OK, ReportArgs, SceneArgs};
 use super::compile::{Compilation, compile};
+use super::last::{Job, Last};
 use super::outputs::Outputs;
-use super::record::{Before, Done, Edited, Job, Record};
 use super::summary::{done, portability, reused_text, timings};
 use super::watch::watch;
-use super::{IO, OK, ReportArgs, SceneArgs, inspect, mapped};
+use super::{inspect, mapped};
 use crate::bvh::{Layout, Preset};
 use crate::cache::Cache;
 use crate::depfile::depfile;
 use crate::lower::{Instancing, Trees, srgb_table};
-use crate::pipeline::{Compiled, Phase};
+use crate::pipeline::{Compiled, Phase, Session};
+use crate::reads::Reads;
 use crate::report::Reporter;
-use crate::reuse::Reuse;
+use crate::stage::{Results, Stages};
 
 #[derive(Debug, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch on the command line")]
@@ -99,13 +102,13 @@ pub(super) fn build(args: &BuildArgs) -> u8 {
 
 fn build_or_watch(args: &BuildArgs, reporter: &Reporter) -> u8 {
     if args.watch {
-        watch(reporter, |reuse| build_here(args, reporter, reuse) == OK)
+        watch(reporter, |session| build_here(args, reporter, session) == OK)
     } else {
-        build_here(args, reporter, &Reuse::once())
+        build_here(args, reporter, &Session::once())
     }
 }
 
-fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
+fn build_here(args: &BuildArgs, reporter: &Reporter, session: &Session) -> u8 {
     let start = Instant::now();
     let cache = if args.no_cache { Cache::disabled() } else { Cache::from_env() };
     let output = args.output.clone().unwrap_or_else(|| default_output(&args.scene.scene));
@@ -126,26 +129,32 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
         defines: &args.scene.define,
         trees,
     };
-    let before = job.before(&cache);
-    let edited = match before {
-        // Who asks for the kernel or the times wants to see a compilation.
-        Before::UpToDate(record) if args.emit_wgsl.is_none() && !args.timings => {
-            let spared = outputs.spare(&record.files, reporter);
-            return spared
-                .err()
-                .unwrap_or_else(|| up_to_date(args, &record, &output, reuse, reporter));
-        }
-        Before::Edited(edited) => Some(edited),
-        Before::UpToDate(_) | Before::Nothing => None,
+    let reads = &session.reads;
+    let last = job.last();
+    let pack = last.as_ref().and_then(|last| last.pack(&output));
+    // Who asks for the kernel or the times wants to see a compilation.
+    let unchanged = last.as_ref().filter(|last| {
+        args.emit_wgsl.is_none() && !args.timings && pack.is_some() && last.is_of(&job, reads)
+    });
+    if let Some(last) = unchanged.filter(|last| last.silent) {
+        let spared = outputs.spare(last.files(), reporter);
+        return spared.err().unwrap_or_else(|| up_to_date(args, last, &output, reads, reporter));
+    }
+    let stages = match &last {
+        Some(last) => last.stages(pack.clone(), &cache),
+        None => without_cache(session),
     };
-    let earlier = edited.as_ref().map(|e| (&job, e));
-    let done = compile(&args.scene, &limits, trees, earlier, reuse, reporter);
-    let Compilation { compiled, mut phases, texts, silent, whole } = match done {
+    let done = compile(&args.scene, &limits, trees, (session, &stages), reporter);
+    let Compilation { compiled, mut phases, silent } = match done {
         Ok(done) => done,
         Err(code) => return code,
     };
-    if let Err(code) = outputs.spare(reuse.reads().keys(), reporter) {
+    if let Err(code) = outputs.spare(reads.all().keys(), reporter) {
         return code;
+    }
+    // What there was to warn of has been said again.
+    if let Some(last) = unchanged.filter(|last| last.has_recipe(compiled.recipe_id)) {
+        return up_to_date(args, last, &output, reads, reporter);
     }
     if let Some(path) = &args.emit_wgsl
         && let Err(code) = write_text(path, &compiled.kernel.text, reporter)
@@ -159,21 +168,26 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, reuse: &Reuse) -> u8 {
         return IO;
     };
     if let Some(path) = &args.depfile
-        && let Err(code) = write_depfile(path, &output, reuse, reporter)
+        && let Err(code) = write_depfile(path, &output, reads, reporter)
     {
         return code;
     }
     phases.push(Phase { name: "write the pack", time: writing.elapsed() });
     tell(args, &output, &compiled, (&phases, start.elapsed()), reporter);
     let silent = silent && compiled.lowered.trees.warnings.is_empty();
-    let pack = [render_id, compiled.recipe_id];
-    let memory = compiled.memory.as_ref().filter(|_| whole);
-    let roster = compiled.roster.as_ref().filter(|_| memory.is_some());
-    if silent || memory.is_some() {
-        let now = edited.map(Edited::now).unwrap_or_default();
-        job.keep(&cache, reuse, &Done { texts, pack, silent, memory, roster, now });
+    job.keep((reads, &stages), [render_id, compiled.recipe_id], silent, last.as_ref());
+    if cache.root().is_none() {
+        session.kept.put(RESULTS.into(), &Arc::new(stages.results().0));
     }
     explained(args, &output, reporter)
+}
+
+/// Name of the small results of the last compilation of a `--watch` without a cache.
+const RESULTS: [u8; 32] = [0; 32];
+
+fn without_cache(session: &Session) -> Stages {
+    let results = session.kept.get::<Results>(RESULTS.into());
+    results.map_or_else(Stages::new, |results| Stages::after(Results::clone(&results), None))
 }
 
 /// What is going to be written, proven to be writable.
@@ -221,16 +235,14 @@ fn explained(args: &BuildArgs, output: &Path, reporter: &Reporter) -> u8 {
 /// Nothing changed since the pack was made.
 fn up_to_date(
     args: &BuildArgs,
-    record: &Record,
+    last: &Last,
     output: &Path,
-    reuse: &Reuse,
+    reads: &Reads,
     reporter: &Reporter,
 ) -> u8 {
-    for file in &record.files {
-        reuse.read(file);
-    }
+    last.files().for_each(|file| reads.read(file));
     if let Some(path) = &args.depfile {
-        if let Err(code) = write_depfile(path, output, reuse, reporter) {
+        if let Err(code) = write_depfile(path, output, reads, reporter) {
             return code;
         }
         // Build tools go by times: a file that was touched would have them ask again and again.
@@ -238,7 +250,7 @@ fn up_to_date(
         let _ = file.and_then(|file| file.set_modified(SystemTime::now()));
     }
     let path = output;
-    let (n, output) = (record.files.len(), path.shown());
+    let (n, output) = (last.files().len(), path.shown());
     let plural = if n == 1 { "" } else { "s" };
     reporter.status(&format!("{output} is up to date: nothing changed in {n} file{plural}"));
     explained(args, path, reporter)
@@ -251,8 +263,8 @@ fn write_text(path: &Path, text: &str, reporter: &Reporter) -> Result<(), u8> {
     })
 }
 
-fn write_depfile(path: &Path, output: &Path, reuse: &Reuse, reporter: &Reporter) -> Result<(), u8> {
-    let reads = reuse.reads();
+fn write_depfile(path: &Path, output: &Path, reads: &Reads, reporter: &Reporter) -> Result<(), u8> {
+    let reads = reads.all();
     let text = depfile(output, reads.keys().map(PathBuf::as_path)).map_err(|error| {
         reporter.failure(&error.to_string());
         IO
@@ -264,7 +276,8 @@ pub(super) fn check(args: &CheckArgs) -> u8 {
     let reporter = args.report.reporter();
     let cache = Cache::from_env();
     let compiled = args.scene.limits(&reporter).and_then(|limits| {
-        compile(&args.scene, &limits, Trees::usual(&cache), None, &Reuse::once(), &reporter)
+        let nothing = (&Session::once(), &Stages::new());
+        compile(&args.scene, &limits, Trees::usual(&cache), nothing, &reporter)
     });
     compiled.err().unwrap_or(OK)
 }

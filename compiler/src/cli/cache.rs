@@ -3,7 +3,7 @@
 use clap::Args;
 use files::ShowPath as _;
 
-use super::{IO, printed};
+use super::args::{IO, printed};
 use crate::cache::Cache;
 use crate::report::{Color, ErrorFormat, Reporter};
 

@@ -1,7 +1,6 @@
 //! From the path of a scene to everything that its pack holds; what is wrong is reported.
 
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::Path;
 use std::time::Instant;
 
 use files::ShowPath as _;
@@ -9,29 +8,30 @@ use lang::Analysis;
 use lang::stack::on_large_stack;
 use shaders::ShaderError;
 
+use super::args::{BUG, IO, SCENE, SceneArgs, USAGE};
 use super::files::{DiskLoader, TextError, read_scene};
-use super::record::{Edited, Job};
-use super::{BUG, IO, SCENE, SceneArgs, USAGE};
+use super::mapped;
 use crate::import::Limits;
 use crate::input::{InputError, Root};
 use crate::lower::Trees;
-use crate::pipeline::{self, CompileError, Compiled, Essence, Memory, Options, Phase};
+use crate::pipeline::{self, CompileError, Compiled, Options, Phase, Session};
+use crate::reads::Reads;
 use crate::report::Reporter;
-use crate::reuse::Reuse;
+use crate::stage::Stages;
 
 /// Reads and checks the text; an unreadable file is reported and becomes an exit code.
 pub(super) fn analyze(scene: &SceneArgs, reporter: &Reporter) -> Result<Analysis, u8> {
-    analyze_reading(scene, &scene.root(reporter)?, &Reuse::once(), reporter)
+    analyze_reading(scene, &scene.root(reporter)?, &Reads::default(), reporter)
 }
 
-/// As `analyze`; `reuse` is told which files are read.
+/// As `analyze`; `reads` is told which files are read.
 fn analyze_reading(
     scene: &SceneArgs,
     root: &Root,
-    reuse: &Reuse,
+    reads: &Reads,
     reporter: &Reporter,
 ) -> Result<Analysis, u8> {
-    reuse.read(&scene.scene);
+    reads.read(&scene.scene);
     let shown = scene.scene.display().to_string();
     let text = read_scene(&scene.scene, root).map_err(|error| {
         reporter.failure(&format!("cannot read {}: {error}", scene.scene.shown()));
@@ -45,7 +45,7 @@ fn analyze_reading(
         }
     })?;
     let options = lang::Options { defines: scene.define.clone() };
-    let analyze = || lang::analyze(&shown, &text, &mut DiskLoader { reuse, root }, &options);
+    let analyze = || lang::analyze(&shown, &text, &mut DiskLoader { reads, root }, &options);
     on_large_stack(analyze).map_err(|error| {
         reporter
             .failure(&format!("cannot start a thread to read {}: {error}", scene.scene.shown()));
@@ -57,31 +57,25 @@ fn analyze_reading(
 pub(super) struct Compilation {
     pub(super) compiled: Compiled,
     pub(super) phases: Vec<Phase>,
-    /// Texts of the scene.
-    pub(super) texts: Vec<PathBuf>,
     /// There was nothing to say of it.
     pub(super) silent: bool,
-    /// What there was to say will be said again when only texts have changed.
-    pub(super) whole: bool,
 }
 
-/// Compiles a scene; `before`: which job it is, and what is there of its last compilation.
+/// Compiles a scene, with what earlier compilations left.
 pub(super) fn compile(
     args: &SceneArgs,
     limits: &Limits,
     trees: Trees<'_>,
-    before: Option<(&Job<'_>, &Edited)>,
-    reuse: &Reuse,
+    (session, stages): (&Session, &Stages),
     reporter: &Reporter,
 ) -> Result<Compilation, u8> {
     let start = Instant::now();
     let Analysis { sources, scene, mut diagnostics, .. } =
-        analyze_reading(args, &limits.root, reuse, reporter)?;
+        analyze_reading(args, &limits.root, &session.reads, reporter)?;
     let Some(scene) = scene else {
         reporter.diagnostics(&sources, &diagnostics);
         return Err(SCENE);
     };
-    let n_of_text = diagnostics.len();
     let mut phases = vec![Phase { name: "read and check the text", time: start.elapsed() }];
     let options = Options {
         root: args.scene.parent().unwrap_or(Path::new("")),
@@ -89,34 +83,16 @@ pub(super) fn compile(
         limits: limits.clone(),
         defines: &args.define,
     };
-    let mut again = || -> Result<Option<Compiled>, CompileError> {
-        let Some((job, edited)) = before else { return Ok(None) };
-        let essence = Essence::new(&scene, &sources);
-        let found = job.earlier(trees.cache, edited, |memory: &Memory| memory.fits(&essence));
-        let Some((pack, memory)) = found else { return Ok(None) };
-        let (what, known) = ((&scene, &essence), (&Arc::new(pack), &memory));
-        pipeline::compile_again(what, &sources, &options, known, reuse, &mut diagnostics)
-    };
-    let taken_over = again();
+    let result =
+        pipeline::compile_after((&scene, &sources), &options, (session, stages), &mut diagnostics);
     // Whatever came of bytes that were written to meanwhile, it is not what the scene says.
-    if let Ok(Some(Compiled { source: Some(source), .. })) = &taken_over {
-        source.look().map_err(|error| failed(&error.into(), reporter))?;
+    if let Some(pack) = stages.pack() {
+        mapped::unchanged(pack).map_err(|error| failed(&error.into(), reporter))?;
     }
-    let result = match taken_over {
-        Ok(Some(compiled)) => {
-            before.iter().flat_map(|(_, edited)| edited.data()).for_each(|path| reuse.read(path));
-            Ok(compiled)
-        }
-        Ok(None) => pipeline::compile_reusing(&scene, &sources, &options, reuse, &mut diagnostics),
-        Err(error) => Err(error),
-    };
     reporter.diagnostics(&sources, &diagnostics);
     let mut compiled = result.map_err(|error| failed(&error, reporter))?;
     phases.append(&mut compiled.phases);
-    let silent = diagnostics.is_empty();
-    let whole = diagnostics.len() == n_of_text;
-    let texts = sources.ids().map(|id| PathBuf::from(sources.name(id))).collect();
-    Ok(Compilation { compiled, phases, texts, silent, whole })
+    Ok(Compilation { compiled, phases, silent: diagnostics.is_empty() })
 }
 
 fn failed(error: &CompileError, reporter: &Reporter) -> u8 {

@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::{USAGE, printed};
+use super::args::{USAGE, printed};
 use crate::report::{Color, ErrorFormat, Reporter};
 
 #[derive(Debug, Args)]

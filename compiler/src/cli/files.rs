@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use lang::source::{LoadError, Loader, MAX_FILE_BYTES, is_scene_text};
 
 use crate::input::{InputError, Root};
-use crate::reuse::Reuse;
+use crate::reads::Reads;
 
 /// Finds imports beside the file that imports them.
 #[derive(Debug)]
 pub(crate) struct DiskLoader<'a> {
     /// Told every file that is asked for.
-    pub(crate) reuse: &'a Reuse,
+    pub(crate) reads: &'a Reads,
     /// Where texts may lie.
     pub(crate) root: &'a Root,
 }
@@ -22,7 +22,7 @@ impl Loader for DiskLoader<'_> {
         let dir = Path::new(importing).parent().unwrap_or(Path::new(""));
         let file = tidy(&dir.join(path));
         let name = file.display().to_string();
-        self.reuse.read(&file);
+        self.reads.read(&file);
         match read_text(&file, self.root) {
             Ok(text) => Ok((name, text)),
             Err(TextError::NotText(byte)) => Err(LoadError::NotText(byte)),

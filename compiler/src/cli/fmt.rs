@@ -8,8 +8,8 @@ use clap::Args;
 use files::ShowPath as _;
 use lang::source::{MAX_FILE_BYTES, SourceSet};
 
+use super::args::{IO, OK, ReportArgs, SCENE};
 use super::files::read_scene;
-use super::{IO, OK, ReportArgs, SCENE};
 use crate::input::Root;
 use crate::report::Reporter;
 

@@ -12,7 +12,8 @@ use pack::bvh::InnerNode;
 use pack::manifest::{Feature, KernelSize};
 use pack::{Checked, Manifest, Pack};
 
-use super::{BUG, IO, mapped, printed};
+use super::args::{BUG, IO, printed};
+use super::mapped;
 use crate::bvh::Layout;
 use crate::pipeline::full_kernel_size;
 use crate::report::{Color, ErrorFormat, Reporter};

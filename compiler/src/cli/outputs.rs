@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use files::Claims;
 
-use super::{IO, USAGE};
+use super::args::{IO, USAGE};
 use crate::report::Reporter;
 
 /// The files that a compilation is going to write.

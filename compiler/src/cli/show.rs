@@ -2,8 +2,8 @@
 
 use clap::Args;
 
+use super::args::{ReportArgs, SCENE, SceneArgs, printed};
 use super::compile::analyze;
-use super::{ReportArgs, SCENE, SceneArgs, printed};
 
 #[derive(Debug, Args)]
 pub(super) struct ShowArgs {

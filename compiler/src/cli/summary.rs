@@ -7,9 +7,9 @@ use std::time::Duration;
 
 use shaders::{FeatureSet, PORTABLE_STORAGE};
 
-use crate::lower::Counters;
-use crate::pipeline::{Compiled, Phase};
-use crate::reuse::{Geometry, Reused, Share};
+use crate::lower::{self, Counters};
+use crate::pipeline::{Compiled, Phase, Reused};
+use crate::stage::Share;
 
 /// The pack and what is in it.
 pub(super) fn done(output: &Path, compiled: &Compiled, time: Duration) -> String {
@@ -109,7 +109,7 @@ pub(super) fn timings(phases: &[Phase], compiled: &Compiled) -> String {
 
 /// What a phase took over, for the table.
 fn phase_reuse(name: &str, reused: &Reused) -> String {
-    let Reused { texts, meshes, images, geometry: _, trees, kernel } = reused;
+    let Reused { texts, meshes, images, lowered: _, trees, kernel } = reused;
     let share = |share: &Share, what: &str| format!("{} of {} {what}", share.reused, share.all);
     match name {
         "read and check the text" => format!("0 of {texts} texts"),
@@ -120,28 +120,32 @@ fn phase_reuse(name: &str, reused: &Reused) -> String {
     }
 }
 
-/// One line about everything that was taken over, if anything was.
+/// One line about everything that was known from earlier compilations, if anything was.
 pub(super) fn reused_text(reused: &Reused) -> Option<String> {
-    let Reused { texts: _, meshes, images, geometry, trees, kernel } = reused;
-    let proof = if kernel.reused > 0 { ", the proof of the kernel" } else { "" };
-    match geometry {
-        Geometry::Nothing => {}
-        Geometry::OfOthers => {
-            let Share { reused, all } = trees;
-            return Some(format!(
-                "reused the textures of the last pack and the geometry of what has not moved, {reused} of {all} trees\
-                {proof}"
-            ));
+    let Reused { texts: _, meshes, images, lowered, trees, kernel } = reused;
+    let share = |share: &Share, what: &str| {
+        (share.reused > 0).then(|| format!("{} of {} {what}", share.reused, share.all))
+    };
+    let said = |said: bool, what: &str| said.then(|| what.to_owned());
+    let lower::Reused { geometry, parts, textures } = *lowered;
+    let all = match (geometry, textures) {
+        (true, true) => Some("the geometry and the textures of the last pack"),
+        (true, false) => Some("the geometry of the last pack"),
+        (false, true) if parts => {
+            Some("the textures of the last pack and the geometry of what has not moved")
         }
-        Geometry::All => {
-            return Some(format!("reused the geometry and the textures of the last pack{proof}"));
-        }
-    }
-    let shares = [(meshes, "meshes"), (images, "images"), (trees, "trees")];
-    let some = shares.into_iter().filter(|(share, _)| share.reused > 0);
-    let mut parts: Vec<String> =
-        some.map(|(share, what)| format!("{} of {} {what}", share.reused, share.all)).collect();
-    parts.extend((kernel.reused > 0).then(|| "the proof of the kernel".to_owned()));
+        (false, true) => Some("the textures of the last pack"),
+        (false, false) => parts.then_some("the geometry of what has not moved"),
+    };
+    let files = !geometry && !parts && !textures;
+    let parts = [
+        all.map(str::to_owned),
+        share(meshes, "meshes").filter(|_| files),
+        share(images, "images").filter(|_| files),
+        share(trees, "trees").filter(|_| !geometry),
+        said(kernel.reused > 0, "the proof of the kernel"),
+    ];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
     (!parts.is_empty()).then(|| format!("reused {}", parts.join(", ")))
 }
 

@@ -13,9 +13,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 
-use super::OK;
+use super::args::OK;
+use crate::pipeline::Session;
+use crate::reads::Stamp;
 use crate::report::Reporter;
-use crate::reuse::{Reuse, Stamp};
 
 /// Between two looks at the files.
 const POLL: Duration = Duration::from_millis(250);
@@ -29,13 +30,13 @@ const MOST_NAMES: usize = 3;
 type Stamps = BTreeMap<PathBuf, Stamp>;
 
 /// Calls `build`, which says whether it went well, after every change until Ctrl-C.
-pub(super) fn watch(reporter: &Reporter, build: impl Fn(&Reuse) -> bool) -> u8 {
+pub(super) fn watch(reporter: &Reporter, build: impl Fn(&Session) -> bool) -> u8 {
     let interrupts = interrupts();
-    let reuse = Reuse::keeping();
+    let session = Session::keeping();
     loop {
-        reuse.begin();
-        let well = build(&reuse);
-        let mut stamps = reuse.reads();
+        session.begin();
+        let well = build(&session);
+        let mut stamps = session.reads.all();
         let n = stamps.len();
         if !well {
             add_folders(&mut stamps);

@@ -1,5 +1,8 @@
 //! The one error of importing: where, what, and what to do about it.
 
+use files::ShowPath as _;
+use std::path::Path;
+
 /// Which rule an input broke; decides the code under which a diagnostic is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorKind {
@@ -55,6 +58,13 @@ impl ImportError {
     ) -> Self {
         let (place, message) = (clipped(place.into()), message.into());
         Self { kind, place, message, help: String::new(), source: None }
+    }
+
+    /// The file is not what it was when it was known what it holds.
+    #[must_use]
+    pub fn changed(path: &Path) -> Self {
+        let place = path.shown().to_string();
+        Self::new(ErrorKind::Io, place, "the file changed while it was read")
     }
 
     /// The same error with advice.

@@ -2,6 +2,7 @@
 
 use super::image::Image;
 use lang::scene::{ColorSpace, Rgb, Wrap};
+use serde::{Deserialize, Serialize};
 
 /// An image that belongs to a mesh file.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,18 +14,56 @@ pub struct ImportedImage {
 }
 
 /// An image in one role of a material.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MapUse {
     /// Index into `MeshFile::images`.
     pub image: u32,
     /// How its colour channels are encoded.
+    #[serde(with = "SpaceName")]
     pub space: ColorSpace,
     /// Outside 0..1 along u and v.
+    #[serde(with = "wraps")]
     pub wrap: [Wrap; 2],
 }
 
+/// `ColorSpace`, which does not know how it is kept.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "ColorSpace")]
+enum SpaceName {
+    Srgb,
+    Linear,
+    Data,
+}
+
+/// `Wrap`, twice, by its place in [`wraps::ALL`].
+mod wraps {
+    use lang::scene::Wrap;
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    const ALL: [Wrap; 3] = [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror];
+
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for it")]
+    pub(super) fn serialize<S: Serializer>(
+        wraps: &[Wrap; 2],
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        wraps.map(|wrap| ALL.iter().position(|known| *known == wrap)).serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<[Wrap; 2], D::Error> {
+        let wrap = |place: Option<usize>| place.and_then(|place| ALL.get(place).copied());
+        let [Some(u), Some(v)] = <[Option<usize>; 2]>::deserialize(deserializer)?.map(wrap) else {
+            return Err(D::Error::custom("no such way to wrap"));
+        };
+        Ok([u, v])
+    }
+}
+
 /// A material of a mesh file. Every map multiplies the factor of the same name.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a property of its own in the file")]
 pub struct ImportedMaterial {
     /// Name in the file; `material 3` where it has none.

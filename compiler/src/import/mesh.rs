@@ -90,11 +90,6 @@ impl Part {
     pub fn corner_uvs(&self, tri_idx: usize) -> Option<[[f32; 2]; 3]> {
         self.uvs.at(tri_idx, self.triangles[tri_idx])
     }
-
-    /// Whether `name` selects this part.
-    fn is_named(&self, name: &str, same: impl Fn(&str, &str) -> bool) -> bool {
-        same(&self.name, name) || self.aliases.iter().any(|alias| same(alias, name))
-    }
 }
 
 impl MeshFile {
@@ -105,26 +100,38 @@ impl MeshFile {
     /// letter or digit is ignored.
     #[must_use]
     pub fn find_parts(&self, name: &str) -> Vec<usize> {
-        let exact = self.select(name, |a, b| a == b);
-        if !exact.is_empty() {
-            return exact;
-        }
-        self.select(name, |a, b| letters(a).eq(letters(b)))
-    }
-
-    fn select(&self, name: &str, same: impl Fn(&str, &str) -> bool) -> Vec<usize> {
-        let fits = |part: &Part| part.is_named(name, &same);
-        (0..self.parts.len()).filter(|&part| fits(&self.parts[part])).collect()
+        find(&self.parts, |part| (&part.name, &part.aliases), name)
     }
 
     /// Every name that selects something, sorted, for suggestions.
     #[must_use]
     pub fn part_names(&self) -> Vec<&str> {
-        let names = self.parts.iter().flat_map(|part| {
-            std::iter::once(part.name.as_str()).chain(part.aliases.iter().map(String::as_str))
-        });
-        names.filter(|name| !name.is_empty()).collect::<BTreeSet<_>>().into_iter().collect()
+        names(self.parts.iter().map(|part| (&part.name, &part.aliases)))
     }
+}
+
+/// Name and aliases of a part.
+type Names<'a> = (&'a String, &'a Vec<String>);
+
+/// See [`MeshFile::find_parts`].
+pub(super) fn find<T>(parts: &[T], names: impl Fn(&T) -> Names<'_>, name: &str) -> Vec<usize> {
+    let select = |same: &dyn Fn(&str) -> bool| -> Vec<usize> {
+        let fits = |part: &usize| {
+            let (own, aliases) = names(&parts[*part]);
+            same(own) || aliases.iter().any(|alias| same(alias))
+        };
+        (0..parts.len()).filter(fits).collect()
+    };
+    let exact = select(&|own| own == name);
+    if exact.is_empty() { select(&|own| letters(own).eq(letters(name))) } else { exact }
+}
+
+/// See [`MeshFile::part_names`].
+pub(super) fn names<'a>(parts: impl Iterator<Item = Names<'a>>) -> Vec<&'a str> {
+    let names = parts.flat_map(|(name, aliases)| {
+        std::iter::once(name.as_str()).chain(aliases.iter().map(String::as_str))
+    });
+    names.filter(|name| !name.is_empty()).collect::<BTreeSet<_>>().into_iter().collect()
 }
 
 /// Letters and digits of a name in lower case.

@@ -2,14 +2,18 @@
 
 use std::path::PathBuf;
 
+use serde::{Deserialize, Serialize};
+
 /// Warnings of one file that are kept; more of them tell nobody more.
 const MAX_WARNINGS: usize = 100;
 
 /// What was noticed while reading one mesh file.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ImportReport {
     /// Every file that was read, in order: the mesh file first, then MTL files, buffers, images.
     pub files: Vec<FileRead>,
+    /// Files that it names and that are not there.
+    pub absent: Vec<PathBuf>,
     /// Triangles kept, over all parts.
     pub n_triangles: u64,
     /// Faces with more than three corners that were cut into triangles.
@@ -35,7 +39,7 @@ pub struct ImportReport {
 }
 
 /// A file that went into an import.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileRead {
     /// Where it was found.
     pub path: PathBuf,
@@ -44,7 +48,7 @@ pub struct FileRead {
 }
 
 /// How often something was met, and where first.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Finding {
     /// How often.
     pub count: u64,
@@ -63,7 +67,7 @@ impl Finding {
 }
 
 /// Something that the user should know but that does not stop the import.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Warning {
     /// `file`, `file:line` or `file: material "x"`.
     pub place: String,

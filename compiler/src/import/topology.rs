@@ -5,9 +5,10 @@
 use super::check::{cross, dot, position_bits};
 use super::mesh::Part;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// Facts about the surface that some parts form together.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Topology {
     /// Edges that belong to one triangle only; 0: the surface is closed.
     pub boundary_edges: u64,

@@ -1,13 +1,12 @@
 //! Things that are filled must be closed, and their outside must be outside.
 
-use std::collections::BTreeMap;
-
 use lang::diagnostic::{Code, Diagnostic};
 use lang::material::Traits as _;
 use lang::scene::{Instance, Scene, Shape};
 
-use super::Loaded;
-use crate::import::{Topology, topology};
+use super::files::Files;
+use crate::import::{ImportError, Topology, topology};
+use crate::stage::{KeyOf, Stages};
 
 /// What stands in the text about an inside: the name of the medium, or of the material.
 struct Filling<'a> {
@@ -17,13 +16,15 @@ struct Filling<'a> {
 
 /// Reports open and inverted shapes under materials that are filled with a medium. `matters`: light
 /// must know what it is inside of, so that clear things are better closed, too.
+///
+/// # Errors
+/// When a mesh cannot be loaded that must be looked at.
 pub(super) fn check(
     scene: &Scene,
-    loaded: &Loaded,
+    (files, stages): (&dyn Files, &Stages),
     matters: bool,
     diagnostics: &mut Vec<Diagnostic>,
-) {
-    let mut known: BTreeMap<(usize, Option<&str>), Topology> = BTreeMap::new();
+) -> Result<(), ImportError> {
     for instance in &scene.instances {
         let Some(filling) = filling(scene, instance) else { continue };
         if filling.medium.is_none() && !matters {
@@ -33,21 +34,33 @@ pub(super) fn check(
             diagnostics.push(open(instance, &filling, format!("{what} has no inside")));
         }
         let Shape::Mesh { asset, part } = &instance.shape else { continue };
-        let Some(file) = &loaded.assets[*asset] else { continue };
-        let found = known.entry((*asset, part.as_deref())).or_insert_with(|| {
-            let parts = match part {
-                Some(name) => file.find_parts(name),
-                None => (0..file.parts.len()).collect(),
-            };
-            let parts: Vec<_> = parts.iter().map(|part| &file.parts[*part]).collect();
-            topology(&parts)
-        });
+        let found = surface(*asset, part.as_deref(), (files, stages))?;
         if found.boundary_edges > 0 {
-            diagnostics.push(open(instance, &filling, holes(found)));
+            diagnostics.push(open(instance, &filling, holes(&found)));
         } else if found.signed_volume < 0.0 {
             diagnostics.push(inverted(instance, &filling));
         }
     }
+    Ok(())
+}
+
+/// The surface that the parts of a file form which a shape names.
+fn surface(
+    asset: usize,
+    part: Option<&str>,
+    (files, stages): (&dyn Files, &Stages),
+) -> Result<Topology, ImportError> {
+    let facts = &files.assets()[asset];
+    let parts = facts.chosen(part);
+    let mut key = KeyOf::stage("topology");
+    for part in &parts {
+        key.bytes(&facts.parts[*part].content);
+    }
+    stages.try_value(key.end(), || {
+        let meshes = files.load_meshes(&[asset].into())?;
+        let parts: Vec<_> = parts.iter().map(|part| &meshes[&asset].parts[*part]).collect();
+        Ok(topology(&parts))
+    })
 }
 
 fn filling<'a>(scene: &'a Scene, instance: &Instance) -> Option<Filling<'a>> {

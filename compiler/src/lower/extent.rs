@@ -1,15 +1,12 @@
 //! Boxes of what each thing brings into the world, metres.
 //!
-//! From them follow the frame of the scene and the ball around what receives light. They are kept with a pack: where
-//! a thing is moved, the boxes of all others need not be looked for again.
+//! From them follow the frame of the scene and the ball around what receives light.
 
 use glam::DVec3;
-use pack::abi::LightKind;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::geometry::{Ends, Placement};
 use crate::normalize::Normalization;
+use crate::stage::KeyOf;
 
 /// Lower and upper corner; the wrong way round where there is nothing.
 type Corners = [[f64; 3]; 2];
@@ -26,9 +23,15 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    const NOTHING: Self = Self { all: NOTHING, dark: NOTHING };
+    pub(super) const NOTHING: Self = Self { all: NOTHING, dark: NOTHING };
 
-    fn add(&mut self, p: DVec3, glows: bool) {
+    /// All of it; `None` where there is nothing.
+    pub(super) fn corners(&self) -> Option<[DVec3; 2]> {
+        (self.all[0][0] <= self.all[1][0]).then(|| self.all.map(DVec3::from))
+    }
+
+    /// Adds a point, of something that gives light if it `glows`.
+    pub(super) fn add(&mut self, p: DVec3, glows: bool) {
         // Zeros of either sign are one: the result does not depend on the order of the points.
         let p = (p + DVec3::ZERO).to_array();
         if p.iter().all(|x| x.is_finite()) {
@@ -50,41 +53,6 @@ fn union([lo, hi]: Corners, [a, b]: Corners) -> Corners {
     [[0, 1, 2].map(|k| lo[k].min(a[k])), [0, 1, 2].map(|k| hi[k].max(b[k]))]
 }
 
-/// Of each thing of a placement whose triangles are not normalised yet.
-pub(super) fn extents(placement: &Placement) -> Vec<Extent> {
-    let spans: Vec<(Ends, Ends)> = placement.spans().collect();
-    let mut extents: Vec<Extent> =
-        spans.into_par_iter().map(|span| extent(placement, span)).collect();
-    for placed in &placement.placed {
-        for corner in placed.bounds {
-            extents[placed.object as usize].add(corner, false);
-        }
-    }
-    extents
-}
-
-fn extent(placement: &Placement, (from, to): (Ends, Ends)) -> Extent {
-    let mut extent = Extent::NOTHING;
-    let emitters = &placement.emitters[from.emitters as usize..to.emitters as usize];
-    let mut triangles = vec![false; (to.triangles - from.triangles) as usize];
-    let sphere_glows = emitters.iter().any(|emitter| emitter.kind == LightKind::Sphere);
-    for emitter in emitters.iter().filter(|emitter| emitter.kind != LightKind::Sphere) {
-        let first = (emitter.primitive - from.triangles) as usize;
-        triangles[first..][..emitter.count as usize].fill(true);
-    }
-    let corners = &placement.corners[from.triangles as usize..to.triangles as usize];
-    for (corners, glows) in corners.iter().zip(triangles) {
-        for p in corners {
-            extent.add(*p, glows);
-        }
-    }
-    for (center, radius) in &placement.spheres[from.spheres as usize..to.spheres as usize] {
-        extent.add(*center - *radius, sphere_glows);
-        extent.add(*center + *radius, sphere_glows);
-    }
-    extent
-}
-
 /// The frame of all things, and of the places where moving ones end.
 pub(super) fn frame(extents: &[Extent], ends: Vec<[f64; 3]>) -> Normalization {
     let [lo, hi] = extents.iter().map(|extent| extent.all).fold(NOTHING, union);
@@ -94,13 +62,47 @@ pub(super) fn frame(extents: &[Extent], ends: Vec<[f64; 3]>) -> Normalization {
     Normalization::of_points([lo, hi].into_iter().chain(ends))
 }
 
-/// Centre and radius of the ball around what does not emit, or around everything if all does; `None` in a scene
-/// without size.
-pub(super) fn receivers(extents: &[Extent]) -> Option<([f64; 3], f64)> {
-    let all = |of: fn(&Extent) -> Corners| extents.iter().map(of).fold(NOTHING, union);
-    let dark = all(|extent| extent.dark);
-    let [lo, hi] = if dark == NOTHING { all(|extent| extent.all) } else { dark };
-    let [lo, hi] = [DVec3::from(lo), DVec3::from(hi)];
-    let radius = 0.5 * (hi - lo).length();
-    (radius > 0.0 && radius.is_finite()).then(|| ((0.5 * (lo + hi)).to_array(), radius))
+/// The ball around what does not emit, or around everything if all does.
+///
+/// An emitter counts by the power that comes into this ball: one in the ball gives it all its power, one far away
+/// the share that the ball takes of the directions around it; the sky gives it its flux times the ball's disc. All
+/// are in units of watts / pi. Shares are estimates: they are wrong by up to a factor of two for lights near the edge
+/// or with a front and a back, which costs noise only.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Receivers(Option<([f64; 3], f64)>);
+
+impl Receivers {
+    pub(super) fn of(extents: &[Extent]) -> Self {
+        let all = |of: fn(&Extent) -> Corners| extents.iter().map(of).fold(NOTHING, union);
+        let dark = all(|extent| extent.dark);
+        let [lo, hi] = if dark == NOTHING { all(|extent| extent.all) } else { dark };
+        let [lo, hi] = [DVec3::from(lo), DVec3::from(hi)];
+        let radius = 0.5 * (hi - lo).length();
+        let sound = radius > 0.0 && radius.is_finite();
+        Self(sound.then(|| ((0.5 * (lo + hi)).to_array(), radius)))
+    }
+
+    /// The area of an emitter, less the share that leaves the scene.
+    pub(super) fn weigh(self, area: f64, middle: DVec3) -> f64 {
+        let Some((center, radius)) = self.0 else { return area };
+        let distance = (middle - DVec3::from(center)).length();
+        if distance > radius {
+            let ratio = radius / distance;
+            let square = ratio * ratio;
+            // 1 - sqrt(1 - x), without the cancellation.
+            return area * (square / (1.0 + (1.0 - square).sqrt()));
+        }
+        area
+    }
+
+    /// What is the area of the sky in these units; `None` in a scene without size.
+    pub(super) fn sky_area(self) -> Option<f64> {
+        self.0.map(|(_, radius)| radius * radius)
+    }
+
+    /// Adds all of it.
+    pub(super) fn read(self, key: &mut KeyOf) {
+        let [x, y, z] = self.0.map_or([0.0; 3], |ball| ball.0);
+        key.floats(&[x, y, z, self.0.map_or(-1.0, |ball| ball.1)]);
+    }
 }

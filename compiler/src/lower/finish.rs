@@ -2,71 +2,53 @@
 
 use glam::DVec3;
 use lang::diagnostic::{Code, Diagnostic};
-use lang::scene::{Name, Sampler, Scene, ToneMap};
-use lang::source::Span;
-use pack::Pack;
+use lang::scene::{Sampler, Scene, ToneMap};
 use pack::abi::{self, material_flag};
 
 use super::light_tree;
-use super::material::MaterialRef;
-use super::object::Thing;
 use super::sky::LoweredSky;
 use super::sky_table::SkyTable;
 use crate::normalize::Normalization;
+use crate::stage::{KeyOf, Stages};
 
-/// The things of the scene, if one of them `moves` or any material asks about them.
-pub(super) fn objects(
-    things: &[Thing],
-    materials: &[abi::Material],
-    frame: &Normalization,
-    moves: bool,
-) -> Vec<abi::Object> {
-    let asked = materials.iter().any(|material| material.flags & material_flag::OBJECT != 0);
-    if !asked && !moves {
-        return Vec::new();
-    }
-    things.iter().map(|thing| thing.record(frame)).collect()
+/// Whether any material asks about the thing that it is on.
+pub(super) fn asks_about_objects(materials: &[abi::Material]) -> bool {
+    materials.iter().any(|material| material.flags & material_flag::OBJECT != 0)
 }
 
 /// The tree of lights where there are many; tells each light its trail. `motion`: how far a light comes while the
-/// shutter is open.
+/// shutter is open. Where the primitives of lights are is nothing to the tree.
 pub(super) fn light_tree(
     lights: &mut [abi::Light],
     materials: &[abi::Material],
     motion: impl Fn(&abi::Light) -> DVec3,
+    stages: &Stages,
 ) -> Vec<abi::LightNode> {
     if !(light_tree::FROM..=light_tree::UP_TO).contains(&lights.len()) {
         return Vec::new();
     }
     let flags = |material: u32| materials[material as usize].flags;
     let both_sides = |material| flags(material) & material_flag::EMIT_BOTH_SIDES != 0;
+    let mut key = KeyOf::stage("tree of lights");
+    for light in &*lights {
+        let light = abi::Light { trail: 0, primitive: 0, ..*light };
+        key.bytes(bytemuck::bytes_of(&light)).floats(&motion(&light).to_array());
+        let is_sky = light.kind == abi::LightKind::Sky as u32;
+        key.number(!is_sky && both_sides(light.material));
+    }
+    let key = key.end();
+    if let Some(((), pack)) = stages.in_pack(key) {
+        for (light, made) in lights.iter_mut().zip(pack.records::<abi::Light>()) {
+            light.trail = made.trail;
+        }
+        return pack.records().to_vec();
+    }
     let (nodes, trails) = light_tree::tree(lights, both_sides, motion);
     for (light, trail) in lights.iter_mut().zip(trails) {
         light.trail = trail;
     }
+    stages.put_in_pack(key, &());
     nodes
-}
-
-/// The tree of lights of a pack, if it has these very lights; each is told its trail. Where their primitives are is
-/// nothing to the tree.
-pub(super) fn light_tree_again(
-    pack: &Pack,
-    lights: &mut [abi::Light],
-) -> Option<Vec<abi::LightNode>> {
-    let earlier: &[abi::Light] = pack.records();
-    // As bytes: two numbers that are equal may differ in sign.
-    let bytes = |light: &abi::Light| {
-        let light = abi::Light { trail: 0, primitive: 0, ..*light };
-        <[u8; size_of::<abi::Light>()]>::try_from(bytemuck::bytes_of(&light)).ok()
-    };
-    let same = |(a, b): (&abi::Light, &abi::Light)| bytes(a) == bytes(b);
-    if earlier.len() != lights.len() || !earlier.iter().zip(&*lights).all(same) {
-        return None;
-    }
-    for (light, earlier) in lights.iter_mut().zip(earlier) {
-        light.trail = earlier.trail;
-    }
-    Some(pack.records().to_vec())
 }
 
 /// The sky, told which light it is and how large its table; and the table, in words.
@@ -137,27 +119,4 @@ pub(super) fn settings(
         sampler: sampler as u32,
         ..Default::default()
     }
-}
-
-/// Name and place of declaration of each material in use; `own_name`: what a material of a mesh file, here by its
-/// place in the list, is called there.
-pub(super) fn names<'a>(
-    scene: &Scene,
-    refs: &[MaterialRef],
-    own_name: impl Fn(usize) -> &'a str,
-) -> Vec<(String, Option<Span>)> {
-    let name = |(index, of): (usize, &MaterialRef)| match *of {
-        MaterialRef::Scene(index) => declared(&scene.materials[index].name),
-        MaterialRef::Light(index) => declared(&scene.lights[index].name),
-        MaterialRef::Default => ("default".to_owned(), None),
-        MaterialRef::Asset { asset, .. } => {
-            let asset = &scene.assets[asset].name;
-            (format!("{}/{}", asset.text, own_name(index)), Some(asset.span))
-        }
-    };
-    refs.iter().enumerate().map(name).collect()
-}
-
-fn declared(name: &Name) -> (String, Option<Span>) {
-    (name.text.clone(), Some(name.span))
 }

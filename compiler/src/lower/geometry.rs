@@ -1,192 +1,303 @@
-//! Instances become triangles and spheres in the world, in `f64`, with their shading data, or places of meshes
-//! that are stored once.
+//! Things become triangles and spheres of the normalised frame with their shading data, or places of meshes that
+//! are stored once.
 //!
-//! Instances that `share` does not name are flattened: each writes its own triangles. Rectangles are two
-//! triangles, boxes twelve. Everything that emits is noted as an `Emitter` on the way.
+//! Things that `share` does not name are flattened: each has its own triangles. Rectangles are two triangles, boxes
+//! twelve. Triangles that have no area once they are rounded are left out and counted. Everything that emits is
+//! noted as an `Emitter` on the way. Triangles that the pack of the last compilation has are taken from there.
 
-mod placer;
-mod transform;
+pub(super) mod body;
+pub(super) mod mesh;
+pub(super) mod transform;
+
+use std::collections::BTreeMap;
+use std::ops::Range;
 
 use glam::DVec3;
-use lang::diagnostic::Diagnostic;
-use lang::scene::Scene;
-use pack::abi::{self, LightKind, TRI_SMOOTH};
+use pack::Pack;
+use pack::abi::{self, LightKind, NONE, TRI_SMOOTH};
+use serde::{Deserialize, Serialize};
 
-use super::Loaded;
-use super::light::{self, Emitter};
-use super::material::{MaterialRef, MaterialTable};
-use super::motion::Shutter;
-use super::object::Thing;
-use super::share::Plan;
-use super::sheet::Sheets;
-use super::stored::{Placed, Stored};
-use placer::Placer;
-pub(super) use transform::{Transform, octahedral};
+use super::extent::Receivers;
+use super::files::Meshes;
+use super::light::Emitter;
+use super::material::MaterialTable;
+use super::stored::{Placed, Stored, has_no_area};
+use crate::normalize::Normalization;
+use crate::stage::{self, Key, KeyOf, Stages};
+use body::{Ball, Bodies, Body, Face, Form, MeshForm};
+use mesh::{Pieces, triangles};
 
-/// Geometry of the whole scene when the shutter opens, before normalisation, in order of declaration.
+/// Geometry of the whole scene when the shutter opens, normalised frame, in order of declaration.
 #[derive(Debug, Default)]
-pub struct Placement {
-    /// Corners of every triangle that is stored in the world, world frame, metres.
-    pub corners: Vec<[DVec3; 3]>,
+pub(super) struct Placement {
+    /// Corners of every triangle that is stored in the world.
+    pub(super) corners: Vec<[[f32; 3]; 3]>,
+    /// What these corners are called in the last pack, three times `NONE` where it does not have them.
+    pub(super) labels: Vec<[u32; 3]>,
     /// Shading data, one a triangle; `light` is `NONE` still.
-    pub shades: Vec<abi::TriShade>,
+    pub(super) shades: Vec<abi::TriShade>,
     /// Triangles of each mesh instance: `groups[i]` is where group `i` ends.
-    pub groups: Vec<u32>,
+    pub(super) groups: Vec<u32>,
     /// Meshes that are stored once.
-    pub meshes: Vec<Stored>,
+    pub(super) meshes: Vec<Stored>,
     /// Where they are.
-    pub placed: Vec<Placed>,
-    /// Centre and radius of every sphere, metres.
-    pub spheres: Vec<(DVec3, f64)>,
+    pub(super) placed: Vec<Placed>,
+    /// Centre and radius of every sphere.
+    pub(super) spheres: Vec<([f32; 3], f32)>,
     /// Material of every sphere.
-    pub sphere_materials: Vec<u32>,
+    pub(super) sphere_materials: Vec<u32>,
     /// Object of every sphere.
-    pub sphere_objects: Vec<u32>,
-    /// Things in the world: their instances, then the lights.
-    pub things: Vec<Thing>,
+    pub(super) sphere_objects: Vec<u32>,
     /// What emits, in order of declaration.
     pub(super) emitters: Vec<Emitter>,
-    /// Where what each of the things brought ends in the lists above.
-    pub(super) ends: Vec<Ends>,
+    /// Triangles that have no area.
+    pub(super) dropped: u64,
+    /// What the next compilation may take from the pack.
+    pub(super) parts: Vec<Part<MeshRest>>,
 }
 
-/// How many triangles, spheres and emitters there are with those of a thing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Ends {
-    /// Triangles.
-    pub(super) triangles: u32,
-    /// Spheres.
-    pub(super) spheres: u32,
-    /// Emitters.
-    pub(super) emitters: u32,
+/// Triangles that belong together, to be found in the pack by their key.
+#[derive(Debug)]
+pub(super) struct Part<T> {
+    key: Key,
+    /// Among all triangles in order of declaration.
+    triangles: Range<usize>,
+    rest: T,
 }
 
-/// What is placed, and what need not be.
+/// A part in a pack: where each triangle is, and what else is known.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Found<T> {
+    #[serde(with = "stage::plain")]
+    at: Vec<u32>,
+    rest: T,
+}
+
+/// What is known of a mesh in the world beside its triangles.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub(super) struct MeshRest {
+    dropped: u64,
+    /// Index of each triangle that emits, its material, and its area as in `Emitter`.
+    emitters: Vec<(u32, u32, f64)>,
+}
+
+impl<T: Serialize> Part<T> {
+    pub(super) fn new(key: Key, triangles: Range<usize>, rest: T) -> Self {
+        Self { key, triangles, rest }
+    }
+
+    /// Notes where its triangles are in the pack that is being made.
+    pub(super) fn put(self, triangle_at: &[u32], stages: &Stages) {
+        let at = triangle_at[self.triangles].to_vec();
+        stages.put_part(self.key, &Found { at, rest: self.rest });
+    }
+}
+
+/// The records of a part, if the last pack has it, and what else is known of it.
+pub(super) fn part<T: for<'de> Deserialize<'de>>(
+    stages: &Stages,
+    key: Key,
+) -> Option<(Records<'_>, T)> {
+    let (Found { at, rest }, pack) = stages.part::<Found<T>>(key)?;
+    let (triangles, shades): (&[abi::Triangle], &[abi::TriShade]) =
+        (pack.records(), pack.records());
+    let fits = triangles.len() == shades.len();
+    let fits = fits && at.iter().all(|at| (*at as usize) < triangles.len());
+    fits.then_some((Records { pack, at }, rest))
+}
+
+/// Triangles of the last pack.
+pub(super) struct Records<'a> {
+    pack: &'a Pack,
+    at: Vec<u32>,
+}
+
+impl Records<'_> {
+    /// Each of them with its shading data, without its light.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (&abi::Triangle, abi::TriShade)> {
+        let (triangles, shades): (&[abi::Triangle], &[abi::TriShade]) =
+            (self.pack.records(), self.pack.records());
+        self.at.iter().map(move |at| {
+            let at = *at as usize;
+            (&triangles[at], abi::TriShade { light: NONE, ..shades[at] })
+        })
+    }
+}
+
+/// What is needed to place a scene besides its files.
 pub(super) struct Stage<'a> {
-    pub(super) scene: &'a Scene,
-    pub(super) loaded: &'a Loaded,
-    pub(super) plan: &'a Plan,
-    /// Of each instance, whether its triangles are known already: it is a thing and leaves nothing else. Beyond the
-    /// end none are known.
-    pub(super) known: &'a [bool],
+    pub(super) bodies: &'a Bodies,
+    pub(super) materials: &'a MaterialTable<'a>,
+    pub(super) frame: &'a Normalization,
+    /// By which emitters are weighed.
+    pub(super) receivers: Receivers,
+    pub(super) stages: &'a Stages,
 }
 
-/// Places everything; complaints about single instances go to `diagnostics`. What is stored once may be there
-/// already.
+/// The key of the triangles that `body`, which shows a mesh, has in a frame.
+fn key_of(stage: &Stage<'_>, body: &Body) -> Key {
+    let mut key = KeyOf::stage("triangles of a mesh");
+    key.key(body.key(stage.materials)).floats(&stage.frame.center);
+    key.number(u64::from(stage.frame.exponent as u32));
+    stage.receivers.read(&mut key);
+    key.end()
+}
+
+/// Meshes of things, by their place in `Bodies::list`, that the last pack has.
+pub(super) type Known<'a> = BTreeMap<u32, (Records<'a>, MeshRest)>;
+
+/// What the last pack has of the things that show meshes of their own, and the things of which it has nothing.
+pub(super) fn known<'a>(stage: &Stage<'a>) -> (Known<'a>, Vec<&'a Body>) {
+    let (mut known, mut new) = (Known::new(), Vec::new());
+    for body in &stage.bodies.list {
+        match &body.form {
+            Form::Nothing | Form::Sphere(_) | Form::Faces(..) | Form::Stored(..) => {}
+            Form::Mesh(_) => match part(stage.stages, key_of(stage, body)) {
+                Some(found) => drop(known.insert(body.object, found)),
+                None => new.push(body),
+            },
+        }
+    }
+    (known, new)
+}
+
+/// Places everything that is not stored once; `files` has all that is not `known`.
 pub(super) fn place(
     stage: &Stage<'_>,
-    meshes: Vec<Stored>,
-    materials: &mut MaterialTable<'_>,
-    diagnostics: &mut Vec<Diagnostic>,
+    mut known: Known<'_>,
+    files: (&Meshes, &Pieces),
 ) -> Placement {
-    let mut placement = Placement { meshes, ..Placement::default() };
-    let shutter = Shutter::of(&stage.scene.camera);
-    for (index, instance) in stage.scene.instances.iter().enumerate() {
-        let object = placement.things.len() as u32;
-        placement.things.push(Thing::of(instance, shutter));
-        if !stage.known.get(index).is_some_and(|known| *known) {
-            let mut placer = Placer {
-                object,
-                sheets: Sheets::of(stage.scene, instance),
-                transform: Transform::of(instance, shutter),
-                instance,
-                materials: &mut *materials,
-                placement: &mut placement,
-            };
-            placer.instance(stage, index, diagnostics);
-        }
-        placement.close();
-    }
-    for (index, light) in stage.scene.lights.iter().enumerate() {
-        let material = materials.index(MaterialRef::Light(index));
-        let object = placement.things.len() as u32;
-        let thing = Thing::lit(light, shutter);
-        let ball = Ball { center: thing.origin, radius: light.radius, material, object };
-        placement.things.push(thing);
-        let before = placement.emitters.len();
-        placement.add_sphere(&ball, materials);
-        // A black light is no emitter.
-        if let (Some(tint), Some(emitter)) =
-            (light::tint(light), placement.emitters.get_mut(before))
-        {
-            let [x, y, z] = tint.direction.map(|c| c as f32);
-            emitter.tint = [x, y, z, libm::cos(tint.angle) as f32];
+    let mut placement = Placement::default();
+    for body in &stage.bodies.list {
+        match &body.form {
+            Form::Nothing | Form::Stored(..) => {}
+            Form::Sphere(ball) => placement.add_sphere(stage, body.object, ball),
+            Form::Faces(faces, material) => {
+                placement.add_faces(stage, body.object, faces, *material);
+            }
+            Form::Mesh(form) => {
+                let known = known.remove(&body.object);
+                placement.add_mesh(stage, (body, form), known, files);
+            }
         }
         placement.close();
     }
     placement
 }
 
-/// A sphere in the world, metres.
-#[derive(Clone, Copy)]
-struct Ball {
-    center: DVec3,
-    radius: f64,
-    material: u32,
-    /// Index into `Placement::things`.
-    object: u32,
-}
-
 impl Placement {
-    /// Triangles of a placed mesh in the world, metres.
-    fn triangles_of(&self, placed: &Placed) -> Vec<[DVec3; 3]> {
-        let corners = &self.meshes[placed.mesh].corners;
-        corners.iter().map(|corners| placed.triangle(corners)).collect()
-    }
-
-    fn add_sphere(&mut self, ball: &Ball, materials: &MaterialTable<'_>) {
-        let Ball { center, radius, material, object } = *ball;
-        if materials.glow(material) > 0.0 {
+    fn add_sphere(&mut self, stage: &Stage<'_>, object: u32, ball: &Ball) {
+        let Ball { center, radius, material, tint } = *ball;
+        if stage.materials.looks(material).glows {
+            let area = 4.0 * std::f64::consts::PI * radius * radius;
             self.emitters.push(Emitter {
                 kind: LightKind::Sphere,
                 primitive: self.spheres.len() as u32,
                 count: 1,
                 material,
-                area: 4.0 * std::f64::consts::PI * radius * radius,
-                tint: [0.0; 4],
+                area: stage.receivers.weigh(area, center),
+                tint,
             });
         }
-        self.spheres.push((center, radius));
+        // No radius is lost.
+        let radius = stage.frame.length(radius).max(f32::MIN_POSITIVE);
+        self.spheres.push((stage.frame.point(center.to_array()), radius));
         self.sphere_materials.push(material);
         self.sphere_objects.push(object);
     }
 
-    /// Takes triangles out. A rectangle that loses one of its two is no longer a rectangle light.
-    pub(super) fn remove_triangles(&mut self, remove: &[bool]) {
-        let left = counted(remove.iter().map(|removed| !removed));
-        let stays = |emitter: &Emitter| {
-            let (first, end) = (emitter.primitive, emitter.primitive + emitter.count);
-            emitter.kind == LightKind::Sphere
-                || left[end as usize] - left[first as usize] == emitter.count
-        };
-        let emitters_left = counted(self.emitters.iter().map(stays));
-        self.emitters.retain_mut(|emitter| {
-            let stays = stays(emitter);
-            if emitter.kind != LightKind::Sphere {
-                emitter.primitive = left[emitter.primitive as usize];
+    /// A rectangle that loses one of its two triangles is no rectangle light.
+    fn add_faces(&mut self, stage: &Stage<'_>, object: u32, faces: &[Face], material: u32) {
+        for face in faces {
+            let first = self.corners.len() as u32;
+            for [a, b, c] in Face::TRIANGLES {
+                let uv = |corner: usize| face.uvs[corner].as_vec2().to_array();
+                let shade = abi::TriShade {
+                    material,
+                    uv0: uv(a),
+                    uv1: uv(b),
+                    uv2: uv(c),
+                    light: NONE,
+                    object,
+                    ..Default::default()
+                };
+                self.add(stage, &[a, b, c].map(|corner| face.corners[corner]), shade);
             }
-            stays
-        });
-        for end in &mut self.groups {
-            *end = left[*end as usize];
+            let is_whole = self.corners.len() as u32 == first + 2;
+            if is_whole && stage.materials.looks(material).glows {
+                // Between opposite corners.
+                let middle = 0.5 * (face.corners[0] + face.corners[2]);
+                self.emitters.push(Emitter {
+                    kind: LightKind::Rectangle,
+                    primitive: first,
+                    count: 2,
+                    material,
+                    area: stage.receivers.weigh(face.area, middle),
+                    tint: [0.0; 4],
+                });
+            }
         }
-        self.groups.dedup();
-        self.groups.retain(|end| *end > 0);
-        for ends in &mut self.ends {
-            ends.triangles = left[ends.triangles as usize];
-            ends.emitters = emitters_left[ends.emitters as usize];
-        }
-        let mut index = 0;
-        self.shades.retain(|_| {
-            index += 1;
-            !remove[index - 1]
-        });
     }
 
-    /// What each of the things brought, by its index.
-    pub(super) fn spans(&self) -> impl Iterator<Item = (Ends, Ends)> {
-        let starts = std::iter::once(Ends::default()).chain(self.ends.iter().copied());
-        starts.zip(self.ends.iter().copied())
+    /// Adds a triangle in the world, metres; says whether it has an area.
+    fn add(&mut self, stage: &Stage<'_>, corners: &[DVec3; 3], shade: abi::TriShade) -> bool {
+        let corners = corners.map(|p| stage.frame.point(p.to_array()));
+        if has_no_area(&corners) {
+            self.dropped += 1;
+            return false;
+        }
+        self.corners.push(corners);
+        self.labels.push([NONE; 3]);
+        self.shades.push(shade);
+        true
+    }
+
+    fn add_mesh(
+        &mut self,
+        stage: &Stage<'_>,
+        (body, form): (&Body, &MeshForm),
+        known: Option<(Records<'_>, MeshRest)>,
+        files: (&Meshes, &Pieces),
+    ) {
+        let (first, dropped) = (self.corners.len(), self.dropped);
+        let rest = if let Some((records, rest)) = known {
+            self.take(&records, body.object);
+            self.dropped += rest.dropped;
+            rest
+        } else {
+            let mut emitters = Vec::new();
+            triangles((body, form), files, |triangle, material| {
+                let corners = triangle.positions();
+                let index = (self.corners.len() - first) as u32;
+                let stays = self.add(stage, &corners, triangle.shade(material));
+                if stays && stage.materials.looks(material).glows {
+                    let [a, b, c] = corners;
+                    let area = 0.5 * (b - a).cross(c - a).length();
+                    let middle = corners.iter().sum::<DVec3>() / 3.0;
+                    emitters.push((index, material, stage.receivers.weigh(area, middle)));
+                }
+            });
+            MeshRest { dropped: self.dropped - dropped, emitters }
+        };
+        self.emitters.extend(rest.emitters.iter().map(|(index, material, area)| Emitter {
+            kind: LightKind::Triangle,
+            primitive: first as u32 + index,
+            count: 1,
+            material: *material,
+            area: *area,
+            tint: [0.0; 4],
+        }));
+        self.parts.push(Part::new(key_of(stage, body), first..self.corners.len(), rest));
+    }
+
+    /// Adds triangles of the last pack.
+    fn take(&mut self, records: &Records<'_>, object: u32) {
+        for (triangle, shade) in records.iter() {
+            self.corners.push([triangle.v0, triangle.v1, triangle.v2]);
+            self.labels.push([triangle.id0, triangle.id1, triangle.id2]);
+            let object = object | shade.object & TRI_SMOOTH;
+            self.shades.push(abi::TriShade { object, ..shade });
+        }
     }
 
     /// Triangles of each group.
@@ -202,29 +313,11 @@ impl Placement {
         starts.map(|start| of_thing[thing(start) as usize]).collect()
     }
 
-    /// Ends what one thing brings.
+    /// Ends what one thing brings. Things without triangles make no group.
     fn close(&mut self) {
-        self.close_with(self.spheres.len() as u32);
-    }
-
-    /// As `close`, where there are that many spheres up to here. Things without triangles make no group.
-    pub(super) fn close_with(&mut self, spheres: u32) {
         let triangles = self.shades.len() as u32;
         if self.groups.last().copied().unwrap_or(0) < triangles {
             self.groups.push(triangles);
         }
-        let emitters = self.emitters.len() as u32;
-        self.ends.push(Ends { triangles, spheres, emitters });
     }
-}
-
-/// How many of the first `0..=n` are true.
-fn counted(all: impl Iterator<Item = bool>) -> Vec<u32> {
-    let mut so_far = 0;
-    let sum = all.map(|one| {
-        so_far += u32::from(one);
-        so_far
-    });
-    let sum: Vec<u32> = sum.collect();
-    std::iter::once(0).chain(sum).collect()
 }

@@ -6,6 +6,7 @@ use glam::DVec3;
 use lang::diagnostic::{Code, Diagnostic};
 use lang::material::Traits as _;
 use lang::scene::{Instance, Scene};
+use serde::{Deserialize, Serialize};
 
 use super::object::Thing;
 use super::pieces::pieces;
@@ -19,17 +20,26 @@ pub(super) fn matters(scene: &Scene, instance: &Instance) -> bool {
     material.is_some_and(|material| material.grain().is_some())
 }
 
-/// Warns when `corners`, the triangles of `instance` in the world, are a beam of wood with its grain across.
-pub(super) fn check(
-    scene: &Scene,
-    instance: &Instance,
-    thing: &Thing,
-    corners: &[[DVec3; 3]],
-) -> Option<Diagnostic> {
+/// A thing that is long.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct Beam {
+    /// The axis along which it lies.
+    long: usize,
+    /// Along the thing's axes, metres.
+    size: [f64; 3],
+}
+
+/// The beam that `corners`, the triangles of a thing in the world, are, if they are one.
+pub(super) fn beam(thing: &Thing, corners: &[[DVec3; 3]]) -> Option<Beam> {
+    let size = extent(thing, &longest_piece(thing, corners));
+    Some(Beam { long: longest(size)?, size: size.to_array() })
+}
+
+/// Warns when the grain of an instance runs across the beam that it is.
+pub(super) fn check(scene: &Scene, instance: &Instance, beam: &Beam) -> Option<Diagnostic> {
     let material = &scene.materials[instance.material?];
     let grain = material.model.grain()?;
-    let size = extent(thing, &longest_piece(thing, corners));
-    let long = longest(size)?;
+    let Beam { long, size } = *beam;
     if long == grain.axis {
         return None;
     }

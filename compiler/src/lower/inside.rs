@@ -10,8 +10,7 @@ use lang::scene::Scene;
 use pack::abi::{self, NONE};
 use serde::{Deserialize, Serialize};
 
-use super::geometry::Placement;
-use super::medium::has_inside;
+use super::object::Thing;
 
 /// Steepest way up that is unlikely to lie in a plane of the scene. Up, so that a camera below a sea
 /// without a bottom is found to be in the water.
@@ -48,7 +47,7 @@ impl Solid {
 /// A surface of a thing whose material has an inside, world frame, metres.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Boundary {
-    /// Index into `Placement::things`.
+    /// Index into `Bodies::things`.
     object: u32,
     material: u32,
     form: Form,
@@ -61,44 +60,18 @@ enum Form {
 }
 
 impl Boundary {
-    /// Index into `Placement::things`.
-    pub(super) fn object(&self) -> u32 {
-        self.object
-    }
-}
-
-/// All surfaces of things whose materials have an inside.
-pub(super) fn boundaries(placement: &Placement, materials: &[abi::Material]) -> Vec<Boundary> {
-    let mut found = Vec::new();
-    let counts = |material: u32| has_inside(&materials[material as usize]);
-    let mut add = |corners: &[DVec3; 3], material: u32, object: u32| {
+    pub(super) fn triangle(corners: &[DVec3; 3], material: u32, object: u32) -> Self {
         let form = Form::Triangle(corners.map(|p| p.to_array()));
-        found.push(Boundary { object, material, form });
-    };
-    for (corners, shade) in placement.corners.iter().zip(&placement.shades) {
-        if counts(shade.material) {
-            add(corners, shade.material, shade.object & !abi::TRI_SMOOTH);
-        }
+        Self { object, material, form }
     }
-    for placed in &placement.placed {
-        for (corners, own) in placement.meshes[placed.mesh].triangles() {
-            let material = placed.material_of(own);
-            if counts(material) {
-                add(&placed.triangle(corners), material, placed.object);
-            }
-        }
+
+    pub(super) fn sphere(center: DVec3, radius: f64, material: u32, object: u32) -> Self {
+        let form = Form::Sphere { center: center.to_array(), radius };
+        Self { object, material, form }
     }
-    for (i, (center, radius)) in placement.spheres.iter().enumerate() {
-        let (material, object) = (placement.sphere_materials[i], placement.sphere_objects[i]);
-        if counts(material) {
-            let form = Form::Sphere { center: center.to_array(), radius: *radius };
-            found.push(Boundary { object, material, form });
-        }
-    }
-    found
 }
 
-/// Things of the scene whose materials have an inside, by their index in `Placement::things`.
+/// Things of the scene whose materials have an inside, by their index in `Bodies::things`.
 pub(super) struct Solids(BTreeMap<u32, Solid>);
 
 impl Solids {
@@ -159,7 +132,7 @@ impl Solids {
     /// would depend on the side from which light comes.
     pub(super) fn warn_of_overlaps(
         &self,
-        placement: &Placement,
+        things: &[Thing],
         materials: &[abi::Material],
         scene: &Scene,
         diagnostics: &mut Vec<Diagnostic>,
@@ -177,7 +150,7 @@ impl Solids {
                     |x: &Solid, y: &Solid| x.lo.cmpge(y.lo).all() && x.hi.cmple(y.hi).all();
                 if equal && meet && !within(a, b) && !within(b, a) && found < MOST {
                     found += 1;
-                    let name = |i: u32| placement.things[i as usize].name.as_str();
+                    let name = |i: u32| things[i as usize].name.as_str();
                     diagnostics.push(overlap(name(**index), name(**other), scene));
                 }
             }

@@ -71,7 +71,7 @@ pub(super) fn shares(powers: &[f64]) -> Vec<Option<u64>> {
 }
 
 /// Probability of each emitter, and the sum up to it; `None` for emitters that are not selected.
-fn choices(powers: &[f64]) -> Vec<Option<[f32; 2]>> {
+pub(super) fn choices(powers: &[f64]) -> Vec<Option<[f32; 2]>> {
     let mut sum = 0;
     let choice = |share: Option<u64>| {
         let share = share?;
@@ -81,44 +81,26 @@ fn choices(powers: &[f64]) -> Vec<Option<[f32; 2]>> {
     shares(powers).into_iter().map(choice).collect()
 }
 
-/// The records, and for each emitter the index of its light or `NONE`. `triangles` and `spheres`
-/// are in leaf order; `triangle_at` and `sphere_at` say where a primitive went.
-pub(super) fn table(
-    emitters: &[Emitter],
-    powers: &[f64],
-    geometry: &Geometry<'_>,
-) -> (Vec<abi::Light>, Vec<u32>) {
-    let mut lights = Vec::new();
-    let mut ids = vec![NONE; emitters.len()];
-    for (i, choice) in choices(powers).into_iter().enumerate() {
-        let Some([pmf, cdf]) = choice else { continue };
-        ids[i] = lights.len() as u32;
-        lights.push(abi::Light { pmf, cdf, ..geometry.light(&emitters[i]) });
-    }
-    (lights, ids)
+/// The index of the light of each emitter, or `NONE`.
+pub(super) fn ids(choices: &[Option<[f32; 2]>]) -> Vec<u32> {
+    let mut next = 0..;
+    choices.iter().map(|choice| choice.and_then(|_| next.next()).unwrap_or(NONE)).collect()
 }
 
-/// The records, where those of an earlier pack are known: `earlier`, of the emitters that were `selected` then,
-/// in the same order. `None` if it would be others now, so that primitives would have other lights.
-pub(super) fn table_again(
+/// The records: `of_primitives` are those of the emitters that have a choice, the sky left out, without it.
+pub(super) fn table(
     emitters: &[Emitter],
-    powers: &[f64],
-    earlier: &[abi::Light],
-    selected: &[bool],
-) -> Option<Vec<abi::Light>> {
-    let mut earlier = earlier.iter();
-    let mut selected = selected.iter();
-    let mut lights = Vec::new();
-    for (emitter, choice) in emitters.iter().zip(choices(powers)) {
-        let is_sky = emitter.kind == LightKind::Sky;
-        if !is_sky && *selected.next()? != choice.is_some() {
-            return None;
-        }
-        let Some([pmf, cdf]) = choice else { continue };
-        let light = if is_sky { without_primitive(emitter) } else { *earlier.next()? };
-        lights.push(abi::Light { pmf, cdf, trail: 0, ..light });
-    }
-    Some(lights)
+    choices: &[Option<[f32; 2]>],
+    of_primitives: &[abi::Light],
+) -> Vec<abi::Light> {
+    let mut of_primitives = of_primitives.iter();
+    let record = |(emitter, choice): (&Emitter, &Option<[f32; 2]>)| {
+        let [pmf, cdf] = (*choice)?;
+        let sky = emitter.kind == LightKind::Sky;
+        let base = if sky { without_primitive(emitter) } else { *of_primitives.next()? };
+        Some(abi::Light { pmf, cdf, trail: 0, ..base })
+    };
+    emitters.iter().zip(choices).filter_map(record).collect()
 }
 
 /// The record of an emitter, without what a primitive says.
@@ -136,7 +118,8 @@ pub(super) struct Geometry<'a> {
 }
 
 impl Geometry<'_> {
-    fn light(&self, emitter: &Emitter) -> abi::Light {
+    /// The record of an emitter, without how it is chosen.
+    pub(super) fn light(&self, emitter: &Emitter) -> abi::Light {
         let base = without_primitive(emitter);
         if emitter.kind == LightKind::Sky {
             return base;

@@ -6,10 +6,9 @@ use lang::source::Span;
 use pack::abi;
 use serde::{Deserialize, Serialize};
 
-use super::roster::Roster;
 use super::rows::Rows;
-use super::sketch::Sketch;
 use crate::bvh::{self, BuildReport, BvhError};
+use crate::import::ImportError;
 
 /// What was counted while lowering.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -43,6 +42,17 @@ pub struct Times {
     pub bvh: Duration,
     /// Putting primitives in order, lights.
     pub order: Duration,
+}
+
+/// What of a pack the last one had.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Reused {
+    /// All triangles, spheres and trees.
+    pub geometry: bool,
+    /// Triangles of some things.
+    pub parts: bool,
+    /// All texels.
+    pub textures: bool,
 }
 
 /// All records of a pack.
@@ -90,10 +100,8 @@ pub struct Lowered {
     pub times: Times,
     /// What building the trees cost, and what the cache did.
     pub trees: BuildReport,
-    /// What is remembered for the next edit; `None` for scenes in which things move.
-    pub sketch: Option<Sketch>,
-    /// The same for the next edit that moves things; `None` also where the last one is as good.
-    pub roster: Option<Roster>,
+    /// What of it the last pack had.
+    pub reused: Reused,
 }
 
 /// Why a scene could not be lowered, apart from faults in its text.
@@ -102,6 +110,9 @@ pub enum LowerError {
     /// The tree could not be built.
     #[error(transparent)]
     Bvh(#[from] BvhError),
+    /// A file could not be loaded that had been before.
+    #[error(transparent)]
+    Import(#[from] ImportError),
     /// More triangles than the pack can number.
     #[error("{count} triangles are too many; at most {} are possible", bvh::MAX_PRIMITIVES)]
     TooManyTriangles {

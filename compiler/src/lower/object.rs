@@ -4,20 +4,20 @@ use glam::{DMat3, DVec3};
 use lang::scene::{Instance, Light};
 use pack::abi;
 
-use super::motion::Shutter;
+use super::shutter::Shutter;
 use crate::normalize::Normalization;
 
 /// A thing in the world, metres.
 #[derive(Clone, Debug)]
-pub struct Thing {
+pub(super) struct Thing {
     /// Name, with its index for indexed instances.
-    pub name: String,
+    pub(super) name: String,
     /// Where its origin is.
-    pub origin: DVec3,
+    pub(super) origin: DVec3,
     /// World from object without scale: columns are unit and at right angles.
-    pub rotation: DMat3,
+    pub(super) rotation: DMat3,
     /// How far it comes while the shutter is open.
-    pub motion: DVec3,
+    pub(super) motion: DVec3,
 }
 
 impl Thing {

@@ -15,15 +15,13 @@ use std::str::FromStr;
 use glam::DMat3;
 use lang::material::Traits as _;
 use lang::scene::{Color, Instance, Scene, Shape};
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::Loaded;
-use super::geometry::Transform;
-use super::motion::Shutter;
+use super::geometry::transform::Transform;
 use super::sheet::Sheets;
+use super::shutter::Shutter;
 use super::stored::condition;
-use crate::import::{MeshFile, Part};
+use crate::import::{MeshFacts, PartFacts};
 
 /// Fewest triangles that sharing a mesh must save.
 pub const MIN_SAVED: usize = 1_000;
@@ -69,17 +67,17 @@ impl FromStr for Instancing {
 }
 
 /// The meshes of a scene that are stored once.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Plan {
     /// Index of the stored mesh of each of `Scene::instances` that shows one.
     meshes: BTreeMap<usize, usize>,
 }
 
 impl Plan {
-    /// `facts`: of the meshes of the scene's instances.
+    /// `assets`: what is known of the scene's files.
     pub(super) fn new(
         scene: &Scene,
-        facts: &[Option<MeshFacts>],
+        assets: &[MeshFacts],
         how: Instancing,
         shutter: Shutter,
     ) -> Self {
@@ -88,21 +86,22 @@ impl Plan {
             return plan;
         }
         let least = MIN_SIZE * extent(scene, shutter);
-        let mut meshes = BTreeMap::<MeshName<'_>, (usize, Vec<usize>)>::new();
-        for (index, (instance, facts)) in scene.instances.iter().zip(facts).enumerate() {
-            let (Shape::Mesh { asset, part }, Some(facts)) = (&instance.shape, facts) else {
-                continue;
-            };
-            let mesh = meshes.entry((*asset, part.as_deref())).or_default();
-            mesh.0 = facts.n_triangles;
+        let mut meshes = BTreeMap::<MeshName<'_>, (Mesh<'_>, Vec<usize>)>::new();
+        for (index, instance) in scene.instances.iter().enumerate() {
+            let Shape::Mesh { asset, part } = &instance.shape else { continue };
+            let file = &assets[*asset];
+            let name = (*asset, part.as_deref());
+            let new = || (Mesh::new(file, part.as_deref()), Vec::new());
+            let (mesh, places) = meshes.entry(name).or_insert_with(new);
             let linear = Transform::of(instance, shutter).linear;
-            let fits = condition(linear) <= MAX_CONDITION && scale(linear) * facts.size >= least;
-            if fits && facts.is_dark_and_equal {
-                mesh.1.push(index);
+            let fits = condition(linear) <= MAX_CONDITION && scale(linear) * mesh.size >= least;
+            let differs = Sheets::of(scene, instance).is_some();
+            if fits && !differs && !glows(scene, file, instance, &mesh.parts) {
+                places.push(index);
             }
         }
         let mut shared: Vec<Vec<usize>> = (meshes.into_values())
-            .filter(|(n_triangles, places)| pays(*n_triangles, places.len()))
+            .filter(|(mesh, places)| pays(mesh.n_triangles, places.len()))
             .map(|(_, places)| places)
             .collect();
         // In order of declaration; beyond what a pack can name, places are stored as if there were no instances.
@@ -125,55 +124,21 @@ impl Plan {
 /// Asset and part.
 type MeshName<'a> = (usize, Option<&'a str>);
 
-/// What the plan knows of the mesh of an instance.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct MeshFacts {
-    n_triangles: usize,
-    /// Largest coordinate, metres.
-    size: f64,
-    /// At this place it gives no light, and it is as at any other.
-    is_dark_and_equal: bool,
-}
-
-impl MeshFacts {
-    /// Of all instances; `None` for what is no mesh, or has no file.
-    pub(super) fn of(scene: &Scene, loaded: &Loaded) -> Vec<Option<Self>> {
-        let mut meshes: BTreeMap<MeshName<'_>, Mesh<'_>> = BTreeMap::new();
-        let mut facts = Vec::with_capacity(scene.instances.len());
-        for instance in &scene.instances {
-            let Shape::Mesh { asset, part } = &instance.shape else {
-                facts.push(None);
-                continue;
-            };
-            let Some(file) = loaded.assets[*asset].as_ref() else {
-                facts.push(None);
-                continue;
-            };
-            let mesh = meshes
-                .entry((*asset, part.as_deref()))
-                .or_insert_with(|| Mesh::new(file, part.as_deref()));
-            let Mesh { parts, n_triangles, size } = mesh;
-            let differs = Sheets::of(scene, instance).is_some();
-            let is_dark_and_equal = !differs && !glows(scene, file, instance, parts);
-            facts.push(Some(Self { n_triangles: *n_triangles, size: *size, is_dark_and_equal }));
-        }
-        facts
-    }
-}
-
 /// A mesh of the scene.
 struct Mesh<'a> {
-    parts: Vec<&'a Part>,
+    parts: Vec<&'a PartFacts>,
     n_triangles: usize,
     /// Largest coordinate, metres.
     size: f64,
 }
 
 impl<'a> Mesh<'a> {
-    fn new(file: &'a MeshFile, part: Option<&str>) -> Self {
-        let parts = chosen(file, part);
-        let n_triangles = parts.iter().map(|part| part.triangles.len()).sum();
-        let coordinates = parts.iter().flat_map(|part| part.positions.as_flattened());
+    fn new(file: &'a MeshFacts, part: Option<&str>) -> Self {
+        let parts: Vec<_> = file.chosen(part).into_iter().map(|part| &file.parts[part]).collect();
+        let n_triangles = parts.iter().map(|part| part.n_triangles).sum();
+        // A part without vertices has no bounds.
+        let coordinates = parts.iter().flat_map(|part| part.bounds.as_flattened());
+        let coordinates = coordinates.filter(|x| x.is_finite());
         let size = coordinates.fold(0.0_f64, |most, x| most.max(f64::from(x.abs())));
         Self { parts, n_triangles, size }
     }
@@ -185,16 +150,8 @@ fn pays(n_triangles: usize, n_places: usize) -> bool {
     n_triangles >= MIN_TRIANGLES && saved >= MIN_SAVED
 }
 
-/// The parts of a file that a shape names.
-pub(super) fn chosen<'a>(file: &'a MeshFile, part: Option<&str>) -> Vec<&'a Part> {
-    match part {
-        None => file.parts.iter().collect(),
-        Some(name) => file.find_parts(name).into_iter().map(|part| &file.parts[part]).collect(),
-    }
-}
-
 /// Whether any of the parts may give light at this place.
-fn glows(scene: &Scene, file: &MeshFile, instance: &Instance, parts: &[&Part]) -> bool {
+fn glows(scene: &Scene, file: &MeshFacts, instance: &Instance, parts: &[&PartFacts]) -> bool {
     let dark =
         |color: &Color| matches!(color, Color::Constant(rgb) if rgb.iter().all(|c| *c == 0.0));
     if let Some(material) = instance.material {
@@ -203,7 +160,8 @@ fn glows(scene: &Scene, file: &MeshFile, instance: &Instance, parts: &[&Part]) -
         // What does nothing else counts as a light though it be dark.
         return !model.scatters() || model.emission().is_some_and(lit);
     }
-    let of_part = |part: &&Part| part.material.map(|material| &file.materials[material as usize]);
+    let of_part =
+        |part: &&PartFacts| part.material.map(|material| &file.materials[material as usize]);
     parts.iter().filter_map(of_part).any(|material| material.emission.iter().any(|c| *c != 0.0))
 }
 

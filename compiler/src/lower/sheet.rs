@@ -10,6 +10,7 @@ use lang::scene::{Instance, Scene};
 
 use super::pieces::pieces;
 use crate::import::Part;
+use crate::stage::KeyOf;
 
 /// The sheets of one instance.
 pub(super) struct Sheets {
@@ -29,6 +30,11 @@ impl Sheets {
         let sheet = scene.materials[instance.material?].model.sheet()?;
         let sheets = Self { name, gap: sheet.gap, pillow: sheet.pillow, tilt: sheet.tilt };
         (sheets.gap > 0.0 || sheets.leans()).then_some(sheets)
+    }
+
+    /// Adds all that makes them differ.
+    pub(super) fn read(&self, key: &mut KeyOf) {
+        key.text(&self.name).floats(&[self.gap, self.pillow, self.tilt]);
     }
 
     /// Whether piece `piece` is there.

@@ -6,13 +6,17 @@
 use std::f64::consts::{PI, TAU};
 
 use lang::scene::{Rgb, Sky, SkyModel};
+use pack::Kind;
 use pack::abi::{self, NONE, SkyKind};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
+use super::files::Files;
 use super::light::luminance;
 use super::sky_table::{Cells, SkyTable, sky_table};
 use super::texture::{TextureTable, luminances};
-use crate::import::Environment;
+use crate::import::{Environment, ImportError};
+use crate::stage::{Key, KeyOf, Stages};
 
 /// A sky that is not black.
 pub(super) struct LoweredSky {
@@ -29,43 +33,88 @@ impl LoweredSky {
 }
 
 /// `None` for a sky that is black everywhere: it then leaves no section and no code.
+///
+/// # Errors
+/// When its image cannot be loaded.
 pub(super) fn sky(
-    sky: &Sky,
-    environment: Option<&Environment>,
+    sky: Option<&Sky>,
+    (files, stages): (&dyn Files, &Stages),
     textures: &mut TextureTable<'_>,
-) -> Option<LoweredSky> {
+) -> Result<Option<LoweredSky>, ImportError> {
     let plain = |record| LoweredSky { record, table: None };
-    match &sky.model {
+    let Some(sky) = sky else { return Ok(None) };
+    Ok(match &sky.model {
         SkyModel::Constant(radiance) => (!is_black(radiance)).then(|| plain(constant(*radiance))),
         SkyModel::Gradient { zenith, middle, horizon, ground, glow, disc, .. } => {
             let bands = [zenith, middle, horizon, ground, glow, disc];
             if bands.iter().all(|color| is_black(color)) {
-                return None;
+                return Ok(None);
             }
             let dull = is_black(glow) && is_black(disc);
             let flat = bands[..4].iter().all(|color| same(color, zenith));
             // A gradient without a gradient needs no gradient code.
             if dull && flat {
-                return Some(plain(constant(*zenith)));
+                return Ok(Some(plain(constant(*zenith))));
             }
             let record = gradient(&sky.model);
-            let table = if dull { None } else { sky_table(gradient_cells(&record)) };
+            let mut key = KeyOf::stage("table of a gradient");
+            key.bytes(bytemuck::bytes_of(&record));
+            let cells = || Ok(gradient_cells(&record));
+            let table = if dull { None } else { table_of(stages, key.end(), cells)? };
             Some(LoweredSky { record, table })
         }
         SkyModel::Image { rotate, strength, .. } => {
-            let environment = environment.expect("the image of a sky has been loaded");
-            let table = sky_table(image_cells(environment))?;
-            let flux = strength * environment.scale * table.flux;
+            let facts = files.environment().expect("the image of a sky has been read");
+            let mut key = KeyOf::stage("table of an image");
+            key.bytes(&facts.image.content).number(facts.image.is_radiance);
+            let cells = || Ok(image_cells(&*files.load_environment()?));
+            let Some(table) = table_of(stages, key.end(), cells)? else { return Ok(None) };
+            let flux = strength * facts.scale * table.flux;
             let record = abi::Sky {
-                zenith: [(strength * environment.scale) as f32; 3],
+                zenith: [(strength * facts.scale) as f32; 3],
                 kind: SkyKind::Image as u32,
-                texture: textures.environment(Some(environment)),
+                texture: textures.environment(),
                 rotation: turns(*rotate),
                 ..blank()
             };
             Some(LoweredSky { record, table: Some(SkyTable { flux, ..table }) })
         }
+    })
+}
+
+/// What is kept of a table beside its values, which the pack has.
+#[derive(Serialize, Deserialize)]
+struct TableSize {
+    columns: u32,
+    rows: u32,
+    flux: f64,
+    n_values: usize,
+}
+
+/// The table over some cells; `None` if all is black.
+fn table_of(
+    stages: &Stages,
+    key: Key,
+    cells: impl FnOnce() -> Result<Cells, ImportError>,
+) -> Result<Option<SkyTable>, ImportError> {
+    if let Some((size, pack)) = stages.in_pack::<Option<TableSize>>(key) {
+        let Some(TableSize { columns, rows, flux, n_values }) = size else { return Ok(None) };
+        let words: &[f32] = pack.section_bytes(Kind::SKYTABLE).map_or(&[], bytemuck::cast_slice);
+        // A pack whose sky is too weak to be a light has no table.
+        if words.len() == n_values.next_multiple_of(4) {
+            let values = words[..n_values].to_vec();
+            return Ok(Some(SkyTable { columns, rows, values, flux }));
+        }
     }
+    let table = sky_table(cells()?);
+    let size = table.as_ref().map(|table| TableSize {
+        columns: table.columns,
+        rows: table.rows,
+        flux: table.flux,
+        n_values: table.values.len(),
+    });
+    stages.put_in_pack(key, &size);
+    Ok(table)
 }
 
 fn same(a: &Rgb, b: &Rgb) -> bool {

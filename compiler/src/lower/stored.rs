@@ -8,23 +8,21 @@ use glam::{DMat3, DVec3};
 use pack::abi::{self, MOVES, NONE, OBJECT_OF_INSTANCE, TRI_SMOOTH};
 use serde::{Deserialize, Serialize};
 
-use super::geometry::{Transform, octahedral};
+use super::geometry::transform::{Transform, octahedral};
 use crate::import::Part;
 use crate::normalize::Normalization;
 
 /// A mesh that is stored once.
 #[derive(Clone, Debug, Default)]
-pub struct Stored {
+pub(super) struct Stored {
     /// Corners of its triangles, in its own frame, below 1 in magnitude.
-    pub corners: Vec<[[f32; 3]; 3]>,
+    pub(super) corners: Vec<[[f32; 3]; 3]>,
     /// Shading data, one a triangle.
-    pub shades: Vec<abi::TriShade>,
+    pub(super) shades: Vec<abi::TriShade>,
+    /// What the corners are called in the last pack, three times `NONE` where it does not have them.
+    pub(super) labels: Vec<[u32; 3]>,
     /// Triangles that have no area; not in the others.
-    pub dropped: u64,
-    /// Which of the chosen parts each triangle is of.
-    parts: Vec<u32>,
-    /// `shades` have the materials of the file.
-    own_materials: bool,
+    pub(super) dropped: u64,
     /// Different corners.
     points: Vec<[f32; 3]>,
     /// Largest magnitude of coordinates, axis by axis.
@@ -35,10 +33,9 @@ pub struct Stored {
     exponent: i32,
 }
 
-/// What is remembered of a mesh whose triangles an earlier pack has.
+/// What is known of a mesh beside its triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct KnownMesh {
-    pub(super) n_triangles: usize,
+pub(super) struct StoredRest {
     center: [f64; 3],
     exponent: i32,
     dropped: u64,
@@ -46,15 +43,15 @@ pub(super) struct KnownMesh {
 
 /// A place of a mesh that is stored once.
 #[derive(Clone, Debug)]
-pub struct Placed {
+pub(super) struct Placed {
     /// Index into `Placement::meshes`.
-    pub mesh: usize,
+    pub(super) mesh: usize,
     /// Index into `Placement::things`.
-    pub object: u32,
+    pub(super) object: u32,
     /// The material of all of it, or `NONE`.
-    pub material: u32,
+    pub(super) material: u32,
     /// Corners of its box when the shutter opens, world frame, metres.
-    pub bounds: [DVec3; 2],
+    pub(super) bounds: [DVec3; 2],
     /// World from the frame of the mesh, metres, when the shutter opens.
     linear: DMat3,
     translation: DVec3,
@@ -74,43 +71,46 @@ fn absolute(m: DMat3) -> DMat3 {
 }
 
 impl Stored {
-    /// The triangles of `parts`, without materials.
-    pub(super) fn new(parts: &[&Part]) -> Self {
-        let corners = |part: &&Part| (0..part.triangles.len()).map(|i| part.corners(i)).collect();
+    /// The triangles of some parts, each with its material.
+    pub(super) fn new(parts: &[(&Part, u32)]) -> Self {
+        let corners =
+            |(part, _): &(&Part, u32)| (0..part.triangles.len()).map(|i| part.corners(i)).collect();
         let all: Vec<Vec<[[f32; 3]; 3]>> = parts.iter().map(corners).collect();
         let (center, exponent) = frame_of(all.iter().flatten().flatten());
         let mut mesh = Self { center, exponent, ..Self::default() };
-        for (number, (part, triangles)) in (0..).zip(parts.iter().zip(&all)) {
+        for ((part, material), triangles) in parts.iter().zip(&all) {
             for (tri_idx, corners) in triangles.iter().enumerate() {
                 let corners = corners.map(|p| mesh.local(p));
-                if super::assemble::has_no_area(&corners) {
+                if has_no_area(&corners) {
                     mesh.dropped += 1;
                     continue;
                 }
                 mesh.corners.push(corners);
-                mesh.parts.push(number);
-                mesh.shades.push(shade(part, tri_idx));
+                mesh.shades.push(shade(part, tri_idx, *material));
             }
         }
+        mesh.labels = vec![[NONE; 3]; mesh.corners.len()];
         mesh.measure();
         mesh
     }
 
-    /// What is remembered of it besides its triangles.
-    pub(super) fn known(&self) -> KnownMesh {
+    /// What is known of it beside its triangles.
+    pub(super) fn rest(&self) -> StoredRest {
         let (center, exponent) = (self.center.to_array(), self.exponent);
-        KnownMesh { n_triangles: self.shades.len(), center, exponent, dropped: self.dropped }
+        StoredRest { center, exponent, dropped: self.dropped }
     }
 
-    /// A mesh that is known, of these triangles.
-    pub(super) fn again(
-        known: &KnownMesh,
+    /// A mesh of these triangles.
+    pub(super) fn of_triangles(
+        rest: &StoredRest,
         corners: Vec<[[f32; 3]; 3]>,
+        labels: Vec<[u32; 3]>,
         shades: Vec<abi::TriShade>,
     ) -> Self {
-        let KnownMesh { center, exponent, dropped, .. } = *known;
+        let StoredRest { center, exponent, dropped } = *rest;
         let center = DVec3::from(center);
-        let mut mesh = Self { corners, shades, dropped, center, exponent, ..Self::default() };
+        let known = Self { corners, shades, labels, ..Self::default() };
+        let mut mesh = Self { dropped, center, exponent, ..known };
         mesh.measure();
         mesh
     }
@@ -134,28 +134,23 @@ impl Stored {
         let p = DVec3::from(p.map(f64::from)) - self.center;
         p.to_array().map(|x| libm::scalbn(x, self.exponent) as f32 + 0.0)
     }
-
-    /// Tells triangles their materials, one a part: the file's own, or any in their place that no place asks for.
-    pub(super) fn set_materials(&mut self, of_part: &[u32], own: bool) {
-        if self.own_materials || self.shades.is_empty() {
-            return;
-        }
-        for (shade, part) in self.shades.iter_mut().zip(&self.parts) {
-            shade.material = of_part[*part as usize];
-        }
-        self.own_materials = own;
-    }
 }
 
-/// What is known of a triangle without its material and object.
-fn shade(part: &Part, tri_idx: usize) -> abi::TriShade {
+/// Whether the corners lie on one line, with products in `f64`, where they round least.
+pub(super) fn has_no_area(corners: &[[f32; 3]; 3]) -> bool {
+    let [a, b, c] = corners.map(|p| DVec3::from(p.map(f64::from)));
+    (b - a).cross(c - a) == DVec3::ZERO
+}
+
+/// What is known of a triangle.
+fn shade(part: &Part, tri_idx: usize, material: u32) -> abi::TriShade {
     let normals = part.corner_normals(tri_idx);
     let octahedral = |n: [f32; 3]| octahedral(DVec3::from(n.map(f64::from)));
     let [uv0, uv1, uv2] = part.corner_uvs(tri_idx).unwrap_or_default();
     let smooth = if normals.is_some() { TRI_SMOOTH } else { 0 };
     abi::TriShade {
         normals: normals.map_or([0; 3], |normals| normals.map(octahedral)),
-        material: 0,
+        material,
         uv0,
         uv1,
         uv2,

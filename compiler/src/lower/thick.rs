@@ -6,7 +6,7 @@ use lang::diagnostic::{Code, Diagnostic};
 use lang::material::Traits as _;
 use lang::scene::{Instance, MaterialModel, MediumModel, Scene, Shape};
 
-use super::Loaded;
+use crate::import::MeshFacts;
 
 /// A slab is thin if light comes out near where it went in: a sheet thicker than this share of its width is none.
 const THIN: f64 = 0.1;
@@ -15,36 +15,24 @@ const THIN: f64 = 0.1;
 const FAINT: f64 = 0.01;
 
 /// Warns of sheets that are not thin, and of fillings that scatter next to no light.
-pub(super) fn check(scene: &Scene, loaded: &Loaded, diagnostics: &mut Vec<Diagnostic>) {
+pub(super) fn check(scene: &Scene, assets: &[MeshFacts], diagnostics: &mut Vec<Diagnostic>) {
     for instance in &scene.instances {
         let Some(material) = instance.material else { continue };
         let name = scene.materials[material].name.text.as_str();
         let model = &scene.materials[material].model;
-        let Some(size) = size(instance, loaded) else { continue };
+        let Some(size) = size(instance, assets) else { continue };
         diagnostics.extend(
             sheet(instance, name, model, size).or_else(|| filling(scene, instance, model, size)),
         );
     }
 }
 
-/// Whether the size of the instance is looked at.
-pub(super) fn matters(scene: &Scene, instance: &Instance) -> bool {
-    let model = instance.material.map(|material| &scene.materials[material].model);
-    model.is_some_and(|model| {
-        let filled = model.inside().is_some_and(|inside| inside.medium.is_some());
-        model.sheet().is_some() || filled
-    })
-}
-
 /// Sizes of the thing along its own axes, metres; `None` where nothing can be said.
-fn size(instance: &Instance, loaded: &Loaded) -> Option<DVec3> {
+fn size(instance: &Instance, assets: &[MeshFacts]) -> Option<DVec3> {
     let own = if let Shape::Mesh { asset, part } = &instance.shape {
-        let file = loaded.assets[*asset].as_ref()?;
-        let parts = match part {
-            Some(name) => file.find_parts(name),
-            None => (0..file.parts.len()).collect(),
-        };
-        let positions = parts.iter().flat_map(|part| &file.parts[*part].positions);
+        let file = &assets[*asset];
+        let parts = file.chosen(part.as_deref());
+        let positions = parts.iter().flat_map(|part| &file.parts[*part].bounds);
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for p in positions.map(|p| DVec3::from(p.map(f64::from))) {
             (low, high) = (low.min(p), high.max(p));

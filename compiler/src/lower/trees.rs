@@ -2,10 +2,10 @@
 
 use pack::abi;
 
-use super::Placed;
 use super::geometry::Placement;
 use super::lowered::Counters;
 use super::share::Instancing;
+use super::stored::Placed;
 use crate::bvh::{self, BuildReport, BvhError, Joined, Layout, Preset, Primitives, Shared};
 use crate::cache::Cache;
 use crate::normalize::Normalization;
@@ -34,7 +34,7 @@ impl<'a> Trees<'a> {
     /// All that changes what is made, for keys.
     #[must_use]
     pub fn recipe(&self) -> String {
-        format!("{} {:?} {:?}", self.preset.recipe(), self.layout, self.instancing)
+        format!("{} {} {}", self.preset.recipe(), self.layout.recipe(), self.instancing)
     }
 }
 
@@ -72,17 +72,14 @@ pub(super) struct Corners {
     meshes: Vec<Vec<[[f32; 3]; 3]>>,
 }
 
-/// Adds what is stored once to the triangles of the world, which have these `corners`, and counts both.
-pub(super) fn add_meshes(
-    placement: &mut Placement,
-    mut corners: Vec<[[f32; 3]; 3]>,
-    counters: &mut Counters,
-) -> Corners {
+/// Adds what is stored once to the triangles of the world, and counts both.
+pub(super) fn add_meshes(placement: &mut Placement, counters: &mut Counters) -> Corners {
     count_triangles(placement, counters);
+    let mut corners = std::mem::take(&mut placement.corners);
     let n_world = corners.len();
     let mut meshes = Vec::with_capacity(placement.meshes.len());
     for mesh in &mut placement.meshes {
-        placement.shades.append(&mut mesh.shades);
+        placement.shades.append(&mut std::mem::take(&mut mesh.shades));
         corners.extend_from_slice(&mesh.corners);
         meshes.push(std::mem::take(&mut mesh.corners));
     }
@@ -99,12 +96,11 @@ fn count_triangles(placement: &Placement, counters: &mut Counters) {
     counters.dropped_triangles += placement.meshes.iter().map(|mesh| mesh.dropped).sum::<u64>();
 }
 
-/// The trees over all triangles and over these spheres, and their wide nodes if they are stored in such; `motions`:
-/// how far each thing comes.
+/// The trees over all triangles and spheres, and their wide nodes if they are stored in such; `motions`: how far each
+/// thing comes.
 pub(super) fn build_tree(
     placement: &Placement,
     corners: &Corners,
-    balls: &[([f32; 3], f32)],
     (motions, frame): (&[[f32; 3]], &Normalization),
     trees: &Trees<'_>,
 ) -> Result<(Joined, Vec<abi::WideNode>, BuildReport), BvhError> {
@@ -114,7 +110,7 @@ pub(super) fn build_tree(
         triangles: &corners.all[..corners.n_world],
         mesh_sizes: &sizes,
         mesh_motions: &mesh_motions,
-        spheres: balls,
+        spheres: &placement.spheres,
         sphere_motions: &sphere_motions,
     };
     let boxed = |placed: &Placed| {

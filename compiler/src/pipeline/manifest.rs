@@ -7,7 +7,8 @@ use pack::manifest::{Feature, KernelSize, Named};
 use shaders::FeatureSet;
 
 use super::explain::{Explain, Row};
-use super::{FileRead, Options, load};
+use super::files::{FileRead, relative};
+use super::options::Options;
 use crate::bvh::{Layout, Preset};
 use crate::lower::{Instancing, Lowered, Trees};
 
@@ -121,6 +122,6 @@ impl Context<'_> {
     }
 
     fn file_name(&self, name: &str) -> String {
-        load::relative(name.as_ref(), self.options.root)
+        relative(name.as_ref(), self.options.root)
     }
 }

@@ -65,6 +65,12 @@ pub(super) fn load(
             let message = format!("there is no `{name}`; its materials are not known");
             report.warn(format!("{obj_file}:{line}"), message);
         }
+        let is_absent = |path: &PathBuf| !reader.limits.root.has(path);
+        let whole = library_path(folder, written);
+        if is_absent(&whole) {
+            let names = written.split_whitespace().map(|name| library_path(folder, name));
+            report.absent.extend(std::iter::once(whole).chain(names).filter(is_absent));
+        }
         for path in paths {
             for material in read_library(&path, reader, report)? {
                 let library = path.clone();
@@ -88,9 +94,13 @@ pub(super) fn load(
     Ok(library)
 }
 
+fn library_path(folder: &Path, name: &str) -> PathBuf {
+    folder.join(name.replace('\\', "/"))
+}
+
 /// The files that an `mtllib` line means, one name with spaces or several names, and those that are not there.
 fn library_paths<'a>(folder: &Path, written: &'a str, root: &Root) -> (Vec<PathBuf>, Vec<&'a str>) {
-    let path = |name: &str| folder.join(name.replace('\\', "/"));
+    let path = |name: &str| library_path(folder, name);
     if root.has(&path(written)) {
         return (vec![path(written)], Vec::new());
     }
@@ -382,10 +392,12 @@ impl Maps<'_, '_, '_> {
         };
         let name = options.file.replace('\\', "/");
         let wrap = [if options.clamp { Wrap::Clamp } else { Wrap::Repeat }; 2];
-        let Some(path) = self.find(&name) else {
+        let path = self.place_of(&name);
+        if !self.reader.limits.root.has(&path) {
+            self.report.absent.push(path);
             self.report.warn(self.place, format!("there is no image `{name}`"));
             return Ok(None);
-        };
+        }
         let place = path.shown().to_string();
         if let Some(image) = self.images.find_place(&place, alpha) {
             return Ok(Some(MapUse { image, space, wrap }));
@@ -396,12 +408,11 @@ impl Maps<'_, '_, '_> {
     }
 
     /// The image beside the library; a path of the exporter's machine is tried by its last part.
-    fn find(&self, name: &str) -> Option<PathBuf> {
+    fn place_of(&self, name: &str) -> PathBuf {
         let folder = self.found.library.parent().unwrap_or(Path::new(""));
         let foreign = name.starts_with('/') || name.contains(':');
         let last = name.rsplit('/').next().unwrap_or(name);
-        let path = folder.join(if foreign { last } else { name });
-        self.reader.limits.root.has(&path).then_some(path)
+        folder.join(if foreign { last } else { name })
     }
 }
 

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 use lang::scene::Instance;
 
-use crate::lower::motion::Shutter;
+use crate::lower::shutter::Shutter;
 
 /// `world_from_object` at the moment when the shutter opens, split.
 pub(in crate::lower) struct Transform {
@@ -29,6 +29,13 @@ impl Transform {
         let mirrors = linear.determinant() < 0.0;
         let normal = if mirrors { cofactors * -1.0 } else { cofactors };
         Self { linear, translation, normal, mirrors }
+    }
+
+    /// All of it, for keys.
+    pub(super) fn numbers(&self) -> [f64; 12] {
+        let [x, y, z] = self.linear.to_cols_array_2d();
+        let rows = [x, y, z, self.translation.to_array()];
+        std::array::from_fn(|i| rows[i / 3][i % 3])
     }
 
     pub(super) fn point(&self, p: DVec3) -> DVec3 {

@@ -7,7 +7,7 @@ use lang::material::{
 use lang::scene::{self, Color, MaterialModel, Scalar};
 use pack::abi::{self, MaterialKind, NONE, material_flag};
 
-use super::{MaterialTable, blank, factor, set_normal_map, with_ior};
+use super::table::{MaterialTable, blank, factor, set_normal_map, with_ior};
 use crate::lower::fresnel;
 use crate::lower::medium::Water;
 

@@ -2,15 +2,13 @@
 
 use pack::abi::{self, MaterialKind, material_flag};
 
-use super::principled::image_of;
-use super::{MaterialTable, blank, cutting, set_normal_map, with_ior};
+use super::table::{MaterialTable, blank, cutting, image_of, set_normal_map, with_ior};
 use crate::import::ImportedMaterial;
 
 impl MaterialTable<'_> {
     pub(super) fn imported(&mut self, asset: usize, material: usize) -> abi::Material {
-        let file = self.loaded.and_then(|loaded| loaded.assets[asset].as_ref());
-        let file = file.expect("an asset whose material is used has been loaded");
-        let from: &ImportedMaterial = &file.materials[material];
+        let files = self.files;
+        let from = &files.assets()[asset].materials[material];
         let mut record = if from.unlit {
             let emission = from.color.map(|c| c as f32);
             let map = self.factor_map(&emission, asset, from.color_map);

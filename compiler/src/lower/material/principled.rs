@@ -3,9 +3,10 @@
 use lang::scene::{Color, ColorSpace, Principled, Scalar, Wrap};
 use pack::abi::{self, MaterialKind, NONE, material_flag};
 
-use super::{MaterialTable, blank, channel, cutting, factor, with_ior};
+use super::table::{MaterialTable, blank, channel, cutting, factor, image_of, with_ior};
 use crate::import::{ImportedMaterial, MapUse};
-use crate::lower::texture::{Channel, ImageRef};
+use crate::lower::files::ImageRef;
+use crate::lower::texture::Channel;
 
 /// Factor and channel of a scalar.
 type Textured = (f32, Option<Channel>);
@@ -180,9 +181,4 @@ fn mark_straight(record: &mut abi::Material) {
     if textured || record.roughness * record.roughness < 1e-3 {
         record.flags |= material_flag::THROUGH;
     }
-}
-
-/// The image of a map of a mesh file.
-pub(super) fn image_of(asset: usize, map: MapUse) -> ImageRef {
-    ImageRef::Asset { asset, image: map.image as usize }
 }

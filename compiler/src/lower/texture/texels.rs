@@ -59,8 +59,8 @@ pub(super) fn whole(source: &Image, space: ColorSpace) -> Made {
 }
 
 /// Images of the sky are radiance, or pictures with the sRGB curve.
-pub(super) fn space_of(image: &Image) -> ColorSpace {
-    if image.is_radiance { ColorSpace::Linear } else { ColorSpace::Srgb }
+pub(super) fn space_of(is_radiance: bool) -> ColorSpace {
+    if is_radiance { ColorSpace::Linear } else { ColorSpace::Srgb }
 }
 
 /// Luminance of each texel of a row of an image of the sky.

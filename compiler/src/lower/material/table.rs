@@ -1,0 +1,241 @@
+//! The materials in use and the textures they read: records, and what else is asked about them.
+//!
+//! It does not know how a material becomes a record.
+
+use lang::scene::{self, Color, ColorSpace, Scalar, Scene};
+use pack::abi::{self, MaterialKind, NONE, material_flag};
+
+use crate::import::MapUse;
+use crate::lower::files::{Files, ImageRef};
+use crate::lower::light::luminance;
+use crate::lower::medium::{Water, has_inside};
+use crate::lower::texture::TextureTable;
+use crate::stage::Stages;
+
+/// Where a material is declared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(in crate::lower) enum MaterialRef {
+    /// Index into `Scene::materials`.
+    Scene(usize),
+    /// Material of a mesh file.
+    Asset {
+        /// Index into `Scene::assets`.
+        asset: usize,
+        /// Index into `MeshFile::materials`.
+        material: usize,
+    },
+    /// The emission of a `light`, index into `Scene::lights`.
+    Light(usize),
+    /// Grey Lambert, for parts of mesh files that name no material.
+    Default,
+}
+
+/// Materials, and the textures they use.
+pub(in crate::lower) struct MaterialTable<'a> {
+    pub(in crate::lower) scene: &'a Scene,
+    pub(in crate::lower) files: &'a dyn Files,
+    pub(in crate::lower) textures: TextureTable<'a>,
+    refs: Vec<MaterialRef>,
+    records: Vec<abi::Material>,
+    glows: Vec<f64>,
+    pub(super) waters: Vec<Water>,
+}
+
+impl<'a> MaterialTable<'a> {
+    pub(in crate::lower) fn new(
+        scene: &'a Scene,
+        files: &'a dyn Files,
+        stages: &'a Stages,
+    ) -> Self {
+        let (refs, records, glows, waters) = Default::default();
+        let textures = TextureTable::new(files, stages);
+        Self { scene, files, textures, refs, records, glows, waters }
+    }
+
+    pub(in crate::lower) fn records(&self) -> &[abi::Material] {
+        &self.records
+    }
+
+    /// What waters are filled with that name no medium; their media follow those of the scene.
+    pub(in crate::lower) fn waters(&self) -> &[Water] {
+        &self.waters
+    }
+
+    /// Name and place of declaration of each.
+    pub(in crate::lower) fn names(&self) -> Vec<(String, Option<lang::source::Span>)> {
+        let declared = |name: &scene::Name| (name.text.clone(), Some(name.span));
+        let name = |of: &MaterialRef| match *of {
+            MaterialRef::Scene(index) => declared(&self.scene.materials[index].name),
+            MaterialRef::Light(index) => declared(&self.scene.lights[index].name),
+            MaterialRef::Default => ("default".to_owned(), None),
+            MaterialRef::Asset { asset, material } => {
+                let own = &self.files.assets()[asset].materials[material].name;
+                let asset = &self.scene.assets[asset].name;
+                (format!("{}/{own}", asset.text), Some(asset.span))
+            }
+        };
+        self.refs.iter().map(name).collect()
+    }
+
+    /// Luminance of a material's mean radiance, counted for each side that emits.
+    pub(in crate::lower) fn glow(&self, index: u32) -> f64 {
+        self.glows[index as usize]
+    }
+
+    /// What geometry knows of a material: whether it gives light, and whether it has an inside.
+    pub(in crate::lower) fn looks(&self, index: u32) -> Looks {
+        Looks {
+            glows: self.glow(index) > 0.0,
+            has_inside: has_inside(&self.records[index as usize]),
+        }
+    }
+
+    /// The index of a material, if it is known.
+    pub(super) fn position(&self, of: MaterialRef) -> Option<u32> {
+        self.refs.iter().position(|known| *known == of).map(|index| index as u32)
+    }
+
+    /// Adds a material; its index.
+    pub(super) fn push(&mut self, of: MaterialRef, record: abi::Material) -> u32 {
+        let glow = self.glow_of(&record);
+        self.refs.push(of);
+        self.records.push(record);
+        self.glows.push(glow);
+        (self.records.len() - 1) as u32
+    }
+
+    fn glow_of(&mut self, record: &abi::Material) -> f64 {
+        let sides = if record.flags & material_flag::EMIT_BOTH_SIDES != 0 { 2.0 } else { 1.0 };
+        sides * luminance(self.mean_emission(record))
+    }
+
+    /// Mean emitted radiance of a material, over its texture if it has one.
+    fn mean_emission(&mut self, record: &abi::Material) -> [f64; 3] {
+        let factor = record.emission.map(f64::from);
+        if record.emission_texture == NONE {
+            return factor;
+        }
+        let mean = self.textures.mean(record.emission_texture);
+        [0, 1, 2].map(|k| factor[k] * mean[k])
+    }
+
+    pub(in crate::lower) fn into_records(self) -> Vec<abi::Material> {
+        self.records
+    }
+
+    /// Factor and texture of a declared colour.
+    pub(in crate::lower) fn color(&mut self, color: Color) -> ([f32; 3], u32) {
+        match color {
+            Color::Constant(rgb) => (rgb.map(|c| c as f32), NONE),
+            Color::Texture(texture) => {
+                let scene::Texture { space, wrap, .. } = &self.scene.textures[texture];
+                let id = self.textures.whole(ImageRef::Scene(texture), *space, *wrap);
+                ([1.0; 3], id)
+            }
+        }
+    }
+
+    /// Factor and texture of a declared emission; no texture where the factor is 0.
+    pub(in crate::lower) fn emission(&mut self, color: Color, strength: f64) -> ([f32; 3], u32) {
+        if strength <= 0.0 {
+            return ([0.0; 3], NONE);
+        }
+        let (color, texture) = self.color(color);
+        (color.map(|c| (f64::from(c) * strength) as f32), texture)
+    }
+
+    /// A map whose numbers are multiplied by these factors; `NONE` where all of them are 0.
+    pub(in crate::lower) fn factor_map(
+        &mut self,
+        factors: &[f32],
+        asset: usize,
+        map: Option<MapUse>,
+    ) -> u32 {
+        let read = factors.iter().any(|factor| *factor > 0.0);
+        self.map(asset, map.filter(|_| read))
+    }
+
+    pub(in crate::lower) fn map(&mut self, asset: usize, map: Option<MapUse>) -> u32 {
+        map.map_or(NONE, |map| {
+            let image = image_of(asset, map);
+            // Bytes that are not colours are the same numbers under either linear name.
+            let space = match map.space {
+                ColorSpace::Data => ColorSpace::Linear,
+                space @ (ColorSpace::Srgb | ColorSpace::Linear) => space,
+            };
+            self.textures.whole(image, space, map.wrap)
+        })
+    }
+}
+
+/// What geometry knows of a material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::lower) struct Looks {
+    /// It gives light.
+    pub(in crate::lower) glows: bool,
+    /// Light goes through it into an inside.
+    pub(in crate::lower) has_inside: bool,
+}
+
+/// A material of this kind without textures and layers, opaque, black, ior 1.5.
+pub(in crate::lower) fn blank(kind: MaterialKind) -> abi::Material {
+    let base = abi::Material {
+        kind: kind as u32,
+        alpha: 1.0,
+        color_texture: NONE,
+        emission_texture: NONE,
+        metallic_roughness_texture: NONE,
+        alpha_texture: NONE,
+        normal_texture: NONE,
+        normal_strength: 1.0,
+        medium: NONE,
+        specular: 1.0,
+        tint: if kind == MaterialKind::Principled { [1.0; 3] } else { [0.0; 3] },
+        specular_texture: NONE,
+        coat_texture: NONE,
+        transmission_texture: NONE,
+        ..Default::default()
+    };
+    with_ior(base, 1.5)
+}
+
+/// The least coverage that exists, where some of the surface does not: `alpha` times an image that is
+/// `least` at least lies below. What lies nowhere below needs no test, for any ray.
+pub(in crate::lower) fn cutting(cutoff: Option<f64>, alpha: f32, least: f32) -> Option<f32> {
+    let cutoff = cutoff? as f32;
+    let everywhere = alpha * least;
+    // A NaN in an image keeps the test.
+    (everywhere < cutoff || everywhere.is_nan()).then_some(cutoff)
+}
+
+/// Gives the material a normal map, if there is one.
+pub(super) fn set_normal_map(material: &mut abi::Material, image: u32, strength: f64) {
+    if image != NONE {
+        material.normal_texture = image;
+        material.normal_strength = strength as f32;
+        material.flags |= material_flag::TANGENT;
+    }
+}
+
+pub(in crate::lower) fn with_ior(material: abi::Material, ior: f64) -> abi::Material {
+    abi::Material { ior: ior as f32, ior_minus_1: (ior - 1.0) as f32, ..material }
+}
+
+pub(in crate::lower) fn factor(scalar: Scalar) -> f32 {
+    match scalar {
+        Scalar::Constant(value) => value as f32,
+        Scalar::Texture { .. } => 1.0,
+    }
+}
+
+pub(in crate::lower) fn channel(scalar: Scalar) -> Option<(ImageRef, u8)> {
+    match scalar {
+        Scalar::Constant(_) => None,
+        Scalar::Texture { texture, channel } => Some((ImageRef::Scene(texture), channel)),
+    }
+}
+
+/// The image of a map of a mesh file.
+pub(in crate::lower) fn image_of(asset: usize, map: MapUse) -> ImageRef {
+    ImageRef::Asset { asset, image: map.image as usize }
+}

@@ -1,0 +1,535 @@
+//! Reads the files that instances use, as far as anybody must; what cannot be read becomes a diagnostic at its path.
+//!
+//! A file is read when it is not known what it holds, or when its triangles or texels are asked for. What was odd in
+//! a file is known with it, and said each time.
+
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use lang::diagnostic::{Code, Diagnostic, Fix};
+use lang::scene::{Asset, AssetFormat, Axis, Scene, Shape, SkyModel};
+use lang::source::{SourceSet, Span};
+use rayon::prelude::*;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::options::Options;
+use super::session::Session;
+use crate::import::{
+    Environment, EnvironmentFacts, ErrorKind, Image, ImageFacts, ImportError, ImportReport,
+    MeshFacts, MeshFile, load_environment, load_gltf, load_image, load_obj,
+};
+use crate::lower::{Files, Meshes};
+use crate::stage::{Key, KeyOf, Share, Stages};
+
+/// A file that went into the pack.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileRead {
+    /// Path relative to the root scene's directory, as far as it can be.
+    pub name: String,
+    /// BLAKE3 of its bytes; for images of what they show.
+    pub hash: [u8; 32],
+}
+
+/// The files of a scene.
+pub(super) struct SceneFiles<'a> {
+    origin: Origin<'a>,
+    assets: Vec<MeshFacts>,
+    textures: Vec<ImageFacts>,
+    environment: Option<EnvironmentFacts>,
+    loaded: Mutex<Loaded>,
+}
+
+/// What is in memory.
+#[derive(Default)]
+struct Loaded {
+    meshes: Meshes,
+    images: BTreeMap<usize, Arc<Image>>,
+    environment: Option<Arc<Environment>>,
+}
+
+/// How many files were known.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Counts {
+    pub(super) meshes: Share,
+    pub(super) images: Share,
+}
+
+/// Where files come from, and where what is known of them is.
+#[derive(Clone, Copy)]
+pub(super) struct Origin<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) sources: &'a SourceSet,
+    pub(super) options: &'a Options<'a>,
+    pub(super) session: &'a Session,
+    pub(super) stages: &'a Stages,
+}
+
+/// What is known of a file, and the file if it was loaded.
+type Known<F, T> = (F, Option<Arc<T>>);
+
+impl<'a> SceneFiles<'a> {
+    /// Learns what is known of every asset and texture, in parallel; results are in declaration order. A `Scene`
+    /// holds only those that some instance uses. `None` when there are errors in `diagnostics`.
+    ///
+    /// # Errors
+    /// When there is no memory for a file.
+    pub(super) fn new(
+        origin: Origin<'a>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Result<Option<(Self, Vec<FileRead>, Counts)>, ImportError> {
+        let (scene, root) = (origin.scene, origin.options.root);
+        let assets: Vec<_> = scene.assets.par_iter().map(|asset| origin.asset(asset)).collect();
+        let textures = scene.textures.par_iter();
+        let textures: Vec<_> =
+            textures.map(|texture| origin.image(texture.path_span, &texture.path)).collect();
+        let (mut files, mut counts) = (Vec::new(), Counts::default());
+        let (mut known, mut loaded) = ((Vec::new(), Vec::new()), Loaded::default());
+        for (index, (asset, found)) in scene.assets.iter().zip(with_memory(assets)?).enumerate() {
+            match found {
+                Err(error) => {
+                    diagnostics.push(failed(&error, asset.path_span, &asset.path));
+                    known.0.push(None);
+                }
+                Ok((facts, file)) => {
+                    report(&facts.report, asset.path_span, diagnostics);
+                    counts.meshes.count(file.is_none());
+                    files.extend(facts.report.files.iter().map(|file| FileRead {
+                        name: relative(&file.path, root),
+                        hash: file.hash,
+                    }));
+                    loaded.meshes.extend(file.map(|file| (index, file)));
+                    known.0.push(Some(facts));
+                }
+            }
+        }
+        for (index, (texture, found)) in
+            scene.textures.iter().zip(with_memory(textures)?).enumerate()
+        {
+            match found {
+                Err(error) => diagnostics.push(failed(&error, texture.path_span, &texture.path)),
+                Ok((facts, image)) => {
+                    counts.images.count(image.is_none());
+                    let path = origin.beside(texture.path_span, &texture.path);
+                    files.push(FileRead { name: relative(&path, root), hash: facts.content });
+                    loaded.images.extend(image.map(|image| (index, image)));
+                    known.1.push(facts);
+                }
+            }
+        }
+        let environment = environment(origin, diagnostics)?;
+        if let Some((path, (facts, image))) = environment.as_ref() {
+            files.push(FileRead { name: relative(path, root), hash: facts.image.content });
+            loaded.environment.clone_from(image);
+        }
+        find_parts(scene, &known.0, diagnostics);
+        if diagnostics.iter().any(Diagnostic::is_error) {
+            return Ok(None);
+        }
+        files.sort_by(|a, b| a.name.cmp(&b.name));
+        files.dedup();
+        let assets = known.0.into_iter().flatten().collect();
+        let (textures, loaded) = (known.1, Mutex::new(loaded));
+        let environment = environment.map(|(_, (facts, _))| facts);
+        Ok(Some((Self { origin, assets, textures, environment, loaded }, files, counts)))
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Loaded> {
+        self.loaded.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Files for SceneFiles<'_> {
+    fn assets(&self) -> &[MeshFacts] {
+        &self.assets
+    }
+
+    fn textures(&self) -> &[ImageFacts] {
+        &self.textures
+    }
+
+    fn environment(&self) -> Option<&EnvironmentFacts> {
+        self.environment.as_ref()
+    }
+
+    fn load_meshes(&self, assets: &BTreeSet<usize>) -> Result<Meshes, ImportError> {
+        let there = self.lock().meshes.clone();
+        let absent: Vec<usize> =
+            assets.iter().copied().filter(|asset| !there.contains_key(asset)).collect();
+        let load = |asset: usize| {
+            let file = self.origin.mesh(&self.origin.scene.assets[asset], &self.assets[asset])?;
+            Ok((asset, file))
+        };
+        let new: Vec<_> = absent.into_par_iter().map(load).collect::<Result<_, ImportError>>()?;
+        let mut loaded = self.lock();
+        loaded.meshes.extend(new);
+        let found = loaded.meshes.iter().filter(|(asset, _)| assets.contains(asset));
+        Ok(found.map(|(asset, file)| (*asset, Arc::clone(file))).collect())
+    }
+
+    fn load_images(
+        &self,
+        textures: &BTreeSet<usize>,
+    ) -> Result<BTreeMap<usize, Arc<Image>>, ImportError> {
+        let there = self.lock().images.clone();
+        let absent: Vec<usize> =
+            textures.iter().copied().filter(|texture| !there.contains_key(texture)).collect();
+        let load = |index: usize| {
+            let texture = &self.origin.scene.textures[index];
+            let path = self.origin.beside(texture.path_span, &texture.path);
+            let image = Arc::new(load_image(&path, &self.origin.options.limits)?);
+            unchanged(ImageFacts::of(&image) == self.textures[index], &path)?;
+            Ok((index, image))
+        };
+        let new: Vec<_> = absent.into_par_iter().map(load).collect::<Result<_, ImportError>>()?;
+        let mut loaded = self.lock();
+        loaded.images.extend(new);
+        let found = loaded.images.iter().filter(|(texture, _)| textures.contains(texture));
+        Ok(found.map(|(texture, image)| (*texture, Arc::clone(image))).collect())
+    }
+
+    fn load_environment(&self) -> Result<Arc<Environment>, ImportError> {
+        if let Some(found) = &self.lock().environment {
+            return Ok(Arc::clone(found));
+        }
+        let (path, _, _) = self.origin.sky().expect("the scene has a sky of an image");
+        let found = Arc::new(load_environment(&path, &self.origin.options.limits)?);
+        unchanged(Some(EnvironmentFacts::of(&found)) == self.environment, &path)?;
+        self.lock().environment = Some(Arc::clone(&found));
+        Ok(found)
+    }
+
+    fn release(&self) {
+        *self.lock() = Loaded::default();
+    }
+}
+
+/// An error if a file is not what it was.
+fn unchanged(same: bool, path: &Path) -> Result<(), ImportError> {
+    if same { Ok(()) } else { Err(ImportError::changed(path)) }
+}
+
+impl Origin<'_> {
+    /// A path in the text is relative to the file in which it stands.
+    fn beside(&self, at: Span, path: &str) -> PathBuf {
+        let dir = Path::new(self.sources.name(at.file)).parent().unwrap_or(Path::new(""));
+        dir.join(path)
+    }
+
+    /// The image of the sky: its path, where that stands, and as it is written.
+    fn sky(&self) -> Option<(PathBuf, Span, &str)> {
+        let model = self.scene.sky.as_ref().map(|sky| &sky.model)?;
+        let SkyModel::Image { path, path_span, .. } = model else { return None };
+        Some((self.beside(*path_span, path), *path_span, path))
+    }
+
+    /// Begins the key of what is known of a file.
+    fn key(&self, what: &str, path: &Path) -> KeyOf {
+        let mut key = KeyOf::stage(what);
+        key.bytes(path.as_os_str().as_encoded_bytes());
+        if let Some(root) = self.options.limits.root.folder() {
+            key.bytes(root.as_os_str().as_encoded_bytes());
+        }
+        key
+    }
+
+    fn asset(&self, asset: &Asset) -> Result<Known<MeshFacts, MeshFile>, ImportError> {
+        let path = self.beside(asset.path_span, &asset.path);
+        let (reads, root) = (&self.session.reads, &self.options.limits.root);
+        reads.read(&path);
+        let key = self.asset_key(asset, &path);
+        let known = self.stages.get::<MeshFacts>(key).filter(|facts| {
+            let ImportReport { files, absent, .. } = &facts.report;
+            files.iter().all(|file| reads.content(&file.path, root) == Some(file.hash))
+                && absent.iter().all(|path| reads.content(path, root).is_none())
+        });
+        let found = if let Some(facts) = known {
+            self.session.kept.touch(file_key(key, &facts.report));
+            (facts, None)
+        } else {
+            let file = Arc::new(read_asset(asset, &path, self.options)?);
+            let facts = MeshFacts::of(&file);
+            self.stages.put(key, &facts);
+            self.session.kept.put(file_key(key, &facts.report), &file);
+            (facts, Some(file))
+        };
+        let ImportReport { files, absent, .. } = &found.0.report;
+        if let Some(itself) = files.first().filter(|file| file.path == path) {
+            reads.know(&path, itself.hash);
+        }
+        files.iter().map(|file| &file.path).chain(absent).for_each(|path| reads.read(path));
+        Ok(found)
+    }
+
+    /// The file of an asset of which this is known.
+    fn mesh(&self, asset: &Asset, facts: &MeshFacts) -> Result<Arc<MeshFile>, ImportError> {
+        let path = self.beside(asset.path_span, &asset.path);
+        let key = file_key(self.asset_key(asset, &path), &facts.report);
+        if let Some(kept) = self.session.kept.get(key) {
+            return Ok(kept);
+        }
+        let file = Arc::new(read_asset(asset, &path, self.options)?);
+        unchanged(file.report == facts.report, &path)?;
+        self.session.kept.put(key, &file);
+        Ok(file)
+    }
+
+    fn asset_key(&self, asset: &Asset, path: &Path) -> Key {
+        let mut key = self.key("mesh file", path);
+        match asset.format {
+            AssetFormat::Obj { metres_per_unit, up } => {
+                let up = match up {
+                    Axis::PlusX => 0_u32,
+                    Axis::MinusX => 1,
+                    Axis::PlusY => 2,
+                    Axis::MinusY => 3,
+                    Axis::PlusZ => 4,
+                    Axis::MinusZ => 5,
+                };
+                key.text("obj").floats(&[metres_per_unit]).number(up);
+            }
+            AssetFormat::Gltf => {
+                key.text("gltf");
+            }
+        }
+        key.end()
+    }
+
+    fn image(&self, span: Span, path: &str) -> Result<Known<ImageFacts, Image>, ImportError> {
+        let path = self.beside(span, path);
+        let load = || load_image(&path, &self.options.limits);
+        self.whole_file(("image", &path), load, ImageFacts::of)
+    }
+
+    /// What is known of a file that is read by itself.
+    fn whole_file<F: Serialize + DeserializeOwned, T>(
+        &self,
+        (what, path): (&str, &Path),
+        load: impl FnOnce() -> Result<T, ImportError>,
+        facts: impl FnOnce(&T) -> F,
+    ) -> Result<Known<F, T>, ImportError> {
+        self.session.reads.read(path);
+        let content = self.session.reads.content(path, &self.options.limits.root);
+        let mut key = self.key(what, path);
+        let key = key.bytes(&content.unwrap_or_default()).end();
+        if let Some(facts) = self.stages.get(key).filter(|_| content.is_some()) {
+            return Ok((facts, None));
+        }
+        let file = load()?;
+        let facts = facts(&file);
+        self.stages.put(key, &facts);
+        Ok((facts, Some(Arc::new(file))))
+    }
+}
+
+/// The key of a file in memory, with all that was read for it.
+fn file_key(key: Key, report: &ImportReport) -> Key {
+    let mut of = KeyOf::stage("mesh file in memory");
+    of.key(key);
+    for file in &report.files {
+        of.bytes(&file.hash);
+    }
+    of.end()
+}
+
+/// The results, unless there was no memory for one of them: that is no fault of the scene.
+fn with_memory<T>(
+    results: Vec<Result<T, ImportError>>,
+) -> Result<Vec<Result<T, ImportError>>, ImportError> {
+    let mut kept = Vec::with_capacity(results.len());
+    for result in results {
+        match result {
+            Err(error) if error.kind == ErrorKind::Memory => return Err(error),
+            result => kept.push(result),
+        }
+    }
+    Ok(kept)
+}
+
+/// The image of the sky, with what is odd about it.
+#[expect(clippy::type_complexity, reason = "a path and what is known of it")]
+fn environment(
+    origin: Origin<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<Option<(PathBuf, Known<EnvironmentFacts, Environment>)>, ImportError> {
+    let Some((path, path_span, written)) = origin.sky() else { return Ok(None) };
+    let load = || load_environment(&path, &origin.options.limits);
+    let found = match origin.whole_file(("image of the sky", &path), load, EnvironmentFacts::of) {
+        Ok(found) => found,
+        Err(error) if error.kind == ErrorKind::Memory => return Err(error),
+        Err(error) => {
+            diagnostics.push(failed(&error, path_span, written));
+            return Ok(None);
+        }
+    };
+    let image = &found.0.image;
+    if image.width != 2 * image.height {
+        let (width, height) = (image.width, image.height);
+        let message = format!(
+            "`{written}` is {width} x {height} pixels; an image of all directions is twice as wide as high"
+        );
+        let warning = Diagnostic::warning(Code("W0528"), "sky_shape", message);
+        diagnostics.push(warning.at(path_span, "it will look stretched"));
+    }
+    if !image.is_radiance {
+        let message =
+            format!("`{written}` is a picture, not radiance: its sun is no brighter than paper");
+        let warning = Diagnostic::warning(Code("W0529"), "sky_picture", message)
+            .at(path_span, "read with the sRGB curve")
+            .with_help("use an HDR or EXR image");
+        diagnostics.push(warning);
+    }
+    Ok(Some((path, found)))
+}
+
+fn read_asset(asset: &Asset, path: &Path, options: &Options<'_>) -> Result<MeshFile, ImportError> {
+    match asset.format {
+        AssetFormat::Obj { metres_per_unit, up } => {
+            load_obj(path, metres_per_unit, up, &options.limits)
+        }
+        AssetFormat::Gltf => load_gltf(path, &options.limits),
+    }
+}
+
+/// The path as seen from `root`, with `/` between its parts: the same wherever both lie.
+pub(super) fn relative(path: &Path, root: &Path) -> String {
+    let (mut path, mut root) = (path.components().peekable(), root.components().peekable());
+    while path.peek().is_some() && path.peek() == root.peek() {
+        path.next();
+        root.next();
+    }
+    let up = root.map(|_| Cow::Borrowed(".."));
+    let down = path.map(|part| part.as_os_str().to_string_lossy());
+    up.chain(down).collect::<Vec<_>>().join("/")
+}
+
+fn failed(error: &ImportError, span: Span, written: &str) -> Diagnostic {
+    let code = match error.kind {
+        ErrorKind::Missing | ErrorKind::Io | ErrorKind::Outside => "E0514",
+        ErrorKind::Format => "E0503",
+        ErrorKind::Number => "E0504",
+        ErrorKind::Index => "E0505",
+        ErrorKind::Accessor => "E0506",
+        ErrorKind::Extension => "E0507",
+        ErrorKind::Empty => "E0508",
+        ErrorKind::Limit | ErrorKind::Memory => "E0509",
+        ErrorKind::Image => "E0602",
+    };
+    let itself = Path::new(&error.place).ends_with(written);
+    let message = match error.kind {
+        ErrorKind::Missing if itself => format!("there is no file `{written}`"),
+        ErrorKind::Missing => format!("`{written}` needs a file that is not there"),
+        ErrorKind::Io
+        | ErrorKind::Format
+        | ErrorKind::Number
+        | ErrorKind::Index
+        | ErrorKind::Accessor
+        | ErrorKind::Extension
+        | ErrorKind::Empty
+        | ErrorKind::Limit
+        | ErrorKind::Image
+        | ErrorKind::Outside
+        | ErrorKind::Memory => format!("`{written}` cannot be used"),
+    };
+    let found = Diagnostic::error(Code(code), message).at(span, "named here");
+    let found = found.with_note(error.to_string());
+    if error.help.is_empty() { found } else { found.with_help(error.help.clone()) }
+}
+
+/// Things that were counted during import and that the user should know.
+fn report(report: &ImportReport, span: Span, diagnostics: &mut Vec<Diagnostic>) {
+    let mut warn = |code, lint, message: String, first: &Option<String>| {
+        let warning = Diagnostic::warning(Code(code), lint, message).at(span, "");
+        diagnostics.push(match first {
+            Some(place) => warning.with_note(format!("the first is at {place}")),
+            None => warning,
+        });
+    };
+    let plural = |n: u64, one: &str, many: &str| {
+        if n == 1 { format!("1 {one}") } else { format!("{n} {many}") }
+    };
+    let zero = &report.zero_area;
+    if zero.count > 0 {
+        let what = plural(zero.count, "triangle without area was", "triangles without area were");
+        warn("W0520", "zero_area", format!("{what} left out"), &zero.first);
+    }
+    let needles = &report.needles;
+    if needles.count > 0 {
+        let what = plural(needles.count, "triangle is", "triangles are");
+        let message =
+            format!("{what} a needle, more than 1e5 times as long as high: expect noise there");
+        warn("W0521", "needles", message, &needles.first);
+    }
+    let normals = &report.zero_normals;
+    if normals.count > 0 {
+        let what = plural(normals.count, "normal has", "normals have");
+        warn("W0522", "zero_normals", format!("{what} no length and was replaced"), &normals.first);
+    }
+    if report.clamped_texels > 0 {
+        let what = plural(report.clamped_texels, "texel channel was", "texel channels were");
+        warn(
+            "W0523",
+            "clamped_texels",
+            format!("{what} clamped to what a half float holds"),
+            &None,
+        );
+    }
+    for warning in &report.warnings {
+        let message = format!("{}: {}", warning.place, warning.message);
+        warn("W0524", "import", message, &None);
+    }
+    if report.n_untold > 0 {
+        let message = format!("{} more things like these are odd in this file", report.n_untold);
+        warn("W0524", "import", message, &None);
+    }
+}
+
+/// A part that a file does not have is an unknown name, with the names it has.
+fn find_parts(scene: &Scene, assets: &[Option<MeshFacts>], diagnostics: &mut Vec<Diagnostic>) {
+    for instance in &scene.instances {
+        let Shape::Mesh { asset, part: Some(part) } = &instance.shape else { continue };
+        let Some(file) = &assets[*asset] else { continue };
+        if !file.find_parts(part).is_empty() {
+            continue;
+        }
+        let names = file.part_names();
+        let asset = &scene.assets[*asset];
+        let message = format!("`{}` has no part named `{part}`", asset.name.text);
+        let mut found = Diagnostic::error(Code("E0521"), message)
+            .at(instance.shape_span, "not in the file")
+            .because(asset.path_span, "the file");
+        if let [similar, ..] = lang::suggest::suggest(part, names.iter().copied()).as_slice() {
+            let text = format!("{}.{similar}", asset.name.text);
+            let message = format!("a part with a similar name exists: `{similar}`");
+            found = found.with_fix(Fix::guess(message, instance.shape_span, text));
+        } else {
+            found = found.with_note(listed(&names));
+        }
+        diagnostics.push(found);
+    }
+}
+
+fn listed(names: &[&str]) -> String {
+    const MOST: usize = 12; // a screen line or two
+    match names.len() {
+        0 => "the file names no parts; use the asset as a whole".to_owned(),
+        n if n <= MOST => format!("its parts: {}", names.join(", ")),
+        n => format!("its parts: {}, and {} more", names[..MOST].join(", "), n - MOST),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_do_not_depend_on_where_the_scene_lies() {
+        let of = |path: &str, root: &str| relative(Path::new(path), Path::new(root));
+        assert_eq!(of("a/b/c.obj", "a/b"), "c.obj");
+        assert_eq!(of("/x/a/parts/lamp.rts", "/x/a"), "parts/lamp.rts");
+        assert_eq!(of("a/parts/lamp.rts", "a/b"), "../parts/lamp.rts");
+        assert_eq!(of("c.obj", ""), "c.obj");
+    }
+}
