@@ -1,9 +1,9 @@
 //! Materials: each is declared once, in `materials!`.
 //!
 //! From that list come the schema (and with it checking, `rtc explain` and `docs/reference.md`), the typed
-//! value, how it is read from checked fields, how `rtc show --resolved` writes it, and which of its numbers
-//! geometry does not depend on. What a kind is in a pack and in the kernel stands under the same name in
-//! `pack::abi::MaterialKind`; the compiler turns one into the other. This does not know the pack.
+//! value, how it is read from checked fields, and how `rtc show --resolved` writes it. What a kind is in a pack
+//! and in the kernel stands under the same name in `pack::abi::MaterialKind`; the compiler turns one into the
+//! other. This does not know the pack.
 
 mod fields;
 mod param;
@@ -90,8 +90,8 @@ impl Lints {
     }
 }
 
-/// Declares the materials. A field of the model stands for the schema fields behind it; `geometry` marks one that
-/// geometry, or what is checked of it, depends on. `also` are schema fields that no model holds.
+/// Declares the materials. A field of the model stands for the schema fields behind it; `also` are schema
+/// fields that no model holds.
 macro_rules! materials {
     ($(
         $(#[doc = $about:literal])*
@@ -102,7 +102,7 @@ macro_rules! materials {
             lints: $lints:expr,
             fields: {
                 $($(#[doc = $of_field:literal])*
-                $field:ident: $ty:ty = [$($schema:expr),+] $($geometry:ident)?,)*
+                $field:ident: $ty:ty = [$($schema:expr),+],)*
             }
             $(also: [$($also:expr),*],)?
             traits: { $($traits:tt)* }
@@ -168,16 +168,6 @@ macro_rules! materials {
                 }
             }
 
-            /// Makes everything alike that geometry does not depend on: whether it gives light, is cut out by
-            /// alpha and so on counts.
-            pub fn forget_numbers(&mut self) {
-                match self {
-                    $(Self::$model(model) => {
-                        $(materials!(@forget model.$field $($geometry)?);)*
-                    })*
-                }
-            }
-
             fn as_traits(&self) -> &dyn Traits {
                 match self {
                     $(Self::$model(model) => model,)*
@@ -185,8 +175,6 @@ macro_rules! materials {
             }
         }
     };
-    (@forget $model:ident.$field:ident) => { $model.$field.forget(); };
-    (@forget $model:ident.$field:ident geometry) => { $model.$field.forget_place(); };
 }
 
 impl Traits for MaterialModel {
@@ -286,7 +274,7 @@ materials! {
             /// Perceptual roughness, 0 ..= 1.
             roughness: Scalar = [specular::DIELECTRIC_ROUGHNESS],
             /// What it is inside.
-            inside: Inside = [fields::INTERIOR, fields::PRIORITY] geometry,
+            inside: Inside = [fields::INTERIOR, fields::PRIORITY],
         }
         also: [fields::NORMAL, fields::NORMAL_STRENGTH],
         traits: {
@@ -340,7 +328,7 @@ materials! {
             /// Factor on `color`: radiance in W/(m2 sr) up to the scene's own scale.
             strength: f64 = [fields::EMISSIVE_STRENGTH],
             /// Emits from the back side too.
-            both_sides: bool = [fields::EMISSIVE_SIDES] geometry,
+            both_sides: bool = [fields::EMISSIVE_SIDES],
         }
         traits: {
             fn emission(&self) -> Option<(Color, f64)> {
@@ -381,15 +369,15 @@ materials! {
             /// Perceptual roughness of the coat, 0 ..= 1.
             coat_roughness: Scalar = [principled::COAT_ROUGHNESS],
             /// Share of the light entering that goes through the sheet, 0 ..= 1.
-            transmission: Scalar = [principled::TRANSMISSION] geometry,
+            transmission: Scalar = [principled::TRANSMISSION],
             /// Emitted colour.
-            emission: Color = [principled::EMISSION_COLOR] geometry,
+            emission: Color = [principled::EMISSION_COLOR],
             /// Factor on `emission`.
-            emission_strength: f64 = [principled::EMISSION_STRENGTH] geometry,
+            emission_strength: f64 = [principled::EMISSION_STRENGTH],
             /// Coverage.
-            alpha: Scalar = [fields::ALPHA] geometry,
+            alpha: Scalar = [fields::ALPHA],
             /// Alpha below this is not there; `None` ignores alpha.
-            alpha_clip: Option<f64> = [fields::ALPHA_CLIP] geometry,
+            alpha_clip: Option<f64> = [fields::ALPHA_CLIP],
         }
         also: [fields::NORMAL, fields::NORMAL_STRENGTH],
         traits: {
@@ -434,7 +422,7 @@ materials! {
             /// That of late wood.
             late: Option<Rgb> = [pattern::WOOD_COLOR_LATE],
             /// Where the grain runs.
-            grain: Grain = [pattern::WOOD_GRAIN] geometry,
+            grain: Grain = [pattern::WOOD_GRAIN],
             /// The field and its bumps.
             pattern: Pattern = [pattern::SCALE, pattern::step(0.008), pattern::height(0.03)],
             /// Share of uncoloured gloss, 0 ..= 1.
@@ -480,21 +468,21 @@ materials! {
             /// Reflectance, 0 ..= 1.
             color: Color = [sheet::COLOR],
             /// Coverage.
-            alpha: Scalar = [fields::ALPHA] geometry,
+            alpha: Scalar = [fields::ALPHA],
             /// Alpha below this is not there; `None` ignores alpha.
-            alpha_clip: Option<f64> = [fields::ALPHA_CLIP] geometry,
+            alpha_clip: Option<f64> = [fields::ALPHA_CLIP],
             /// Share of the light that goes through, 0 ..= 1.
             translucency: f64 = [sheet::LEAF_TRANSLUCENCY],
             /// Absorption, 1/m.
             sigma_a: Rgb = [sheet::LEAF_SIGMA_A],
             /// Metres.
-            thickness: f64 = [sheet::LEAF_THICKNESS] geometry,
+            thickness: f64 = [sheet::LEAF_THICKNESS],
             /// Share of the light through that keeps its direction, 0 ..= 1.
             forward: f64 = [sheet::LEAF_FORWARD],
             /// Mean cosine of that light's blur.
             g: f64 = [sheet::mean_cosine(0.6, "How little that light is blurred: mean cosine of its scattering.")],
             /// Share of leaves that are not there, 0 ..= 1.
-            gap: f64 = [sheet::LEAF_GAP] geometry,
+            gap: f64 = [sheet::LEAF_GAP],
         }
         traits: {
             fn sheet(&self) -> Option<Sheet> {
@@ -514,9 +502,9 @@ materials! {
             /// Factor on the light from inside, 0 ..= 1.
             color: Color = [sheet::COLOR],
             /// Coverage.
-            alpha: Scalar = [fields::ALPHA] geometry,
+            alpha: Scalar = [fields::ALPHA],
             /// Alpha below this is not there; `None` ignores alpha.
-            alpha_clip: Option<f64> = [fields::ALPHA_CLIP] geometry,
+            alpha_clip: Option<f64> = [fields::ALPHA_CLIP],
             /// Share of the fuzz, 0 ..= 1.
             fuzz_weight: f64 = [sheet::PETAL_FUZZ_WEIGHT],
             /// Radius of the ball of the fuzz, 0 ..= 1.
@@ -532,11 +520,11 @@ materials! {
             /// Mean cosine of scattering.
             g: f64 = [sheet::mean_cosine(0.7, "Mean cosine of scattering inside the petal.")],
             /// Metres, at the rim and in the middle.
-            thickness: [f64; 2] = [sheet::PETAL_THICKNESS] geometry,
+            thickness: [f64; 2] = [sheet::PETAL_THICKNESS],
             /// Lean of the normals at the rim.
-            pillow: f64 = [sheet::PETAL_PILLOW] geometry,
+            pillow: f64 = [sheet::PETAL_PILLOW],
             /// Lean of each petal.
-            tilt: f64 = [sheet::PETAL_TILT] geometry,
+            tilt: f64 = [sheet::PETAL_TILT],
         }
         traits: {
             fn sheet(&self) -> Option<Sheet> {
@@ -558,7 +546,7 @@ materials! {
             /// Refractive index, >= 1.
             ior: f64 = [fields::WATER_IOR],
             /// What it is inside.
-            filling: Filling = [fields::WATER_SIGMA_A, fields::WATER_INTERIOR, fields::PRIORITY, fields::WATER_DEPTH_COLOR] geometry,
+            filling: Filling = [fields::WATER_SIGMA_A, fields::WATER_INTERIOR, fields::PRIORITY, fields::WATER_DEPTH_COLOR],
             /// `None`: flat.
             waves: Option<Waves> = [fields::WATER_WAVES, fields::WATER_WAVES_SCALE, fields::WATER_WAVES_HEIGHT],
         }

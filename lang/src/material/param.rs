@@ -145,12 +145,6 @@ pub(crate) trait Param: Sized {
 
     /// Calls `change` with its constant numbers.
     fn numbers_mut(&mut self, fields: &[Field], change: &mut Change<'_>);
-
-    /// Makes constant numbers alike; which textures and media they come from still counts.
-    fn forget(&mut self);
-
-    /// Forgets where in the text it stands.
-    fn forget_place(&mut self) {}
 }
 
 impl Param for f64 {
@@ -164,10 +158,6 @@ impl Param for f64 {
 
     fn numbers_mut(&mut self, fields: &[Field], change: &mut Change<'_>) {
         change(&fields[0], std::slice::from_mut(self));
-    }
-
-    fn forget(&mut self) {
-        *self = 0.0;
     }
 }
 
@@ -184,10 +174,6 @@ impl Param for Option<f64> {
     fn numbers_mut(&mut self, fields: &[Field], change: &mut Change<'_>) {
         change(&fields[0], self.as_mut_slice());
     }
-
-    fn forget(&mut self) {
-        *self = None;
-    }
 }
 
 impl Param for Rgb {
@@ -201,10 +187,6 @@ impl Param for Rgb {
 
     fn numbers_mut(&mut self, fields: &[Field], change: &mut Change<'_>) {
         change(&fields[0], self);
-    }
-
-    fn forget(&mut self) {
-        *self = [0.0; 3];
     }
 }
 
@@ -223,10 +205,6 @@ impl Param for Option<Rgb> {
             change(&fields[0], rgb);
         }
     }
-
-    fn forget(&mut self) {
-        *self = None;
-    }
 }
 
 impl Param for [f64; 2] {
@@ -241,10 +219,6 @@ impl Param for [f64; 2] {
 
     fn numbers_mut(&mut self, fields: &[Field], change: &mut Change<'_>) {
         change(&fields[0], self);
-    }
-
-    fn forget(&mut self) {
-        *self = [0.0; 2];
     }
 }
 
@@ -261,10 +235,6 @@ impl Param for bool {
     }
 
     fn numbers_mut(&mut self, _: &[Field], _: &mut Change<'_>) {}
-
-    fn forget(&mut self) {
-        *self = false;
-    }
 }
 
 fn is_on(word: &str) -> bool {
@@ -291,12 +261,6 @@ impl Param for Color {
     fn numbers_mut(&mut self, fields: &[Field], change: &mut Change<'_>) {
         if let Self::Constant(rgb) = self {
             change(&fields[0], rgb);
-        }
-    }
-
-    fn forget(&mut self) {
-        if let Self::Constant(rgb) = self {
-            *rgb = [1.0; 3];
         }
     }
 }
@@ -328,12 +292,6 @@ impl Param for Scalar {
             change(&fields[0], std::slice::from_mut(value));
         }
     }
-
-    fn forget(&mut self) {
-        if let Self::Constant(value) = self {
-            *value = 1.0;
-        }
-    }
 }
 
 /// `scale`, `bump.eps`, `bump.strength`.
@@ -357,10 +315,6 @@ impl Param for Pattern {
         for (field, value) in fields.iter().zip(numbers) {
             change(field, std::slice::from_mut(value));
         }
-    }
-
-    fn forget(&mut self) {
-        *self = Self { scale: 0.0, step: 0.0, height: 0.0 };
     }
 }
 
@@ -386,10 +340,6 @@ impl Param for Option<Waves> {
             change(&fields[2], std::slice::from_mut(&mut waves.height));
         }
     }
-
-    fn forget(&mut self) {
-        *self = None;
-    }
 }
 
 /// `interior`, `priority`.
@@ -408,10 +358,6 @@ impl Param for Inside {
     }
 
     fn numbers_mut(&mut self, _: &[Field], _: &mut Change<'_>) {}
-
-    fn forget(&mut self) {
-        *self = Self::default();
-    }
 }
 
 /// `sigma_a`, `interior`, `priority`, `depth.color`.
@@ -438,15 +384,6 @@ impl Param for Filling {
         self.sigma_a.numbers_mut(&fields[..1], change);
         self.depth_color.numbers_mut(&fields[3..], change);
     }
-
-    fn forget(&mut self) {
-        (self.sigma_a, self.depth_color) = ([0.0; 3], [0.0; 3]);
-    }
-
-    fn forget_place(&mut self) {
-        // Things are filled or not; with which colour is no matter.
-        self.forget();
-    }
 }
 
 impl Param for Grain {
@@ -461,14 +398,6 @@ impl Param for Grain {
     }
 
     fn numbers_mut(&mut self, _: &[Field], _: &mut Change<'_>) {}
-
-    fn forget(&mut self) {
-        *self = Self { axis: 0, span: Span::default() };
-    }
-
-    fn forget_place(&mut self) {
-        self.span = Span::default();
-    }
 }
 
 /// A number as it would be written for this field.
