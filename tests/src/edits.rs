@@ -21,27 +21,51 @@ type Outcome<T> = Result<T, Box<dyn Error>>;
 /// What an edit does to the folder of the scene.
 type Edit = fn(&Path) -> Outcome<()>;
 
-/// Name of each edit; the first makes everything anew.
-const EDITS: [(&str, Edit); 9] = [
-    ("everything (cold)", |_| Ok(())),
-    ("nothing", |_| Ok(())),
-    ("the camera", |dir| {
+/// Name of each edit, and what `rtc` is told then; the first makes everything anew.
+const EDITS: [(&str, &[&str], Edit); 15] = [
+    ("everything (cold)", &[], |_| Ok(())),
+    ("nothing", &[], |_| Ok(())),
+    ("the camera", &[], |dir| {
         replace(&dir.join("shrine.rts"), "fov.vertical = 42deg", "fov.vertical = 43deg")
     }),
-    ("the camera, again", |dir| {
+    ("the camera, again", &[], |dir| {
         replace(&dir.join("shrine.rts"), "fov.vertical = 43deg", "fov.vertical = 44deg")
     }),
-    ("a material", |dir| replace(&dir.join("parts/materials.rts"), "g = 0.7", "g = 0.6")),
-    ("the place of instances: 16 shrubs", |dir| {
+    ("a material", &[], |dir| replace(&dir.join("parts/materials.rts"), "g = 0.7", "g = 0.6")),
+    ("the place of instances: 16 shrubs", &[], |dir| {
         replace(&dir.join("shrine.rts"), "(0, 70 * i, 0)deg", "(0, 71 * i, 0)deg")
     }),
-    ("the place of instances with lamps: 5 lanterns", |dir| {
+    ("the place of instances with lamps: 5 lanterns", &[], |dir| {
         replace(&dir.join("shrine.rts"), "(0, 15 + 37 * i, 0)deg", "(0, 16 + 37 * i, 0)deg")
     }),
-    ("the place of a thing that stands there once: the bridge", |dir| {
+    ("the place of a thing that stands there once: the bridge", &[], |dir| {
         replace(&dir.join("shrine.rts"), "at = (0, 0, 6.6)m", "at = (0, 0, 6.7)m")
     }),
-    ("a vertex of one mesh", |dir| nudge(&dir.join("generated/gate.glb"))),
+    ("one instance more of a mesh that is stored once: a shrub", &[], |dir| {
+        replace(&dir.join("shrine.rts"), "azalea[i in 0..16]", "azalea[i in 0..17]")
+    }),
+    ("a material of an imported model", &[], |dir| {
+        // A name of the same length: the file is another, its geometry is not.
+        replace_bytes(&dir.join("generated/hall.glb"), b"stand_in", b"stand_up")
+    }),
+    ("a vertex of one mesh", &[], |dir| nudge(&dir.join("generated/gate.glb"))),
+    ("a parameter that turns the shrubs: `-D turn=0deg`", &["-D", "turn=0deg"], |dir| {
+        let scene = dir.join("shrine.rts");
+        replace(&scene, "param final", "param turn: angle = 0deg in -180deg..180deg\nparam final")?;
+        replace(&scene, "(0, 71 * i, 0)deg", "(0deg, turn + 71deg * i, 0deg)")
+    }),
+    ("`-D turn=10deg`", &["-D", "turn=10deg"], |_| Ok(())),
+    ("a model that is warned of", &["-D", "turn=10deg"], |dir| {
+        // Of its two triangles one has no area.
+        let model = "v 0 0 0\nv 0.01 0 0\nv 0 0.01 0\nv 0.02 0 0\nf 1 2 3\nf 1 2 4\n";
+        std::fs::write(dir.join("generated/odd.obj"), model)?;
+        let odd = "asset odd = obj(\"generated/odd.obj\", unit: m, up: +y)\n\
+                   instance odd_one { shape = odd }\ninstance bridge";
+        replace(&dir.join("shrine.rts"), "instance bridge", odd)
+    }),
+    ("the camera, with that warning", &["-D", "turn=10deg"], |dir| {
+        replace(&dir.join("shrine.rts"), "fov.vertical = 44deg", "fov.vertical = 45deg")
+    }),
 ];
 
 /// In the process that compiles: runs `rtc` and says what it took. Returns the exit code.
@@ -112,9 +136,9 @@ fn round(from: &Path, folder: &Path, pack: &Path) -> Outcome<Vec<Cost>> {
     copy(from, &dir)?;
     // What an earlier round has left would be taken over.
     let _ = std::fs::remove_file(pack);
-    let compile_edited = |(_, edit): &(&str, Edit)| {
+    let compile_edited = |(_, arguments, edit): &(&str, &[&str], Edit)| {
         edit(&dir)?;
-        compile(&dir.join("shrine.rts"), pack, folder.path())
+        compile_with(&dir.join("shrine.rts"), pack, folder.path(), arguments)
     };
     EDITS.iter().map(compile_edited).collect()
 }
@@ -132,7 +156,7 @@ fn rows(costs: &[Vec<Cost>], size: f64, text: &mut String) {
     );
     let middle = |runs: &[Cost], of: fn(&Cost) -> f64| median(runs.iter().map(of));
     let cold = middle(&costs[0], |run| run.cpu);
-    for ((name, _), runs) in EDITS.iter().zip(costs) {
+    for ((name, ..), runs) in EDITS.iter().zip(costs) {
         let times: [fn(&Cost) -> f64; 3] = [|run| run.cpu, |run| run.system, |run| run.wall];
         let [cpu, system, wall] = times.map(|of| middle(runs, of));
         let packs = middle(runs, |run| run.peak as f64) / size;
@@ -146,6 +170,11 @@ fn rows(costs: &[Vec<Cost>], size: f64, text: &mut String) {
 
 /// One compilation in a process of its own, with the cache in `folder`.
 pub(crate) fn compile(scene: &Path, pack: &Path, folder: &Path) -> Outcome<Cost> {
+    compile_with(scene, pack, folder, &[])
+}
+
+/// As `compile`, with more arguments.
+fn compile_with(scene: &Path, pack: &Path, folder: &Path, arguments: &[&str]) -> Outcome<Cost> {
     touch_memory(folder)?;
     let start = Instant::now();
     let output = Command::new(std::env::current_exe()?)
@@ -154,6 +183,7 @@ pub(crate) fn compile(scene: &Path, pack: &Path, folder: &Path) -> Outcome<Cost>
         .arg(scene)
         .arg("-o")
         .arg(pack)
+        .args(arguments)
         .output()?;
     let wall = start.elapsed().as_secs_f64();
     let log = String::from_utf8_lossy(&output.stderr);
@@ -202,6 +232,15 @@ fn replace(path: &Path, from: &str, to: &str) -> Outcome<()> {
         return Err(format!("{} has no `{from}`", path.display()).into());
     }
     Ok(std::fs::write(path, text.replacen(from, to, 1))?)
+}
+
+/// Replaces the first bytes `from` of a file by as many others.
+fn replace_bytes(path: &Path, from: &[u8], to: &[u8]) -> Outcome<()> {
+    let mut bytes = std::fs::read(path)?;
+    let at = bytes.windows(from.len()).position(|window| window == from);
+    let at = at.ok_or_else(|| format!("{} has no such bytes", path.display()))?;
+    bytes.get_mut(at..at + to.len()).ok_or("they are as many")?.copy_from_slice(to);
+    Ok(std::fs::write(path, bytes)?)
 }
 
 /// Moves the second vertex of a GLB a little along y.
