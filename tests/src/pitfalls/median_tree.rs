@@ -1,4 +1,4 @@
-//! The guide's tree and its walk: triangles into nodes that own their boxes, a ray into the nearest triangle
+//! The naive tree and its walk: triangles into nodes that own their boxes, a ray into the nearest triangle
 //! that its stack and its count of steps let it find.
 //!
 //! It does not know how our own tree is built or walked, but can take one over.
@@ -13,7 +13,7 @@ use super::triangle;
 pub type Corners = [Vec3; 3];
 type Box3 = (Vec3, Vec3);
 
-/// A node of the guide's tree: the box of what is below it, and that.
+/// A node of the naive tree: the box of what is below it, and that.
 struct Node {
     bounds: Box3,
     below: Below,
@@ -24,8 +24,8 @@ enum Below {
     Leaf(Vec<usize>),
 }
 
-/// The guide's tree; the root is the last node.
-pub struct GuideTree {
+/// The naive tree; the root is the last node.
+pub struct MedianTree {
     nodes: Vec<Node>,
     triangles: Vec<Corners>,
 }
@@ -42,7 +42,7 @@ fn around(triangles: &[Corners], items: &[usize]) -> Box3 {
     })
 }
 
-impl GuideTree {
+impl MedianTree {
     /// Cuts the longest side of each box in the middle; leaves hold 8.
     #[must_use]
     pub fn spatial_median(triangles: Vec<Corners>) -> Self {
@@ -72,13 +72,13 @@ impl GuideTree {
         tree
     }
 
-    /// Our tree in the guide's form.
+    /// Our tree in the naive form.
     #[must_use]
     pub fn of_ours(tree: &Tree, triangles: &[Corners]) -> Self {
         let triangles = tree.order.iter().map(|i| triangles[*i as usize]).collect();
-        let mut guide = Self { nodes: Vec::new(), triangles };
-        guide.copy(tree, tree.root);
-        guide
+        let mut naive = Self { nodes: Vec::new(), triangles };
+        naive.copy(tree, tree.root);
+        naive
     }
 
     fn copy(&mut self, tree: &Tree, word: u32) -> usize {
@@ -123,7 +123,7 @@ impl GuideTree {
             match &self.nodes[at].below {
                 Below::Leaf(items) => {
                     for i in items {
-                        let hit = triangle::guide(self.triangles[*i], origin, dir, 1e-6);
+                        let hit = triangle::naive(self.triangles[*i], origin, dir, 1e-6);
                         if let Some(t) = hit.filter(|t| *t < best) {
                             (best, found) = (t, Some(*i));
                         }

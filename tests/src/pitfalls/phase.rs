@@ -1,4 +1,4 @@
-//! Sampling Henyey and Greenstein's phase function: the guide's inverse with its guard, and a form without
+//! Sampling Henyey and Greenstein's phase function: the naive inverse with its guard, and a form without
 //! a division by g.
 
 use glam::{DVec3, Vec2, Vec3};
@@ -8,9 +8,9 @@ use crate::kernel::Bench;
 use crate::statistics::Mean;
 use crate::statistics::stream::Stream;
 
-/// The guide's cosine to the forward direction; `u` in [0, 1).
+/// The naive cosine to the forward direction; `u` in [0, 1).
 #[must_use]
-pub fn guide(g: f32, u: f32) -> f32 {
+pub fn naive(g: f32, u: f32) -> f32 {
     if g.abs() < 0.001 {
         return 1.0 - 2.0 * u;
     }
@@ -18,7 +18,7 @@ pub fn guide(g: f32, u: f32) -> f32 {
     (1.0 + g * g - term * term) / (2.0 * g.max(0.001))
 }
 
-/// The cosine in double precision, by the guide's inverse without its guard; for g < 0 with u counted from
+/// The cosine in double precision, by the naive inverse without its guard; for g < 0 with u counted from
 /// the other end, as `backward` says.
 fn truth(g: f64, u: f64, backward: bool) -> f64 {
     let (a, sign) = if backward { (g.abs(), g.signum()) } else { (g, 1.0) };
@@ -53,7 +53,7 @@ pub fn sample(g: f32, n: usize) -> [Sampled; 2] {
     for _ in 0..n {
         let u = stream.unit24();
         let cosines =
-            [(guide(g, u), false), (kernel.hg_sample(Vec3::Z, g, Vec2::new(u, 0.3)).z, true)];
+            [(naive(g, u), false), (kernel.hg_sample(Vec3::Z, g, Vec2::new(u, 0.3)).z, true)];
         for (sampled, (cos, backward)) in found.iter_mut().zip(cosines) {
             sampled.range = [sampled.range[0].min(cos), sampled.range[1].max(cos)];
             sampled.outside += usize::from(cos.abs() > 1.0 + 1e-5);
@@ -91,41 +91,30 @@ pub fn topic() -> Topic {
     let n = 1_000_000;
     let mut rows = Vec::new();
     for g in [-0.5, -0.9] {
-        let [guided, ours] = sample(g, n);
+        let [naive, ours] = sample(g, n);
         let range = |s: &Sampled| format!("{:.4} to {:.4}", s.range[0], s.range[1]);
-        rows.push(row(format!("range of the cosine, g = {g}"), range(&guided), range(&ours)));
+        rows.push(row(format!("range of the cosine, g = {g}"), range(&naive), range(&ours)));
         rows.push(row(
             "the same: cosines beyond ±1; mean cosine",
-            format!("{}; {:.1}", share(guided.outside, n), guided.mean.value()),
+            format!("{}; {:.1}", share(naive.outside, n), naive.mean.value()),
             format!("{}; {:.4}", share(ours.outside, n), ours.mean.value()),
         ));
     }
     for g in [0.001, 0.01, 0.7, 0.9999] {
-        let [guided, ours] = sample(g, n);
+        let [naive, ours] = sample(g, n);
         let error = |s: &Sampled| format!("{:.0e}", s.error);
         rows.push(row(
             format!("largest error of the cosine, g = {g}"),
-            error(&guided),
+            error(&naive),
             error(&ours),
         ));
     }
     Topic {
-        title: "Henyey-Greenstein backwards",
-        section: "4.4.3",
+        title: "Henyey-Greenstein in both directions",
         places: &["shaders/wgsl/bsdf/hg.wgsl"],
         rows,
-        says: "The closed inverse for the cosine, isotropic for |g| < 0.001, and max(g, 0.001) in the \
-            divisor."
-            .into(),
-        wrong: "Where the guard of the divisor acts, g is negative: the numerator has -0.5 and the divisor \
-            0.001, and the cosine comes out in the hundreds. Its sine is then 0, so every scattering goes \
-            straight forward or back along a vector hundreds of units long, which the next step \
-            multiplies into its path. The isotropic branch hides the point where the inverse cancels, but \
-            not its neighbourhood: at g = 0.001 a tenth of what g does is rounding."
-            .into(),
-        right: "1 - cos and 1 + cos have closed forms whose factors are all positive; the smaller of \
-            them gives the cosine, their product the sine. No branch and no division \
-            by g; backward scattering is forward scattering turned round."
-            .into(),
+        fact: "A guard max(g, 0.001) in the divisor breaks backward scattering: cosines come out \
+            in the hundreds. 1 - cos and 1 + cos have closed forms with positive factors, which \
+            need no branch and no division by g.",
     }
 }

@@ -1,4 +1,4 @@
-//! Reflectance of a smooth interface: Schlick as the guide uses it, the textbook's exact form in single
+//! Reflectance of a smooth interface: Schlick as the naive form uses it, the textbook's exact form in single
 //! precision, and the kernel's.
 
 #![expect(clippy::cast_possible_truncation, reason = "all forms but the truth compute in f32")]
@@ -22,9 +22,9 @@ pub fn truth(c: f64, m: f64) -> f64 {
     0.5 * rs * rs * (1.0 + k * k)
 }
 
-/// The guide's: Schlick with the cosine of the incident angle on either side, 1 past the critical angle.
+/// Naive: Schlick with the cosine of the incident angle on either side, 1 past the critical angle.
 #[must_use]
-pub fn guide(c: f32, m: f32) -> f32 {
+pub fn naive(c: f32, m: f32) -> f32 {
     let eta = 1.0 / (1.0 + m);
     let sine = (1.0 - c * c).max(0.0).sqrt();
     if eta * sine > 1.0 {
@@ -48,13 +48,13 @@ pub fn textbook(c: f32, m: f32) -> f32 {
     0.5 * (parallel * parallel + perpendicular * perpendicular)
 }
 
-/// Largest absolute and largest relative error of the guide, the textbook and the kernel, against the truth
+/// Largest absolute and largest relative error of the naive form, the textbook and the kernel, against the truth
 /// for the same single-precision numbers.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Errors {
-    /// Of the guide, the textbook, the kernel.
+    /// Of the naive form, the textbook, the kernel.
     pub absolute: [f64; 3],
-    /// Of the guide, the textbook, the kernel.
+    /// Of the naive form, the textbook, the kernel.
     pub relative: [f64; 3],
     /// Means over a diffuse field, 2 c dc: of the truth, then as above.
     pub mean: [f64; 4],
@@ -74,7 +74,7 @@ pub fn compare(m: f32) -> Errors {
         let exact = truth(f64::from(c), f64::from(m));
         let ours = kernel.fresnel_dielectric(c, 1.0 + m, m);
         errors.mean[0] += weight * exact;
-        for (k, form) in [guide(c, m), textbook(c, m), ours].map(f64::from).into_iter().enumerate()
+        for (k, form) in [naive(c, m), textbook(c, m), ours].map(f64::from).into_iter().enumerate()
         {
             errors.mean[k + 1] += weight * form;
             errors.absolute[k] = errors.absolute[k].max((form - exact).abs());
@@ -101,8 +101,7 @@ pub fn topic() -> Topic {
     let none = compare(0.0);
     let figure = |x: f64| format!("{x:.4}");
     Topic {
-        title: "How much an interface reflects",
-        section: "4.2, 5.3",
+        title: "Fresnel reflectance: Schlick is for the way in",
         places: &["shaders/wgsl/bsdf/fresnel.wgsl"],
         rows: vec![
             row(
@@ -136,19 +135,10 @@ pub fn topic() -> Topic {
                 tiny(none.absolute[2]),
             ),
         ],
-        says: "Schlick's approximation with the incident cosine from either side, said to be within 1 % at \
-            every angle; water and glass, coats and petals all use it."
-            .into(),
-        wrong: "Schlick is for the way into the denser medium. On the way out the cosine must be that of the \
-            refracted ray: with the incident one, reflectance jumps from 4 % to 1 at the critical angle, \
-            instead of rising to it, and too much light gets out of the glass. Even into glass it is several percent off, and where indices hardly differ it is not an \
-            approximation at all, since it rises to 1 at grazing whatever the index. The exact form as \
-            textbooks write it fails there too, in single precision: 1 - c² rounds to 1, and an \
-            interface of no index becomes a mirror."
-            .into(),
-        right: "The exact form costs one square root: with e = (η - 1)(η + 1), η - 1 rounded once from \
-            double precision, g² = e + c², the difference g - c is e / (g + c), and nothing cancels. \
-            (Cook & Torrance 1982, \"A Reflectance Model for Computer Graphics\".)"
-            .into(),
+        fact: "On the way out of glass Schlick's approximation with the incident cosine jumps from \
+            4 % to 1 at the critical angle, and near an index of 1 it is wrong on either side. The \
+            exact form costs one square root: with e = (η - 1)(η + 1) and g² = e + c², g - c is e \
+            / (g + c), which does not cancel. (Cook & Torrance 1982, *A Reflectance Model for \
+            Computer Graphics*.)",
     }
 }

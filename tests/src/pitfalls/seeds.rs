@@ -10,7 +10,7 @@ use crate::kernel::Bench;
 pub const PIXELS: u64 = 7680 * 4320;
 /// Samples of a pixel.
 pub const SAMPLES: u64 = 256;
-/// How far the guide's seed moves from one sample of a pixel to the next.
+/// How far the naive seed moves from one sample of a pixel to the next.
 pub const STRIDE: u64 = 1_234_567;
 
 /// How many different seeds `pixels` x `samples` have, the seed of sample s of pixel p being
@@ -86,7 +86,6 @@ pub fn topic() -> Topic {
     let repeats = kernel_repeats(512, 16);
     Topic {
         title: "Seeds that repeat",
-        section: "2.2.5, 2.4",
         places: &["shaders/wgsl/sampler/pcg.wgsl"],
         rows: vec![
             row(
@@ -110,22 +109,8 @@ pub fn topic() -> Topic {
                 "does not iterate",
             ),
         ],
-        says: "Each sample hashes x + y * width + sample * 1234567 into a 32-bit seed, then iterates a \
-            light linear congruential generator."
-            .into(),
-        wrong: format!(
-            "The hash does not matter: it is the number before it that repeats. Sample s + 1 of a pixel has \
-            the number of sample s of the pixel {} to the right and {} below, so the same \
-            stretch of noise is used {uses:.1} times over. Even perfect seeds would not do, as \
-            32 bits of state are fewer than the samples of one such picture. And a 32-bit integer turned \
-            into a float and scaled to 1 does reach 1, which logarithms and table look-ups do not expect.",
-            STRIDE % 7680,
-            STRIDE / 7680
-        ),
-        right: "A function of four words (pixel; sample; bounce and purpose; seed), a bijection on \
-            128 bits, so that two different uses cannot share their numbers; no state at all, so that \
-            samples can be taken in any order and parts merged. The top 24 bits become a float: largest \
-            value 1 - 2⁻²⁴. (Jarzynski & Olano 2020, \"Hash Functions for GPU Rendering\".)"
-            .into(),
+        fact: "Hashing `x + y * width + sample * 1234567` uses the same seed again a few thousand \
+            pixels away. Numbers here are a bijection of pixel, sample, purpose and seed on 128 \
+            bits, without state. (Jarzynski & Olano 2020, *Hash Functions for GPU Rendering*.)",
     }
 }

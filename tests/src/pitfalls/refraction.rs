@@ -1,6 +1,9 @@
 //! Refraction past the critical angle.
 
-#![expect(clippy::cast_possible_truncation, reason = "the guide and the kernel compute in f32")]
+#![expect(
+    clippy::cast_possible_truncation,
+    reason = "the naive form and the kernel compute in f32"
+)]
 
 use glam::{DVec3, Vec3};
 use pack::abi::MaterialKind;
@@ -9,9 +12,9 @@ use super::{Topic, row, share};
 use crate::kernel::{Bench, Lobe};
 use crate::statistics::stream::Stream;
 
-/// The guide's refracted direction: the root of the absolute value.
+/// The naive refracted direction: the root of the absolute value.
 #[must_use]
-pub fn guide(dir: Vec3, n: Vec3, eta: f32) -> Vec3 {
+pub fn naive(dir: Vec3, n: Vec3, eta: f32) -> Vec3 {
     let cos = (-dir).dot(n).min(1.0);
     let flat = eta * (dir + cos * n);
     flat - (1.0 - flat.dot(flat)).abs().sqrt() * n
@@ -41,7 +44,7 @@ impl Past {
     }
 }
 
-/// The guide's function alone, and the kernel's dielectric, for the same rays.
+/// The naive function alone, and the kernel's dielectric, for the same rays.
 #[must_use]
 pub fn past_critical(n: usize) -> [Past; 2] {
     let bench = Bench::new();
@@ -49,46 +52,35 @@ pub fn past_critical(n: usize) -> [Past; 2] {
     let glass = Lobe { normal: DVec3::Z, front: false, ..Lobe::new(MaterialKind::Dielectric) };
     let mut stream = Stream::new(149, 0);
     let critical = (1.0_f64 / 1.5).asin();
-    let [mut guided, mut ours] = [Past::none(); 2];
+    let [mut told, mut ours] = [Past::none(); 2];
     for _ in 0..n {
         let angle = stream.between(critical + 1e-4, std::f64::consts::FRAC_PI_2);
         let phi = stream.between(0.0, std::f64::consts::TAU);
         let (side, up) = (angle.sin() as f32, angle.cos() as f32);
         let wo = Vec3::new(side * phi.cos() as f32, side * phi.sin() as f32, up);
-        guided.add(guide(-wo, Vec3::Z, 1.5));
+        told.add(naive(-wo, Vec3::Z, 1.5));
         ours.add(kernel.dielectric_sample(glass.single(), wo, stream.unit24()).wi);
     }
-    [guided, ours]
+    [told, ours]
 }
 
 /// Measures the topic.
 #[must_use]
 pub fn topic() -> Topic {
-    let [guided, ours] = past_critical(200_000);
+    let [naive, ours] = past_critical(200_000);
     let lengths = |past: &Past| format!("{:.4} to {:.4}", past.lengths[0], past.lengths[1]);
     Topic {
-        title: "Refraction past the critical angle",
-        section: "4.1",
+        title: "Past the critical angle nothing is refracted",
         places: &["shaders/wgsl/bsdf/dielectric.wgsl"],
         rows: vec![
-            row("length of the direction, out of index 1.5", lengths(&guided), lengths(&ours)),
+            row("length of the direction, out of index 1.5", lengths(&naive), lengths(&ours)),
             row(
                 "rays that leave although none can",
-                share(guided.through, guided.rays),
+                share(naive.through, naive.rays),
                 share(ours.through, ours.rays),
             ),
         ],
-        says: "The square root of Snell's law takes the absolute value of its argument, against small \
-            negative values from rounding; total internal reflection is said to be tested by the same number."
-            .into(),
-        wrong: "The function tests nothing. Past the critical angle the argument is truly negative, and its \
-            absolute value makes a direction out of a ray that does not exist: through the surface, and \
-            longer than 1, so that every distance along it is wrong. The dielectric's listing tests before \
-            it calls; anything else that calls the function leaks light."
-            .into(),
-        right: "A negative argument means that everything is reflected: the reflectance is 1 and nothing is \
-            refracted. The refracted direction is -wo - n e / (c + √(e + c²)), which has no difference of \
-            near numbers, made unit again."
-            .into(),
+        fact: "The absolute value of Snell's root turns total internal reflection into a ray that \
+            does not exist. A negative argument means reflection.",
     }
 }

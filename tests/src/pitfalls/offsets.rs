@@ -1,6 +1,9 @@
-//! Where a ray starts that leaves a surface: a fixed distance off (the guide), or as far as rounding goes.
+//! Where a ray starts that leaves a surface: a fixed distance off (the naive form), or as far as rounding goes.
 
-#![expect(clippy::cast_possible_truncation, reason = "the guide and the kernel compute in f32")]
+#![expect(
+    clippy::cast_possible_truncation,
+    reason = "the naive form and the kernel compute in f32"
+)]
 
 use glam::{DVec3, Vec2, Vec3};
 use pack::abi::Triangle;
@@ -10,7 +13,7 @@ use super::{Row, Topic, row, share, triangle};
 use crate::kernel::{self, Bench, skip};
 use crate::statistics::stream::Stream;
 
-/// Distance along the normal at which the guide's shadow ray starts, and the nearest hit that counts.
+/// Distance along the normal at which the naive shadow ray starts, and the nearest hit that counts.
 const GUIDE: (f32, f32) = (0.001, 0.001);
 
 /// A triangle of size 1 at a distance from the origin, and a point of it in double precision.
@@ -66,7 +69,7 @@ fn normalised(reach: f64) -> f64 {
 }
 
 /// What `n` rays that leave triangles of `size`, `distance` units from the origin, hit: their own triangle,
-/// which is wrong; and a parallel one `gap` above it, which is right. First the guide, then the kernel.
+/// which is wrong; and a parallel one `gap` above it, which is right. First the naive form, then the kernel.
 #[must_use]
 pub fn leave(distance: f64, size: f64, gap: f64, n: usize) -> [[usize; 2]; 2] {
     let mut stream = Stream::new(163, distance as u64);
@@ -81,10 +84,10 @@ pub fn leave(distance: f64, size: f64, gap: f64, n: usize) -> [[usize; 2]; 2] {
         // Large enough that no ray which leaves at these cosines passes it by.
         let lid = place.corners.map(|c| aim + (c - aim) * 1e5 * gap / size + (c - aim) * 10.0);
         let lid = lid.map(|c| c + place.normal * gap);
-        let start = guide_start(&place, from, aim);
+        let start = naive_start(&place, from, aim);
         let hit = |corners: [DVec3; 3]| {
             let corners = corners.map(DVec3::as_vec3);
-            start.is_some_and(|p| triangle::guide(corners, p, dir, 1e-6) > Some(GUIDE.1))
+            start.is_some_and(|p| triangle::naive(corners, p, dir, 1e-6) > Some(GUIDE.1))
         };
         own[0] += usize::from(hit(place.corners));
         missed[0] += usize::from(!hit(lid));
@@ -95,12 +98,12 @@ pub fn leave(distance: f64, size: f64, gap: f64, n: usize) -> [[usize; 2]; 2] {
     [own, missed]
 }
 
-/// Where the guide's next ray starts: the hit of a ray from `from`, moved off along the normal.
-fn guide_start(place: &Place3, from: DVec3, aim: DVec3) -> Option<Vec3> {
+/// Where the next ray of the naive form starts: the hit of a ray from `from`, moved off along the normal.
+fn naive_start(place: &Place3, from: DVec3, aim: DVec3) -> Option<Vec3> {
     let corners = place.corners.map(DVec3::as_vec3);
     let origin = from.as_vec3();
     let dir = (aim - origin.as_dvec3()).normalize().as_vec3();
-    let t = triangle::guide(corners, origin, dir, 1e-6)?;
+    let t = triangle::naive(corners, origin, dir, 1e-6)?;
     Some(origin + dir * t + place.normal.as_vec3() * GUIDE.0)
 }
 
@@ -112,7 +115,7 @@ fn kernel_hits(place: &Place3, lid: [DVec3; 3], b: Vec2, dir: Vec3, scale: f64) 
     ]);
     let mut kernel = bench.single();
     let s = kernel.triangle_flat_surface(0, b, -place.normal.as_vec3());
-    let origin = kernel.state_origin(s.p, s.ng * s.gap, dir);
+    let origin = kernel.ray_offset_origin(s.p, s.ng * s.ray_offset, dir);
     let ray = |prim| single::Ray { skip: skip(prim), ..kernel::ray(origin, dir) };
     let hit = kernel.trace(ray(0)).prim;
     [hit == 0, hit == 1]
@@ -144,27 +147,12 @@ fn rows() -> Vec<Row> {
 #[must_use]
 pub fn topic() -> Topic {
     Topic {
-        title: "Where a ray starts",
-        section: "4.5.2, 5.2.4, 6.1",
-        places: &[
-            "shaders/wgsl/surface/surface.wgsl",
-            "shaders/wgsl/kernel/state.wgsl",
-        ],
+        title: "Ray offsets are relative",
+        places: &["shaders/wgsl/surface/surface.wgsl", "shaders/wgsl/trace/ray_offset.wgsl"],
         rows: rows(),
-        says: "The hit point is moved along the normal, by 0.001 units for shadow rays and 0.002 for others, \
-            and hits nearer than 0.001 do not count. (Measured: shadow rays.)"
-            .into(),
-        wrong: "A length in scene units is right for one size of scene. Far from the origin the rounding of \
-            the coordinates, 6e-8 of their size, exceeds it, and surfaces shadow themselves. Near it, whatever \
-            lies less than a millimetre above a surface is jumped over: contacts leak light, and thin \
-            things have no shadow."
-            .into(),
-        right: "The scene is scaled by a power of two to radius 1. The hit point comes from barycentric \
-            weights, not from origin + t direction. The ray starts 16 · 2⁻²⁴ of the largest coordinate that \
-            went into it off the surface, on the side to which it goes, and does not test the primitive it \
-            starts on. Gaps narrower than a millionth of the distance from the scene's centre are lost to us \
-            too: single precision does not have them. Between planes across an axis it does: there the ray \
-            starts one ulp off, since the distance to such a plane has the right sign."
-            .into(),
+        fact: "A fixed offset of 1e-3 shadows itself far from the origin and jumps over what lies \
+            near a surface. Here the scene has radius 1, hit points come from barycentric weights, \
+            and a ray starts 16 · 2⁻²⁴ of the largest coordinate off the surface, on the side it \
+            goes to, without testing the primitive it starts on.",
     }
 }

@@ -2,7 +2,7 @@
 
 use pack::Pack;
 
-use super::{Topic, percent, row};
+use super::{Topic, row};
 use crate::picture::{self, Estimate};
 use crate::scene;
 
@@ -56,8 +56,7 @@ pub fn topic() -> Topic {
     let sampled = [1.0, 1024.0].map(|strength| noise(strength, 0));
     let figure = |x: f64| format!("{x:.4}");
     Topic {
-        title: "Brighter lamps are not less noisy",
-        section: "6.2",
+        title: "Brighter lamps are no less noisy",
         places: &["shaders/wgsl/kernel/direct.wgsl"],
         rows: vec![
             row("noise of a pixel, lamp of strength 1", figure(faint), figure(sampled[0])),
@@ -68,18 +67,9 @@ pub fn topic() -> Topic {
                 format!("{} of 1024", pixels_that_differ(0)),
             ),
         ],
-        says: "The lamp's radiance is set to thousands so that direct light does not drown in noise. (Measured: \
-            the lamp found by chance on the left, sampled on the right; 16 samples a pixel.)"
-            .into(),
-        wrong: format!(
-            "Light is linear: all that the lamp contributes grows by the same factor, and so does its \
-            spread. What is seen after exposure is the same picture with the same grain ({} of the mean, at \
-            either strength), and rare bright paths are as much brighter as everything else.",
-            percent(bright)
-        ),
-        right: "Sample the lamp, weigh both strategies, choose lights by power; set the exposure for the \
-            eye. The equality holds to the last bit, as a power of two changes no rounding, and is a good \
-            test of a renderer: any clamp, floor or threshold on radiance breaks it."
-            .into(),
+        fact: "Light is linear: a lamp 1024 times as strong scales the picture and its noise \
+            alike, to the last bit. Sampling the lamp reduces noise; exposure makes a picture \
+            brighter. Any clamp or threshold on radiance breaks this equality, which makes it a \
+            good test.",
     }
 }

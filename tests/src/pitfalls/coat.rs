@@ -1,4 +1,4 @@
-//! A clear coat: an average of two colours (the guide), layers (ours), and the exact energy of both.
+//! A clear coat: an average of two colours (the naive form), layers (ours), and the exact energy of both.
 
 #![expect(clippy::cast_possible_truncation, reason = "the kernel computes in f32")]
 
@@ -7,24 +7,24 @@ use glam::{DVec3, Vec3};
 use super::{Topic, fresnel, off, row};
 use crate::kernel::{Bench, Lobe};
 
-/// White share of the highlight as the guide's sentence has it; its listing has the rest.
+/// White share of the highlight that the naive form means to have; mixed the wrong way round it has the rest.
 const WHITE: f64 = 0.7;
 
-/// Schlick with the guide's raised reflectance at normal incidence, index 1.5.
+/// Schlick with the raised reflectance of the naive form at normal incidence, index 1.5.
 fn raised_schlick(c: f64) -> f64 {
     let r0 = 0.04 * 1.5;
     r0 + (1.0 - r0) * (1.0 - c).powi(5)
 }
 
-/// The guide's mean of white and base; `white`: share of white.
+/// The naive mean of white and base; `white`: share of white.
 fn mean_color(base: f64, white: f64) -> f64 {
     white + (1.0 - white) * base
 }
 
-/// What the coat of the listing reflects, all of it and its highlight alone, lost rays not counted. `c`:
+/// What the naive coat reflects, all of it and its highlight alone, lost rays not counted. `c`:
 /// cosine; `base`: reflectance of the wood.
 #[must_use]
-pub fn guide(c: f64, base: f64) -> [f64; 2] {
+pub fn naive(c: f64, base: f64) -> [f64; 2] {
     let highlight = raised_schlick(c) * mean_color(base, 1.0 - WHITE);
     [highlight + (1.0 - raised_schlick(c)) * 0.88 * base, highlight]
 }
@@ -69,7 +69,7 @@ pub fn topic() -> Topic {
         let [_, truth] = exact(c, 0.04);
         row(
             format!("highlight on dark wood (0.04), cosine {c} (exact {truth:.4})"),
-            off(guide(c, 0.04)[1], truth),
+            off(naive(c, 0.04)[1], truth),
             off(ours(c, 0.04)[1], truth),
         )
     };
@@ -77,18 +77,17 @@ pub fn topic() -> Topic {
         let [truth, _] = exact(c, 1.0);
         row(
             format!("white base under the coat, cosine {c} (exact {truth:.4})"),
-            off(guide(c, 1.0)[0], truth),
+            off(naive(c, 1.0)[0], truth),
             off(ours(c, 1.0)[0], truth),
         )
     };
     let [promised, got] = [WHITE, 1.0 - WHITE].map(|white| mean_color(0.04, white));
     Topic {
         title: "A coat is a layer, not an average",
-        section: "5.2.1",
         places: &["shaders/wgsl/bsdf/principled.wgsl"],
         rows: vec![
             row(
-                format!("colour of the highlight on dark wood (0.04); {promised:.3} is announced"),
+                format!("colour of the highlight on dark wood (0.04); {promised:.3} is meant"),
                 off(got, promised),
                 "1 (white)",
             ),
@@ -97,20 +96,9 @@ pub fn topic() -> Topic {
             white(1.0),
             white(0.1),
         ],
-        says: "With the probability of a raised Schlick term the ray is mirrored and takes 70 % of white and \
-            30 % of the wood's colour; otherwise it is scattered by the wood, times 0.88."
-            .into(),
-        wrong: "The listing mixes with 0.70 from white to the base, which is 30 % white and 70 % base: the \
-            reverse of the sentence. And neither is a coat. The highlight of a clear layer has the colour of \
-            the lamp; averaged with dark wood it loses two thirds and is tinted, most at grazing, where a \
-            coat is a mirror. The constant 0.88 absorbs 12 % of what enters, whatever the base: even a white \
-            one."
-            .into(),
-        right: "The highlight is the interface's reflectance, white; the base gets what is left, once on the \
-            way in and once on the way out: f = F D G / (4 cos cos) + colour / π (1 - F(wo)) (1 - F(wi)). It is \
-            reciprocal and reflects at most 1. What it leaves out is light that bounces between base and \
-            interface, which a white base shows above; the index of 1.5 is not raised, and F is Schlick's, \
-            which is a few percent off here."
-            .into(),
+        fact: "The highlight of a clear coat is white whatever it covers; averaging it with the \
+            base tints and darkens it. The base gets what the coat lets through, on the way in and \
+            on the way out. Light that bounces between base and coat is left out here too, as the \
+            rows of the white base show.",
     }
 }

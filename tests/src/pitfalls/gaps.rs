@@ -1,4 +1,4 @@
-//! Holes in a petal: cut by a hash of the point that a ray has computed (the guide), or by a mask on the
+//! Holes in a petal: cut by a hash of the point that a ray has computed (the naive form), or by a mask on the
 //! surface (ours).
 
 use glam::{DVec3, Vec2, Vec3};
@@ -14,8 +14,8 @@ fn hash(p: Vec3) -> f32 {
     x - x.floor()
 }
 
-/// The guide's hole at a hit point.
-fn guide_hole(p: Vec3) -> bool {
+/// The naive hole at a hit point.
+fn naive_hole(p: Vec3) -> bool {
     hash(p * 30.0 + Vec3::new(0.3, 0.7, 0.1)) > 0.55
 }
 
@@ -63,10 +63,10 @@ pub fn measure(n: usize) -> Seen {
         });
         let found = origins.map(|origin| {
             let dir = (aim - origin.as_dvec3()).normalize().as_vec3();
-            let t = triangle::guide(corners, origin, dir, 1e-6).expect("aimed well inside");
+            let t = triangle::naive(corners, origin, dir, 1e-6).expect("aimed well inside");
             let shear = kernel.triangle_shear(dir);
             let hit = kernel.triangle_intersect(tri, origin, shear);
-            [guide_hole(origin + dir * t), mask_hole(&mut kernel, Vec2::new(hit.y, hit.z))]
+            [naive_hole(origin + dir * t), mask_hole(&mut kernel, Vec2::new(hit.y, hit.z))]
         });
         seen.points += 1;
         let [first, second] = found;
@@ -84,8 +84,7 @@ pub fn topic() -> Topic {
     let n = 400_000;
     let seen = measure(n);
     Topic {
-        title: "Holes that all rays agree on",
-        section: "5.2.4",
+        title: "Holes belong to the surface, not to the ray",
         places: &["shaders/wgsl/trace/alpha.wgsl"],
         rows: vec![
             row(
@@ -99,18 +98,8 @@ pub fn topic() -> Topic {
                 format!("{} (rounding at the rims)", share(seen.differ[1], n)),
             ),
         ],
-        says: "Gaps between petals: where a hash of the hit point exceeds 0.55, the path loop skips the \
-            hit and goes on."
-            .into(),
-        wrong: "The loop skips, the shadow ray's traversal does not: what the camera sees through \
-            casts a full shadow. Testing the hash in both would not help. The hit point is rounded, each ray \
-            rounds it its own way, and a hash turns the last bit into any number: two rays to one \
-            point disagree almost as often as two coins do. Geometry that depends on the ray is no geometry."
-            .into(),
-        right: "A hole is a property of the surface: a texel of its alpha texture below the cutoff, looked up \
-            at barycentric weights inside the traversal, for camera, bounce and shadow rays alike. It is \
-            continuous, so rounding matters at its rim alone. (Measured with the kernel's weights and a mask \
-            of the same share of holes.)"
-            .into(),
+        fact: "A hash of the hit point gives two rays to one point different answers, and a path \
+            loop that skips hits does not skip them for shadow rays. A hole is a texel of an alpha \
+            texture, looked up at barycentric weights during traversal, for all rays alike.",
     }
 }

@@ -1,16 +1,19 @@
-//! Walking a tree with a stack of 256 and at most 2000 steps (the guide), and without limits (ours).
+//! Walking a tree with a stack of 256 and at most 2000 steps (the naive form), and without limits (ours).
 //!
 //! Two scenes in which it matters. Sheets: parallel triangles one behind the other, whose boxes all begin at
 //! the origin, in a tree of spatial medians. Needles: long thin triangles across each other, in our own tree.
 
-#![expect(clippy::cast_possible_truncation, reason = "the guide and the kernel compute in f32")]
+#![expect(
+    clippy::cast_possible_truncation,
+    reason = "the naive form and the kernel compute in f32"
+)]
 
 use compiler::bvh::{Fragment, Input, Preset, Tree, build};
 use glam::{DVec3, Vec3};
 use pack::abi::{NONE, Triangle};
 use runtime::kernel::f32 as single;
 
-use super::guide_tree::{Corners, GuideTree};
+use super::median_tree::{Corners, MedianTree};
 use super::{Row, Topic, row, share};
 use crate::kernel::Bench;
 use crate::statistics::stream::Stream;
@@ -42,14 +45,14 @@ fn kernel_hit(kernel: &mut single::Kernel<'_>, origin: Vec3, dir: Vec3) -> Optio
     (hit.prim != NONE).then_some(hit.prim as usize)
 }
 
-/// Rays among `n` sheets, and how many are told a wrong sheet or none: by the guide with its stack and no
+/// Rays among `n` sheets, and how many are told a wrong sheet or none: by the naive form with its stack and no
 /// cap, with its cap and no end of stack, by the kernel. `outside`: rays come from outside.
 #[must_use]
 pub fn sheets_lost(n: usize, outside: bool, rays: usize) -> [usize; 4] {
     let triangles = sheets(n);
     let (tree, bench) = ours(&triangles);
     let mut kernel = bench.single();
-    let guide = GuideTree::spatial_median(triangles);
+    let naive = MedianTree::spatial_median(triangles);
     let mut stream = Stream::new(211, n as u64);
     let mut counts = [0; 4];
     for _ in 0..rays {
@@ -70,8 +73,8 @@ pub fn sheets_lost(n: usize, outside: bool, rays: usize) -> [usize; 4] {
         counts[0] += 1;
         let mapped = kernel_hit(&mut kernel, origin, dir).map(|i| tree.order[i] as usize);
         let found = [
-            guide.trace(origin, dir, 256, usize::MAX),
-            guide.trace(origin, dir, usize::MAX, 2000),
+            naive.trace(origin, dir, 256, usize::MAX),
+            naive.trace(origin, dir, usize::MAX, 2000),
             mapped,
         ];
         for (lost, found) in counts[1..].iter_mut().zip(found) {
@@ -81,7 +84,7 @@ pub fn sheets_lost(n: usize, outside: bool, rays: usize) -> [usize; 4] {
     counts
 }
 
-/// Of the rays through `n` needles that hit one: how many there are, how many the guide's cap loses in our
+/// Of the rays through `n` needles that hit one: how many there are, how many the naive cap loses in our
 /// own tree, how many the kernel loses.
 #[must_use]
 pub fn needles_lost(n: usize, rays: usize) -> [usize; 3] {
@@ -95,17 +98,17 @@ pub fn needles_lost(n: usize, rays: usize) -> [usize; 3] {
         .collect();
     let (tree, bench) = ours(&triangles);
     let mut kernel = bench.single();
-    let guide = GuideTree::of_ours(&tree, &triangles);
+    let naive = MedianTree::of_ours(&tree, &triangles);
     let mut counts = [0; 3];
     for _ in 0..rays {
         let from = stream.direction() * 2.0;
         let dir = (stream.direction() * 0.3 - from).normalize().as_vec3();
         let origin = from.as_vec3();
-        if guide.trace(origin, dir, usize::MAX, usize::MAX).is_none() {
+        if naive.trace(origin, dir, usize::MAX, usize::MAX).is_none() {
             continue;
         }
         counts[0] += 1;
-        counts[1] += usize::from(guide.trace(origin, dir, usize::MAX, 2000).is_none());
+        counts[1] += usize::from(naive.trace(origin, dir, usize::MAX, 2000).is_none());
         counts[2] += usize::from(kernel_hit(&mut kernel, origin, dir).is_none());
     }
     counts
@@ -143,31 +146,12 @@ fn rows() -> Vec<Row> {
 /// Measures the topic.
 #[must_use]
 pub fn topic() -> Topic {
-    let depth = ours(&sheets(1500)).0.depth;
     Topic {
-        title: "A tree is walked to its end",
-        section: "2.2.4, 3.4.1, 3.4.2",
-        places: &[
-            "shaders/wgsl/trace/bvh.wgsl",
-            "compiler/src/bvh/build.rs",
-        ],
+        title: "Traversal needs no step limit, and exactly one stack size",
+        places: &["shaders/wgsl/trace/bvh.wgsl", "compiler/src/bvh/build.rs"],
         rows: rows(),
-        says: "A stack of 256 node numbers as the proven size; what does not fit is dropped or searched \
-            linearly; after 2000 steps the ray is marked as a miss, against rounding that might push a node \
-            again and again. Trees of spatial medians are named as the danger."
-            .into(),
-        wrong: "A stack entry is pushed once for each node, whatever rounding does to its box: a finite tree \
-            ends. A cap can only cut off true searches, and does so where geometry is hardest, as holes and \
-            light leaks that move with the camera. A stack that drops nodes gives wrong surfaces without a \
-            word. And 256 entries are a kilobyte of private memory for every thread, which no tree of a good \
-            builder needs."
-            .into(),
-        right: format!(
-            "Bound the depth where the tree is built: surface area heuristic as long as levels last, then \
-            medians by index, at most 48 levels; coincident centroids are split by index. The compiler counts \
-            the longest walk of its tree, the pack is checked for it, and the kernel's stack is as long as \
-            that, no longer. No cap on steps. (The 1500 sheets have {depth} levels of nodes in our tree, about \
-            1500 in the spatial medians.)"
-        ),
+        fact: "A stack that drops nodes and a cap on steps lose surfaces without a word. The depth \
+            of the tree is bounded when it is built, the exact stack need is stored in the pack, \
+            and the kernel's stack is that long.",
     }
 }

@@ -67,7 +67,7 @@ pub fn room_of_kernel(rho: f64, n: u32) -> Mean {
             path.throughput *= rho as f32;
             let key = path.key;
             path.key.bounce += 1;
-            path.open = kernel.vertex_survives(&mut path, key);
+            path.open = kernel.vertex_roulette(&mut path, key);
         }
         mean.add(radiance);
     }
@@ -95,22 +95,11 @@ pub fn topic() -> Topic {
         estimate(&room_of_kernel(0.3, 2_000_000)),
     );
     Topic {
-        title: "Russian roulette without caps and cuts",
-        section: "1.5, 4.4.2",
+        title: "Russian roulette needs neither a cap nor a cutoff",
         places: &["shaders/wgsl/kernel/vertex.wgsl"],
         rows: rows.into_iter().chain([cut_row]).collect(),
-        says: "A path survives with the probability of its largest throughput: right. The walk inside a \
-            medium also ends when the throughput is below a threshold. Many renderers, not the guide, also \
-            cap the survival, usually at 0.95."
-            .into(),
-        wrong: "A threshold without compensation loses what the dropped paths would have brought, small but \
-            everywhere. A cap keeps the mean and spoils the variance: in a room of reflectance ρ each bounce \
-            survives with q = 0.95 and multiplies the path by ρ/q > 1, and the variance is finite only for \
-            ρ² < q, that is ρ < 0.975. Beyond it the mean of any feasible number of samples is usually too dark, and \
-            the picture has fireflies that no number of samples removes."
-            .into(),
-        right: "q = min(1, largest throughput), neither floor nor cap, from the bounce that the scene says; \
-            what refraction takes by the square of the index, and gives back, is left out of q."
-            .into(),
+        fact: "Survival with probability q = min(1, largest throughput) keeps mean and variance. A \
+            cap q ≤ 0.95 has infinite variance in a room of reflectance above 0.975; dropping \
+            paths below a throughput loses light.",
     }
 }

@@ -1,6 +1,9 @@
 //! Rays against small and far, and against huge and near spheres.
 
-#![expect(clippy::cast_possible_truncation, reason = "the guide and the kernel compute in f32")]
+#![expect(
+    clippy::cast_possible_truncation,
+    reason = "the naive form and the kernel compute in f32"
+)]
 
 use glam::{DVec3, Vec3};
 use runtime::kernel::f32 as single;
@@ -9,9 +12,9 @@ use super::{Row, Topic, row, share};
 use crate::kernel::Bench;
 use crate::statistics::stream::Stream;
 
-/// The guide's nearer root of the quadratic.
+/// The naive nearer root of the quadratic.
 #[must_use]
-pub fn guide(center: Vec3, radius: f32, origin: Vec3, dir: Vec3) -> Option<f32> {
+pub fn naive(center: Vec3, radius: f32, origin: Vec3, dir: Vec3) -> Option<f32> {
     let f = origin - center;
     let a = dir.dot(dir);
     let b = dir.dot(f);
@@ -35,7 +38,7 @@ fn truth(center: Vec3, radius: f32, origin: Vec3, dir: Vec3) -> (Option<f64>, f6
     ((passes < r && t > 0.0).then_some(t), passes / r)
 }
 
-/// Rays from `ratio` radii away that are told hit for miss or miss for hit: by the guide, by the kernel; and
+/// Rays from `ratio` radii away that are told hit for miss or miss for hit: by the naive form, by the kernel; and
 /// how far off the surface their worst hit is, in radii.
 #[must_use]
 pub fn far(ratio: f64, n: usize) -> ([usize; 2], [f64; 2]) {
@@ -54,7 +57,7 @@ pub fn far(ratio: f64, n: usize) -> ([usize; 2], [f64; 2]) {
         let (t, passes) = truth(center, radius, origin, dir);
         let sphere = single::Sphere { center, radius, ..single::Sphere::ZERO };
         let hit = kernel.sphere_intersect(sphere, origin, dir, false).x;
-        let found = [guide(center, radius, origin, dir), (hit > 0.0).then_some(hit)];
+        let found = [naive(center, radius, origin, dir), (hit > 0.0).then_some(hit)];
         for k in 0..2 {
             wrong[k] += usize::from(found[k].is_some() != t.is_some());
             if let (Some(t), Some(found), true) = (t, found[k], passes < 0.9) {
@@ -66,7 +69,7 @@ pub fn far(ratio: f64, n: usize) -> ([usize; 2], [f64; 2]) {
 }
 
 /// Largest relative error of the distance to the ground from an eye 1 above it: a sphere of `radius` by the
-/// guide, the same by the kernel, and a flat triangle by the kernel that reaches as far as the sphere's horizon.
+/// naive form, the same by the kernel, and a flat triangle by the kernel that reaches as far as the sphere's horizon.
 #[must_use]
 pub fn ground(radius: f64, n: usize) -> [f64; 3] {
     let bench = Bench::new();
@@ -90,7 +93,7 @@ pub fn ground(radius: f64, n: usize) -> [f64; 3] {
         let level = 1.0 / -f64::from(dir.z);
         let shear = kernel.triangle_shear(dir);
         let found = [
-            guide(center, r, origin, dir).unwrap_or(0.0),
+            naive(center, r, origin, dir).unwrap_or(0.0),
             kernel.sphere_intersect(sphere, origin, dir, false).x,
             kernel.triangle_intersect(flat, origin, shear).x,
         ];
@@ -112,10 +115,10 @@ fn rows() -> Vec<Row> {
         );
         rows.push(row(item, show(0), show(1)));
     }
-    let [guided, ours, flat] = ground(1e5, 200_000);
+    let [naive, ours, flat] = ground(1e5, 200_000);
     rows.push(row(
         "ground of radius 1e5, 1 below the eye: worst relative error of the distance",
-        format!("{guided:.1e}"),
+        format!("{naive:.1e}"),
         format!("sphere {ours:.1e}, rectangle {flat:.1e}"),
     ));
     rows
@@ -126,24 +129,11 @@ fn rows() -> Vec<Row> {
 pub fn topic() -> Topic {
     Topic {
         title: "Spheres that are far or huge",
-        section: "3.2",
-        places: &[
-            "shaders/wgsl/shape/sphere.wgsl",
-            "shaders/wgsl/shape/triangle.wgsl",
-        ],
+        places: &["shaders/wgsl/shape/sphere.wgsl", "shaders/wgsl/shape/triangle.wgsl"],
         rows: rows(),
-        says: "The quadratic formula of school, b² - ac under the root. Pictures of this tradition stand on \
-            a ground that is a sphere of radius 1000 and more."
-            .into(),
-        wrong: "Both b² and ac grow with the square of the distance; a sphere a thousand radii away has \
-            lost its six digits in the difference. Standing on a huge sphere is the other end: the vector \
-            from the centre to the eye has rounded the eye's height away before anything is computed."
-            .into(),
-        right: "The discriminant from the vector by which the ray passes the centre, and the second root as \
-            a quotient of the first. That repairs small spheres, not huge ones, where the loss is in the \
-            input: a ground is a rectangle, as large as is seen of it and no larger, since its error too \
-            grows with its size over the height of the eye. (Haines, Günther & Akenine-Möller 2019, \"Precision Improvements \
-            for Ray/Sphere Intersection\".)"
-            .into(),
+        fact: "b² - ac cancels for a sphere a thousand radii away; the discriminant from the \
+            distance at which the ray passes the centre does not. A ground should be a rectangle: \
+            the distance to a huge sphere is lost in the input. (Haines, Günther & Akenine-Möller \
+            2019, *Precision Improvements for Ray/Sphere Intersection*.)",
     }
 }

@@ -86,13 +86,20 @@ pub fn topic() -> Topic {
     let small = measure(Setting { ratio: 0.1, cos: 0.8 }, n);
     let ours = estimate(&sums.both);
     Topic {
-        title: "Weights of two strategies",
-        section: "1.4, 6.1",
+        title: "Multiple importance sampling: both strategies, one denominator",
         places: &["shaders/wgsl/kernel/direct.wgsl"],
         rows: vec![
-            row("radius / distance 0.8: weight on the light sample only", estimate(&sums.light_only), ours.clone()),
+            row(
+                "radius / distance 0.8: weight on the light sample only",
+                estimate(&sums.light_only),
+                ours.clone(),
+            ),
             row("no weights at all", estimate(&sums.neither), ours.clone()),
-            row("scattered rays that find the light dropped", estimate(&sums.dropped), ours.clone()),
+            row(
+                "scattered rays that find the light dropped",
+                estimate(&sums.dropped),
+                ours.clone(),
+            ),
             row(
                 "balance weights as the weights of a mixture, radius / distance 0.1",
                 estimate(&small.nested),
@@ -101,22 +108,10 @@ pub fn topic() -> Topic {
             row("proxies instead of densities as divisor", estimate(&sums.proxy_divisors), ours),
             row("the same proxies in the weights only", "-", estimate(&sums.proxy_weights)),
         ],
-        says: "A mixture of strategies with weights that sum to 1; the balance heuristic as the best choice \
-            of these weights; and the remark that it needs no densities that could be normalised. The \
-            listing weights the light sample, and says nothing of the scattered ray that hits the light."
-            .into(),
-        wrong: "Three ideas are in one formula. A mixture has constant weights, from which one strategy is \
-            drawn; the balance heuristic has weights that depend on the direction, and every strategy \
-            contributes a sample. Put into the mixture it gives a divisor that is no density. \
-            Weights must sum to 1 over all strategies in every direction, so both sides need theirs: with \
-            one side only, light is counted up to twice or lost. And while weights may come from any \
-            stand-in for a density that both sides share, what divides the contribution must be the true, \
-            normalised density of the sampler."
-            .into(),
-        right: "One light sample and one scattered ray at each vertex; the former contributes \
-            L f |cos| / (P pl + pb), the latter has weight pb / (P pl + pb), where P is the probability of \
-            the light. Both sides have the same denominator; delta lobes have weight 1. (Veach 1997, \
-            \"Robust Monte Carlo Methods for Light Transport Simulation\", ch. 9.)"
-            .into(),
+        fact: "Weights must sum to 1 over all strategies in every direction: a light sample \
+            contributes L f |cos| / (P pl + pb), a scattered ray that finds the light has weight \
+            pb / (P pl + pb). Weights on one side only, weights used as those of a mixture, and \
+            stand-ins for the densities in the divisor are all biased. (Veach 1997, *Robust Monte \
+            Carlo Methods for Light Transport Simulation*, ch. 9.)",
     }
 }

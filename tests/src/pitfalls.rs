@@ -1,5 +1,5 @@
-//! Where a guide to path tracing errs: each module runs the guide's form of one thing and ours side by
-//! side and turns the difference into rows of numbers; this one turns the rows into `docs/corrections.md`.
+//! Pitfalls of path tracing: each module runs the naive form of one thing and ours side by side and turns the
+//! difference into rows of numbers; this one turns the rows into `docs/pitfalls.md`.
 //!
 //! Every number comes from a fixed seed, so the page is the same on every run. Our form is the kernel
 //! itself. Nothing here knows the scene language, but [`brightness`], which renders a scene.
@@ -12,7 +12,7 @@ pub mod fog;
 pub mod fresnel;
 pub mod fuzz;
 pub mod gaps;
-pub mod guide_tree;
+pub mod median_tree;
 pub mod mixture;
 pub mod offsets;
 pub mod phase;
@@ -63,35 +63,29 @@ pub const TOPICS: &[Measure] = &[
 pub struct Row {
     /// What was measured, with its setting.
     pub item: String,
-    /// What the guide's form gives.
-    pub guide: String,
+    /// What the naive form gives.
+    pub naive: String,
     /// What ours gives.
     pub ours: String,
 }
 
-/// One difference.
+/// One pitfall.
 #[derive(Clone, Debug)]
 pub struct Topic {
     /// A heading.
     pub title: &'static str,
-    /// Section numbers of the guide.
-    pub section: &'static str,
     /// Files with our form, all of which the program has run.
     pub places: &'static [&'static str],
     /// What was measured; never empty.
     pub rows: Vec<Row>,
-    /// What the guide says.
-    pub says: String,
-    /// What is wrong with it.
-    pub wrong: String,
-    /// The right form.
-    pub right: String,
+    /// What goes wrong, and the right form with its source.
+    pub fact: &'static str,
 }
 
 /// A row.
 #[must_use]
-pub fn row(item: impl Into<String>, guide: impl Into<String>, ours: impl Into<String>) -> Row {
-    Row { item: item.into(), guide: guide.into(), ours: ours.into() }
+pub fn row(item: impl Into<String>, naive: impl Into<String>, ours: impl Into<String>) -> Row {
+    Row { item: item.into(), naive: naive.into(), ours: ours.into() }
 }
 
 /// Measures everything and writes the page.
@@ -99,7 +93,6 @@ pub fn row(item: impl Into<String>, guide: impl Into<String>, ours: impl Into<St
 pub fn page() -> String {
     let topics: Vec<Topic> = TOPICS.par_iter().map(|measure| measure()).collect();
     let mut text = header();
-    table(&topics, &mut text);
     for (n, topic) in topics.iter().enumerate() {
         section(n + 1, topic, &mut text);
     }
@@ -107,42 +100,27 @@ pub fn page() -> String {
 }
 
 fn header() -> String {
-    "# Corrections\n\n\
-    Made by `cargo run --release -p tests --bin corrections`; edit the program, not this page. \
-    Seeds are fixed: every run gives the same numbers.\n\n\
-    This project began with a guide, *RayTracer: Rendering of Complex Scenes* (2026, after *Ray Tracing \
-    in One Weekend*). It is a good plan for a path tracer, and most of it was followed. Where it was not, \
-    this page says why: each form of the guide was written out and run beside ours, and the numbers below \
-    are what came back. Reflectances and radiances are relative to the true value, which is 1, unless a row \
-    says otherwise; `±` is one standard error; \"noise\" is the standard deviation of one sample over \
-    the true value. Rounding is that of the machine: what the guide does in single precision was run in \
-    single precision, without fused multiply-add.\n"
+    "# Pitfalls of path tracing\n\n\
+    Made by `cargo run --release -p tests --bin pitfalls`; edit the program, not this page. \
+    Seeds are fixed: every run prints the same numbers.\n\n\
+    Nineteen mistakes that are easy to make in a path tracer. Each was written out and run beside the form \
+    that is used here. Reflectances and radiances are relative to the true value, 1, unless a row says \
+    otherwise; `±` is one standard error; \"noise\" is the standard deviation of one sample over the true \
+    value. What runs in single precision does so without fused multiply-add.\n"
         .to_owned()
 }
 
-fn table(topics: &[Topic], text: &mut String) {
-    text.push_str("\n| | what | guide § | the guide's form | ours |\n|---|---|---|---|---|\n");
-    for (n, topic) in topics.iter().enumerate() {
-        for (k, row) in topic.rows.iter().enumerate() {
-            let number = if k == 0 { format!("[{0}](#{0})", n + 1) } else { String::new() };
-            let section = if k == 0 { topic.section } else { "" };
-            let Row { item, guide, ours } = row;
-            let _ = writeln!(text, "| {number} | {item} | {section} | {guide} | {ours} |");
-        }
-    }
-}
-
 fn section(number: usize, topic: &Topic, text: &mut String) {
-    let Topic { title, section, says, wrong, right, .. } = topic;
-    let places: Vec<String> =
-        topic.places.iter().map(|path| format!("[`{path}`](../{path})")).collect();
+    let Topic { title, places, rows, fact } = topic;
+    let places: Vec<String> = places.iter().map(|path| format!("[`{path}`](../{path})")).collect();
     let _ = write!(
         text,
-        "\n## <a id=\"{number}\"></a>{number}. {title}\n\n\
-        Guide: § {section}. Ours: {}.\n\n\
-        **The guide.** {says}\n\n**The trouble.** {wrong}\n\n**The right form.** {right}\n",
+        "\n## {number}. {title}\n\n{fact}\n\nRight in {}.\n\n| what | naive form | here |\n|---|---|---|\n",
         places.join(", "),
     );
+    for Row { item, naive, ours } in rows {
+        let _ = writeln!(text, "| {item} | {naive} | {ours} |");
+    }
 }
 
 /// A mean and its standard error: four decimals, more where the error asks for them; the mean alone where

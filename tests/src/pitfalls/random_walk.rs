@@ -1,4 +1,4 @@
-//! Light that walks inside a medium: absorbed twice and colourless (the guide), once and by channel (ours).
+//! Light that walks inside a medium: absorbed twice and colourless (the naive form), once and by channel (ours).
 //!
 //! Isotropic scattering, no interface, light at normal incidence, as in `slab`.
 
@@ -40,7 +40,7 @@ impl Medium {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Steps {
     /// The mean of `sigma_t`, and absorption both along the step and at its end.
-    Guide,
+    Naive,
     /// The kernel's: one channel's `sigma_t`, the weights of all three by the balance heuristic of one sample.
     Ours,
 }
@@ -130,7 +130,7 @@ fn rows() -> Vec<Row> {
         let at = |steps| measure(&medium, steps, u32::MAX, 0, n)[0];
         rows.push(row(
             format!("reflectance of a half-space of albedo {albedo} (exact {truth:.4})"),
-            off(&at(Steps::Guide), truth),
+            off(&at(Steps::Naive), truth),
             off(&at(Steps::Ours), truth),
         ));
     }
@@ -149,7 +149,7 @@ fn rows() -> Vec<Row> {
         let at = |steps| measure(&medium, steps, u32::MAX, channel, n)[0];
         rows.push(row(
             format!("{name} of a slab, σt {sigma_t:.2}, albedo {albedo:.3} (exact {truth:.4})"),
-            off(&at(Steps::Guide), truth),
+            off(&at(Steps::Naive), truth),
             off(&at(Steps::Ours), truth),
         ));
     }
@@ -166,24 +166,12 @@ fn colored() -> Medium {
 #[must_use]
 pub fn topic() -> Topic {
     Topic {
-        title: "A walk that is absorbed once",
-        section: "4.4.2, 5.2.4",
+        title: "A random walk is absorbed once",
         places: &["shaders/wgsl/media/homogeneous.wgsl"],
         rows: rows(),
-        says: "Free paths with the mean of the three extinction coefficients; at each step the throughput is \
-            multiplied by e^(-σa d) and by the albedo; at most 20 steps for petals."
-            .into(),
-        wrong: "A free path drawn with σt = σs + σa already stops where absorption would: what is left to \
-            pay is the albedo. The extra e^(-σa d) has mean σt / (σt + σa), so between the first and the last \
-            step an albedo a acts as a / (2 - a), and skin, wax and marble come out too dark. The mean of the coefficients makes all colours go \
-            equally deep: that blue is turned back early and red gets through, which is what one looks for \
-            in such a material, is gone. And twenty steps are few where paths take thousands: what \
-            has not come out by then is lost."
-            .into(),
-        right: "Draw the channel with the probability of its share of throughput times albedo (at least 0.05), the distance \
-            with that channel's σt, and divide by the mean of the three densities: each channel's weight is \
-            bounded, and in a grey medium it is exactly the albedo. End walks by roulette only. The smallest \
-            σt is taken out of the exponents, so that nothing underflows."
-            .into(),
+        fact: "A free path drawn with σt already stops where absorption would; what is left to pay \
+            is the albedo. Multiplying by e^(-σa d) as well absorbs twice, one mean free path for \
+            all channels loses the colour of depth, and a limit of 20 steps loses the light of \
+            long walks.",
     }
 }

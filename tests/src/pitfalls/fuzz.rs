@@ -1,6 +1,9 @@
-//! The fuzzy metal: a density that the guide does not have, and what it costs not to have it.
+//! The fuzzy metal: a density that the naive form does not have, and what it costs not to have it.
 
-#![expect(clippy::cast_possible_truncation, reason = "the guide and the kernel compute in f32")]
+#![expect(
+    clippy::cast_possible_truncation,
+    reason = "the naive form and the kernel compute in f32"
+)]
 
 use std::f32::consts::PI;
 use std::f64::consts::TAU;
@@ -28,7 +31,7 @@ fn sample(
 }
 
 /// Noise of a small light in the mirror direction, `half_angle` radians wide to each side: rays of the metal
-/// alone (the guide), and with light samples (ours), with the means in between them over the truth.
+/// alone (the naive form), and with light samples (ours), with the means in between them over the truth.
 #[must_use]
 pub fn small_light(fuzz: f32, half_angle: f32, n: u64) -> [Mean; 2] {
     let bench = Bench::new();
@@ -86,8 +89,8 @@ pub fn furnace(fuzz: f32, n: u64) -> [Mean; 2] {
     [cosine, own]
 }
 
-/// Root mean square of the sine to the mirror direction, over that of the ball which the guide describes:
-/// with points on the sphere, which its listing draws, and with the kernel's.
+/// Root mean square of the sine to the mirror direction, over that of a ball: with points
+/// on the sphere, as the naive form draws them, and with the kernel's.
 #[must_use]
 pub fn width(fuzz: f32, n: u64) -> [f64; 2] {
     let bench = Bench::new();
@@ -132,8 +135,7 @@ pub fn topic() -> Topic {
     let [cosine, own] = furnace(0.2, 400_000);
     let [sphere, ball] = width(0.1, 400_000);
     Topic {
-        title: "The fuzzy metal has a density",
-        section: "4.5.2",
+        title: "The fuzzy metal of *Ray Tracing in One Weekend* has a density",
         places: &["shaders/wgsl/bsdf/metal.wgsl"],
         rows: vec![
             row(
@@ -144,7 +146,7 @@ pub fn topic() -> Topic {
             row("the same: mean", estimate(&alone), estimate(&both)),
             row("white furnace, fuzz 0.2, weighed by density", estimate(&cosine), estimate(&own)),
             row(
-                "width of the lobe, fuzz 0.1, over that of the ball described",
+                "width of the lobe, fuzz 0.1, over that of a ball",
                 format!("{sphere:.3}"),
                 format!("{ball:.3}"),
             ),
@@ -154,23 +156,11 @@ pub fn topic() -> Topic {
                 format!("1 {}", signed(integral(0.3) - 1.0)),
             ),
         ],
-        says: "The mirror direction plus fuzz times a point of the unit ball; no density, with the remark \
-            that dividing by the cosine density keeps the estimate right."
-            .into(),
-        wrong: format!(
-            "Without its density the metal takes no part in light sampling, and a small lamp in it is found \
-            by chance. Dividing by the cosine density would be worse: that is not how the direction was \
-            drawn, and a white metal would reflect {:.0} times what it receives. The listing also draws points on the sphere, not in the \
-            ball: its lobe is wider by √(5/3), with a bright ring.",
-            cosine.value()
-        ),
-        right: "With c the cosine to the mirror direction, s² = 1 - c² and q = √(a² - s²), the ray along the \
-            direction is inside the ball of radius a between c - q and c + q; integrating t² over that and \
-            dividing by the volume gives the density q (3c² + q²) / (2πa³) for a < 1, and \
-            (c + q)³ / (4πa³) otherwise. With it metals join multiple importance sampling. The lobe is \
-            not reciprocal, and what falls below the horizon is absorbed, so it stays the metal of old \
-            pictures; new scenes have GGX."
-            .into(),
+        fact: "With c the cosine to the mirror direction, s² = 1 - c² and q = √(a² - s²), the \
+            density of mirror direction plus a point in a ball of radius a is q (3c² + q²) / \
+            (2πa³) for a < 1 and (c + q)³ / (4πa³) otherwise. With it the metal takes part in \
+            light sampling; dividing by the cosine density instead makes it reflect 28 times what \
+            it receives.",
     }
 }
 

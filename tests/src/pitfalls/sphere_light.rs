@@ -1,9 +1,12 @@
-//! A sphere that emits, sampled at points of the whole sphere (the guide) and in its visible cone (ours).
+//! A sphere that emits, sampled at points of the whole sphere (the naive form) and in its visible cone (ours).
 //!
 //! The receiver is at the origin with its normal up; the light is at distance 1. The truth for a white
 //! Lambert receiver that sees the whole light is ratio^2 cos.
 
-#![expect(clippy::cast_possible_truncation, reason = "the guide and the kernel compute in f32")]
+#![expect(
+    clippy::cast_possible_truncation,
+    reason = "the naive form and the kernel compute in f32"
+)]
 
 use std::f32::consts::PI;
 
@@ -51,19 +54,19 @@ impl Setting {
         single::Light { origin: self.center(), edge1, ..single::Light::ZERO }
     }
 
-    /// A point of the whole sphere as the guide chooses it: direction, density, whether it is on the
+    /// A point of the whole sphere as the naive form chooses it: direction, density, whether it is on the
     /// near half.
-    fn guide_point(self, stream: &mut Stream) -> (Vec3, f32, bool) {
+    fn naive_point(self, stream: &mut Stream) -> (Vec3, f32, bool) {
         let xi = stream.direction().as_vec3();
         let to = self.center() + xi * self.ratio;
         let distance = to.length();
         let wi = to / distance;
         let facing = xi.dot(-wi);
-        (wi, self.guide_density(distance, facing), facing > 0.0)
+        (wi, self.naive_density(distance, facing), facing > 0.0)
     }
 
-    /// The guide's density of one point of the sphere, per steradian.
-    fn guide_density(self, distance: f32, facing: f32) -> f32 {
+    /// The naive density of one point of the sphere, per steradian.
+    fn naive_density(self, distance: f32, facing: f32) -> f32 {
         distance * distance / (facing.abs().max(1e-3) * 4.0 * PI * self.ratio * self.ratio)
     }
 
@@ -78,13 +81,13 @@ impl Setting {
     }
 }
 
-/// `n` light samples of the guide over the truth.
+/// `n` light samples of the naive form over the truth.
 #[must_use]
-pub fn guide(setting: Setting, shadow: Shadow, n: u64) -> Mean {
+pub fn naive(setting: Setting, shadow: Shadow, n: u64) -> Mean {
     let mut stream = Stream::new(101, u64::from(setting.ratio.to_bits()));
     let mut mean = Mean::default();
     for _ in 0..n {
-        let (wi, pdf, near) = setting.guide_point(&mut stream);
+        let (wi, pdf, near) = setting.naive_point(&mut stream);
         let seen = near || shadow == Shadow::LeavesLightOut;
         let value = if seen { wi.z.max(0.0) / (PI * pdf) } else { 0.0 };
         mean.add(f64::from(value) / setting.truth());
@@ -92,22 +95,22 @@ pub fn guide(setting: Setting, shadow: Shadow, n: u64) -> Mean {
     mean
 }
 
-/// The guide's light samples and diffuse samples, each weighted by the balance heuristic with the guide's
+/// The naive light samples and diffuse samples, each weighted by the balance heuristic with the naive
 /// density of one point, the light left out of shadow rays; over the truth.
 #[must_use]
-pub fn guide_both(setting: Setting, n: u64) -> Mean {
+pub fn naive_both(setting: Setting, n: u64) -> Mean {
     let mut stream = Stream::new(103, u64::from(setting.ratio.to_bits()));
     let bench = Bench::new();
     let mut kernel = bench.single();
     let lobe = Lobe { normal: DVec3::Z, ..Lobe::diffuse() }.single();
     let mut mean = Mean::default();
     for _ in 0..n {
-        let (wi, pl, _) = setting.guide_point(&mut stream);
+        let (wi, pl, _) = setting.naive_point(&mut stream);
         let pb = wi.z.max(0.0) / PI;
         let mut value = pb / (pl + pb);
         let next = kernel.diffuse_sample(lobe, stream.pair24());
         if let Some((t, facing)) = setting.near_hit(next.wi) {
-            value += next.pdf / (setting.guide_density(t, facing) + next.pdf);
+            value += next.pdf / (setting.naive_density(t, facing) + next.pdf);
         }
         mean.add(f64::from(value) / setting.truth());
     }
@@ -136,10 +139,10 @@ pub fn ours_lambert(setting: Setting, n: u64) -> Mean {
     ours(setting, &Lobe { normal: DVec3::Z, ..Lobe::diffuse() }, Vec3::Z, setting.truth(), n)
 }
 
-/// The guide's factor cos / pi for a metal with a ball of radius `fuzz` that mirrors the light: over what
+/// The naive factor cos / pi for a metal with a ball of radius `fuzz` that mirrors the light: over what
 /// the metal reflects.
 #[must_use]
-pub fn guide_on_metal(setting: Setting, fuzz: f32, n: u64) -> f64 {
+pub fn naive_on_metal(setting: Setting, fuzz: f32, n: u64) -> f64 {
     let c = setting.center();
     let metal = Lobe { normal: DVec3::Z, ..Lobe::metal(fuzz) };
     let truth = ours(setting, &metal, Vec3::new(-c.x, -c.y, c.z), 1.0, n).value();
@@ -170,11 +173,11 @@ fn rows() -> Vec<Row> {
     let small = Setting { ratio: 0.1, cos: 0.8 };
     let large = Setting { ratio: 0.8, cos: 1.0 };
     let n = 2_000_000;
-    let apart = guide(small, Shadow::LeavesLightOut, n);
-    let hidden = guide(small, Shadow::SeesLight, n);
+    let apart = naive(small, Shadow::LeavesLightOut, n);
+    let hidden = naive(small, Shadow::SeesLight, n);
     let cone = ours_lambert(small, n);
     let [even, power] = choice_noise(100.0, 200_000);
-    let metal = guide_on_metal(small, 0.2, 200_000);
+    let metal = naive_on_metal(small, 0.2, 200_000);
     vec![
         row("sphere light, left out of its own shadow rays", estimate(&apart), estimate(&cone)),
         row(
@@ -184,12 +187,12 @@ fn rows() -> Vec<Row> {
         ),
         row(
             "light samples and scattered rays, both weighted, radius / distance 0.1",
-            estimate(&guide_both(small, n)),
+            estimate(&naive_both(small, n)),
             estimate(&super::mixture::measure(small, n).both),
         ),
         row(
             "the same at 0.8",
-            estimate(&guide_both(large, n)),
+            estimate(&naive_both(large, n)),
             estimate(&super::mixture::measure(large, n).both),
         ),
         row(
@@ -209,32 +212,17 @@ fn rows() -> Vec<Row> {
 #[must_use]
 pub fn topic() -> Topic {
     Topic {
-        title: "Sampling a spherical light",
-        section: "6.1",
+        title: "Spherical lights: sample the cone, not the sphere",
         places: &[
             "shaders/wgsl/light/sphere.wgsl",
             "shaders/wgsl/kernel/direct.wgsl",
             "shaders/wgsl/light/choose.wgsl",
         ],
         rows: rows(),
-        says: "A uniform point of the whole sphere, whose area density is turned into a density of \
-            directions at that point, with the absolute value of the cosine at the light; then colour \
-            times cos / π over that density, for every material."
-            .into(),
-        wrong: "A direction meets the sphere twice, so the density of the direction is the sum over both \
-            hits. If shadow rays cannot hit the light, both halves count and the light is exactly twice too \
-            bright, and no multiple importance sampling repairs that: its weights no longer sum to 1. If the \
-            light hides its own far half, the mean is right and more than half of all shadow rays are \
-            wasted, while 1 / |cos| makes the rest noisy. cos / π is Lambert's reflection and nobody \
-            else's. (The probability of choosing the light is in the guide's formula; choosing evenly is \
-            right, but noisy where lights differ.)"
-            .into(),
-        right: "Sample the cone in which the light is seen, uniformly: density 1 / (2π (1 - cos θ)), with \
-            1 - cos θ computed without a difference, so that it holds down to radius / distance 1e-7. The \
-            light is skipped by its number in its own shadow ray. From inside the sphere nothing is \
-            sampled, and scattered rays count fully. The surface contributes its own f |cos|. Lights are \
-            chosen by power. (Shirley, Wang & Zimmerman 1996, \"Monte Carlo Techniques for Direct Lighting \
-            Calculations\".)"
-            .into(),
+        fact: "A uniform point of the whole sphere meets each direction twice: if shadow rays \
+            leave the light out it is exactly twice too bright, and if the light hides its own far \
+            half more than half of all shadow rays are wasted. Sampling the visible cone, with \
+            density 1 / (2π (1 - cos θ)), has neither fault. (Shirley, Wang & Zimmerman 1996, \
+            *Monte Carlo Techniques for Direct Lighting Calculations*.)",
     }
 }
