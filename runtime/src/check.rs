@@ -248,8 +248,8 @@ impl Row {
                 bad: u64::from(bad),
                 first_bad: bad.then_some(at),
                 depth: sample.segments,
-                overflows: u64::from(sample.strays & 0xffff),
-                leaks: u64::from(sample.strays >> 16),
+                overflows: u64::from(sample.stack_errors & 0xffff),
+                leaks: u64::from(sample.stack_errors >> 16),
             });
         }
     }

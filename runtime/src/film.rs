@@ -289,8 +289,8 @@ impl Accumulator {
                 let bad = BadSample { x, y, sample: pixel.first_bad };
                 plane.counters.rays += u64::from(pixel.rays);
                 plane.counters.depth = plane.counters.depth.max(pixel.depth);
-                plane.counters.overflows += u64::from(pixel.strays & 0xffff);
-                plane.counters.leaks += u64::from(pixel.strays >> 16);
+                plane.counters.overflows += u64::from(pixel.stack_errors & 0xffff);
+                plane.counters.leaks += u64::from(pixel.stack_errors >> 16);
                 if pixel.bad > 0 {
                     plane.counters.bad += u64::from(pixel.bad);
                     let first = plane.counters.first_bad;

@@ -40,7 +40,7 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/dispatch_light.wgsl", light::dispatch(features)),
         ("scene/dispatch_pattern.wgsl", bsdf::pattern(features)),
         ("scene/before.wgsl", media::before(features)),
-        ("scene/door.wgsl", traversal::door(features)),
+        ("scene/instance_leaf.wgsl", traversal::instance_leaf(features)),
         ("scene/ends.wgsl", media::ends(features)),
         ("scene/fog.wgsl", media::fog(features)),
         ("scene/inside.wgsl", media::inside(features)),
