@@ -1,4 +1,4 @@
-//! What a run and its owner tell each other while it goes on: progress, notes, the wish to stop.
+//! What a run and its owner tell each other while it goes on: progress, events, the wish to stop.
 
 use crate::render::Outcome;
 use crate::run::Shared;
@@ -12,19 +12,29 @@ pub struct Control {
     done: AtomicU64,
     before: AtomicU64,
     rays: AtomicU64,
-    /// See `break_block`; 0 is never.
-    broken_block: AtomicU64,
-    /// See `stall_block`; 0 is never.
-    stalled_block: AtomicU64,
     /// The run, while it goes on.
     run: Mutex<Option<Arc<Shared>>>,
-    /// See `lose_device`.
-    lost_after: AtomicU64,
-    losses: AtomicU64,
-    /// See `ignore_timestamps`.
-    untimed: AtomicBool,
-    note: Box<dyn Fn(&str) + Send + Sync>,
+    observer: Box<Observer>,
     gate: Box<dyn Fn() -> bool + Send + Sync>,
+}
+
+/// Is told what happens, on the thread on which it happens.
+pub type Observer = dyn Fn(Event<'_>) + Send + Sync;
+
+/// Something that happens in a run.
+#[derive(Clone, Copy, Debug)]
+pub enum Event<'a> {
+    /// One line that is worth telling: which device, what went wrong with it. From any thread.
+    Note(&'a str),
+    /// The CPU kernel is about to render a block, on the thread that renders it. A panic of the observer is one of
+    /// the block.
+    Block,
+    /// A GPU was opened for the run.
+    #[cfg(feature = "gpu")]
+    Device(&'a wgpu::Device),
+    /// A submission to the GPU is about to be waited for.
+    #[cfg(feature = "gpu")]
+    Submission,
 }
 
 /// How far a run is.
@@ -47,22 +57,16 @@ impl Default for Control {
 }
 
 impl Control {
-    /// `note` gets one line for everything worth telling: which device, what went wrong with it.
-    /// It may be called from any thread.
-    pub fn new(note: impl Fn(&str) + Send + Sync + 'static) -> Self {
+    /// `observer` is told what happens.
+    pub fn new(observer: impl Fn(Event<'_>) + Send + Sync + 'static) -> Self {
         Self {
             cancel: AtomicBool::new(false),
             total: AtomicU64::new(0),
             done: AtomicU64::new(0),
             before: AtomicU64::new(0),
             rays: AtomicU64::new(0),
-            broken_block: AtomicU64::new(0),
-            stalled_block: AtomicU64::new(0),
             run: Mutex::new(None),
-            lost_after: AtomicU64::new(0),
-            losses: AtomicU64::new(0),
-            untimed: AtomicBool::new(false),
-            note: Box::new(note),
+            observer: Box::new(observer),
             gate: Box::new(|| true),
         }
     }
@@ -120,67 +124,17 @@ impl Control {
         }
     }
 
-    /// For tests: the CPU kernel panics in its `n`th block from now, counted from 1.
-    #[doc(hidden)]
-    pub fn break_block(&self, n: u64) {
-        self.broken_block.store(n, Ordering::Relaxed);
-    }
-
-    /// For tests: the `n`th block from now, counted from 1, never comes back; on a GPU the `n`th submission.
-    #[doc(hidden)]
-    pub fn stall_block(&self, n: u64) {
-        self.stalled_block.store(n, Ordering::Relaxed);
-    }
-
-    /// For tests: the next `times` GPU devices are lost after `n` tiles each.
-    #[doc(hidden)]
-    pub fn lose_device(&self, n: u64, times: u64) {
-        self.lost_after.store(n, Ordering::Relaxed);
-        self.losses.store(times, Ordering::Relaxed);
-    }
-
-    /// For tests: GPU devices are opened as if they had no timestamps.
-    #[doc(hidden)]
-    pub fn ignore_timestamps(&self) {
-        self.untimed.store(true, Ordering::Relaxed);
-    }
-
-    #[cfg(feature = "gpu")]
-    pub(crate) fn ignores_timestamps(&self) -> bool {
-        self.untimed.load(Ordering::Relaxed)
-    }
-
-    /// Whether the block that begins now is to break.
-    pub(crate) fn breaks_now(&self) -> bool {
-        let left = |n: u64| n.checked_sub(1);
-        self.broken_block.fetch_update(Ordering::Relaxed, Ordering::Relaxed, left) == Ok(1)
-    }
-
-    /// Never comes back if the block that begins now is the one to stall.
-    pub(crate) fn stall_if_asked(&self) {
-        let left = |n: u64| n.checked_sub(1);
-        if self.stalled_block.fetch_update(Ordering::Relaxed, Ordering::Relaxed, left) == Ok(1) {
-            loop {
-                std::thread::park();
-            }
-        }
-    }
-
-    /// Whether a device that has rendered `n` tiles is to be lost now.
-    #[cfg(feature = "gpu")]
-    pub(crate) fn loses_device_after(&self, n: u64) -> bool {
-        let left = |times: u64| times.checked_sub(1);
-        n >= self.lost_after.load(Ordering::Relaxed)
-            && self.losses.fetch_update(Ordering::Relaxed, Ordering::Relaxed, left).is_ok()
-    }
-
     /// Whether what was rendered so far may be kept.
     pub(crate) fn may_keep(&self) -> bool {
         (self.gate)()
     }
 
+    pub(crate) fn tell(&self, event: Event<'_>) {
+        (self.observer)(event);
+    }
+
     pub(crate) fn note(&self, text: &str) {
-        (self.note)(text);
+        self.tell(Event::Note(text));
     }
 
     /// A run of `total` pixel samples begins, of which `before` were done by an earlier one.

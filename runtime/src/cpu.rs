@@ -3,6 +3,7 @@
 //! A panic in a block is a bug, but never a lost picture: it is caught, reported with the block's
 //! coordinates, and the run ends with everything else.
 
+use crate::control::Event;
 use crate::job::{Job, Precision};
 use crate::kernel;
 use crate::run::Run;
@@ -171,8 +172,7 @@ fn worker(tile: RenderTile, setup: &Setup<'_>, run: &Run<'_>) {
         let size = [item.tile.w, item.tile.h];
         let is_over = || run.is_broken_off();
         let render = || {
-            assert!(!run.control().breaks_now(), "broken for a test");
-            run.control().stall_if_asked();
+            run.control().tell(Event::Block);
             tile(inputs, size, film, &is_over)
         };
         // Only `pixels` is written, and a failed block is not read.

@@ -104,12 +104,9 @@ pub(crate) fn render(
     let mut losses = 0;
     loop {
         let before = run.done();
-        let error = match Device::open(adapter, setup, module, !run.control().ignores_timestamps())
-        {
-            Ok(mut device) => match device.render(setup, run, &mut pace) {
-                Ok(()) => return Ok(()),
-                Err(error) => error,
-            },
+        let opened = Device::open(adapter, setup, module, job.timestamps);
+        let error = match opened.and_then(|mut device| device.render(setup, run, &mut pace)) {
+            Ok(()) => return Ok(()),
             Err(error) => error,
         };
         losses = if run.done() > before { 1 } else { losses + 1 };

@@ -59,6 +59,8 @@ pub struct Job {
     pub strict: bool,
     /// Wanted duration of one GPU submission.
     pub submission: Duration,
+    /// Whether submissions are timed by the timestamps of a GPU that has them, not by the wall clock.
+    pub timestamps: bool,
     /// Whether the error is measured: then the picture is the mean of `convergence::REPLICATES`
     /// pictures, and `samples` are those of each.
     pub measure: Option<Measure>,
@@ -111,6 +113,7 @@ impl Job {
             threads: None,
             strict: false,
             submission: Duration::from_millis(100),
+            timestamps: true,
             measure: None,
         }
     }

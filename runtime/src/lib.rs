@@ -45,7 +45,7 @@ mod trust;
 mod walk;
 
 pub use checkpoint::{Checkpoint, CheckpointError};
-pub use control::{Control, Progress};
+pub use control::{Control, Event, Observer, Progress};
 pub use film::{BadSample, Counters, Film};
 pub use job::{Job, JobError, MAX_PIXELS, MAX_SIDE, Precision};
 pub use left_out::{LeftOut, Reason, Section};

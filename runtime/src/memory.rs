@@ -128,6 +128,7 @@ mod tests {
             threads: None,
             strict: false,
             submission: Duration::from_millis(100),
+            timestamps: true,
             measure,
         }
     }

@@ -293,9 +293,6 @@ pub(super) struct RenderArgs {
     /// Wanted duration of one GPU submission, at most 1s.
     #[arg(long, default_value = "100ms", value_name = "TIME", value_parser = parse_duration)]
     pub(super) submission: Duration,
-    /// A block that never comes back, for tests.
-    #[arg(long, hide = true, default_value = "0")]
-    pub(super) stall_block: u64,
     /// Estimator, for tests.
     #[arg(long, hide = true, default_value = "mis")]
     pub(super) estimator: Estimator,

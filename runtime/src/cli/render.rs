@@ -9,7 +9,7 @@ use super::open::{How, is_stdin, open};
 use super::outputs::{Claim, Output, Use, outputs, prove, room, save, with_extension};
 use super::watch::Change;
 use crate::checkpoint::{Checkpoint, CheckpointError};
-use crate::control::Control;
+use crate::control::{Control, Event, Observer};
 use crate::job::{Job, Precision};
 use crate::mark::Mark;
 use crate::output;
@@ -24,7 +24,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// `change`: what makes the picture pointless while it is rendered; then nothing is written.
-pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
+pub(super) fn command(
+    args: &RenderArgs,
+    observer: &'static Observer,
+    change: Option<&Change>,
+) -> Exit {
     let began = Instant::now();
     let console = Console::with_progress(args.quiet).beside(&args.output);
     let Some(path) = &args.pack else {
@@ -94,7 +98,7 @@ pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
     };
     let (scene, guard, job, outputs) = (&scene, &guard, &job, &outputs);
     let console = &console;
-    let plan = Plan { args, console, scene, guard, job, outputs, change, load, resumed };
+    let plan = Plan { args, observer, console, scene, guard, job, outputs, change, load, resumed };
     run(&plan, Session { from, keep })
 }
 
@@ -153,6 +157,7 @@ fn job(args: &RenderArgs, scene: &Scene) -> Job {
 /// What is rendered, and where it goes.
 struct Plan<'a> {
     args: &'a RenderArgs,
+    observer: &'static Observer,
     console: &'a Console,
     scene: &'a Scene,
     guard: &'a Guard<'a>,
@@ -166,13 +171,18 @@ struct Plan<'a> {
 }
 
 fn run(plan: &Plan<'_>, session: Session) -> Exit {
-    let Plan { args, console, scene, guard, job, change, .. } = *plan;
+    let Plan { args, observer, console, scene, guard, job, change, .. } = *plan;
     if change.is_none() {
         reset_interrupts();
     }
     let notes = console.clone();
-    let control = Control::new(move |text| notes.note(text)).gated(guard.gate());
-    control.stall_block(args.stall_block);
+    let control = Control::new(move |event| {
+        if let Event::Note(text) = event {
+            notes.note(text);
+        }
+        observer(event);
+    });
+    let control = control.gated(guard.gate());
     let watched = Watched { spp: job.spp(), limit: job.time_limit, change };
     let over = AtomicBool::new(false);
     let rescue = || rescue(plan, &control);

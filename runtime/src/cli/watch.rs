@@ -8,6 +8,7 @@ use super::args::RenderArgs;
 use super::console::{Console, is_interrupted, reset_interrupts};
 use super::outputs::Output;
 use super::render;
+use crate::control::Observer;
 use files::ShowPath as _;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
@@ -55,14 +56,14 @@ fn stamp(path: &Path) -> Option<(u64, SystemTime)> {
 
 /// Renders until Ctrl-C. What is wrong with the arguments ends it at once, what is wrong with the
 /// pack does not.
-pub(super) fn command(args: &RenderArgs) -> Exit {
+pub(super) fn command(args: &RenderArgs, observer: &'static Observer) -> Exit {
     let console = Console::new(args.quiet);
     let path = args.pack.as_deref().unwrap_or(Path::new(""));
     reset_interrupts();
     let names = Arc::default();
     loop {
         let change = Change { names: Arc::clone(&names), ..Change::of(path) };
-        let exit = render::command(args, Some(&change));
+        let exit = render::command(args, observer, Some(&change));
         if matches!(exit, Exit::Usage | Exit::Interrupted) {
             return exit;
         }
