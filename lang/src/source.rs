@@ -3,8 +3,6 @@
 //! Names are kept as the user wrote them, for display only. This crate never opens a file: whoever
 //! compiles a scene implements [`Loader`] and adds texts to a [`SourceSet`].
 
-use crate::diagnostic::{Code, Diagnostic, Label};
-
 /// Largest source text that is read, in bytes: some 200,000 declarations. Bulk data belongs in meshes and
 /// images.
 pub const MAX_FILE_BYTES: usize = 16 << 20;
@@ -172,29 +170,6 @@ impl SourceSet {
         let id = FileId(u32::try_from(self.files.len()).unwrap_or(u32::MAX));
         self.files.push(Source::new(name.into(), text.into()));
         id
-    }
-
-    /// Adds bytes that should be UTF-8. Where they are not, the wrong bytes are shown as `\u{fffd}`
-    /// and the diagnostic says where they are.
-    pub fn add_bytes(
-        &mut self,
-        name: impl Into<String>,
-        bytes: &[u8],
-    ) -> (FileId, Option<Diagnostic>) {
-        match std::str::from_utf8(bytes) {
-            Ok(text) => (self.add(name, text), None),
-            Err(error) => {
-                let start = error.valid_up_to();
-                let file = self.add(name, String::from_utf8_lossy(bytes));
-                let end = byte_offset(start + '\u{fffd}'.len_utf8());
-                let span = Span { file, start: byte_offset(start), end };
-                let byte = bytes.get(start).copied().unwrap_or_default();
-                let diagnostic = Diagnostic::error(Code("E0107"), "this file is not UTF-8 text")
-                    .with_label(Label::primary(span, format!("byte 0x{byte:02x} here")))
-                    .with_help("save the file as UTF-8");
-                (file, Some(diagnostic))
-            }
-        }
     }
 
     /// Every file, in the order of addition.

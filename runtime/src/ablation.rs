@@ -207,8 +207,8 @@ pub fn kernel_texts(scene: &Scene, each: bool) -> Vec<(String, String)> {
     kernels(&scene.setup(&Job::of_scene(scene)), Plan { rounds: 0, each })
 }
 
-/// For tests: the pack's own kernel, put together again as the others are.
-#[doc(hidden)]
+/// The pack's own kernel, put together again from the table of declarations as the others are: the same declarations,
+/// in another order. `None` if it has one that the table does not know.
 #[must_use]
 pub fn relinked(scene: &Scene) -> Option<String> {
     let job = Job::of_scene(scene);

@@ -61,7 +61,7 @@ mod types;
 
 pub use error::NativeError;
 
-use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 /// The type that stands for WGSL's `f32` in the generated text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,15 +100,4 @@ pub fn generate_with(
         .validate(&module)
         .map_err(|error| NativeError::invalid(&error, source))?;
     context::Context::new(&module, &info, source, precision, seams)?.write()
-}
-
-/// Translates a module that is already parsed and validated. `source` is the text that its spans
-/// point into; the f64 twin also reads the decimals of literals from it.
-pub fn generate_module(
-    module: &naga::Module,
-    info: &ModuleInfo,
-    source: &str,
-    precision: Precision,
-) -> Result<String, NativeError> {
-    context::Context::new(module, info, source, precision, &[])?.write()
 }
