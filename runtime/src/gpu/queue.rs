@@ -5,15 +5,15 @@
 //! their submission ends; what a lost device did not finish goes back to the run, and what a driver
 //! cut short is rendered by the CPU kernel.
 
-use super::GpuError;
 use super::device::Device;
+use super::error::GpuError;
 use super::pace::{Busy, MAX_TILES, Pace, Work};
 use super::slot::{Slot, Slots, submit};
 use super::stopwatch::Stopwatch;
 use crate::cpu;
 use crate::run::Run;
-use crate::scene::Setup;
 use crate::schedule::{Claim, WorkItem};
+use crate::setup::Setup;
 use pack::abi::FilmPixel;
 use std::collections::VecDeque;
 use std::time::Instant;
@@ -84,7 +84,7 @@ impl Device {
         let mut tally = Tally { busy: Busy::new(Instant::now()), tiles: 0, cut: 0 };
         let mut n_tiles = 0;
         loop {
-            if run.control().loses_device_after(n_tiles) {
+            if run.signals().loses_device_after(n_tiles) {
                 self.gpu.destroy();
             }
             while under_way.len() < IN_FLIGHT {
@@ -132,7 +132,7 @@ impl Device {
         tally: &mut Tally,
     ) -> Result<(), GpuError> {
         let Some(oldest) = under_way.front_mut() else { return Ok(()) };
-        run.control().stall_if_asked();
+        run.signals().stall_if_asked();
         let waited = self.wait(oldest.index.clone());
         self.fault()?;
         waited?;
