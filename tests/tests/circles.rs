@@ -7,7 +7,61 @@ use tests::structure::{CRATES, Circle, new_material, recipe, rust, shapes};
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 
 /// Circles that may be, with the reason.
-const EXCEPTIONS: &[(&[&str], &str)] = &[];
+const EXCEPTIONS: &[(&[&str], &str)] = &[
+    (
+        &[
+            "compiler/src/cli.rs",
+            "compiler/src/cli/build.rs",
+            "compiler/src/cli/cache.rs",
+            "compiler/src/cli/compile.rs",
+            "compiler/src/cli/explain.rs",
+            "compiler/src/cli/fmt.rs",
+            "compiler/src/cli/inspect.rs",
+            "compiler/src/cli/outputs.rs",
+            "compiler/src/cli/show.rs",
+            "compiler/src/cli/watch.rs",
+        ],
+        "exit codes are declared above the commands",
+    ),
+    (
+        &[
+            "compiler/src/lower/assemble.rs",
+            "compiler/src/lower/extent.rs",
+            "compiler/src/lower/finish.rs",
+            "compiler/src/lower/geometry.rs",
+            "compiler/src/lower/geometry/placer.rs",
+            "compiler/src/lower/geometry/transform.rs",
+            "compiler/src/lower/grain.rs",
+            "compiler/src/lower/inside.rs",
+            "compiler/src/lower/lowered.rs",
+            "compiler/src/lower/motion.rs",
+            "compiler/src/lower/object.rs",
+            "compiler/src/lower/order.rs",
+            "compiler/src/lower/power.rs",
+            "compiler/src/lower/roster.rs",
+            "compiler/src/lower/share.rs",
+            "compiler/src/lower/sketch.rs",
+            "compiler/src/lower/sky_source.rs",
+            "compiler/src/lower/stored.rs",
+            "compiler/src/lower/trees.rs",
+        ],
+        "lowering exists once when its stages do",
+    ),
+    (
+        &["compiler/src/lower/material.rs", "compiler/src/lower/material/principled.rs"],
+        "lowering exists once when its stages do",
+    ),
+    (
+        &[
+            "compiler/src/pipeline.rs",
+            "compiler/src/pipeline/again.rs",
+            "compiler/src/pipeline/essence.rs",
+            "compiler/src/pipeline/load.rs",
+            "compiler/src/pipeline/manifest.rs",
+        ],
+        "stages become a table of pure functions",
+    ),
+];
 
 /// What is wrong: circles that are no exception, and exceptions that are no circle any more.
 fn faults(circles: &[Circle], exceptions: &[(&[&str], &str)]) -> Vec<String> {
