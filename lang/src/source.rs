@@ -3,51 +3,16 @@
 //! Names are kept as the user wrote them, for display only. This crate never opens a file: whoever
 //! compiles a scene implements [`Loader`] and adds texts to a [`SourceSet`].
 
+mod span;
+
+pub use span::{FileId, Span};
+
 /// Largest source text that is read, in bytes: some 200,000 declarations. Bulk data belongs in meshes and
 /// images.
 pub const MAX_FILE_BYTES: usize = 16 << 20;
 
 /// Most bytes that all texts of a scene have together.
 pub const MAX_SCENE_BYTES: usize = 32 << 20;
-
-/// Index of a file in a `SourceSet`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct FileId(pub u32);
-
-/// A byte range in one file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Span {
-    /// The file.
-    pub file: FileId,
-    /// First byte.
-    pub start: u32,
-    /// One past the last byte.
-    pub end: u32,
-}
-
-impl Span {
-    /// From the start of `self` to the end of `other`. Spans of different files cannot be joined;
-    /// `self` is returned then.
-    #[must_use]
-    pub fn to(self, other: Span) -> Span {
-        if self.file != other.file {
-            return self;
-        }
-        Span { file: self.file, start: self.start.min(other.start), end: self.end.max(other.end) }
-    }
-
-    /// The empty span just before this one.
-    #[must_use]
-    pub fn before(self) -> Span {
-        Span { end: self.start, ..self }
-    }
-
-    /// The empty span just after this one.
-    #[must_use]
-    pub fn after(self) -> Span {
-        Span { start: self.end, ..self }
-    }
-}
 
 /// A place as people count it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -8,8 +8,10 @@
 mod ablate;
 mod args;
 mod bench;
+mod change;
 mod check;
 mod console;
+mod exit;
 mod guard;
 mod measure;
 mod open;
@@ -19,24 +21,14 @@ mod watch;
 
 use self::args::{Args, Command, MergeArgs};
 use self::console::Console;
+use self::exit::Exit;
 use self::outputs::{Claim, prove, save};
-use crate::control::Observer;
 use crate::output;
+use crate::signals::Observer;
 use clap::Parser as _;
 use files::ShowPath as _;
 use std::ffi::OsString;
 use std::process::ExitCode;
-
-/// How a command ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Exit {
-    Done = 0,
-    NotFinite = 1,
-    Usage = 2,
-    World = 3,
-    Bug = 70,
-    Interrupted = 130,
-}
 
 /// Runs `rtr` with these arguments, the program's name first. May be called several times in one
 /// process.

@@ -3,11 +3,11 @@
 //! A panic in a block is a bug, but never a lost picture: it is caught, reported with the block's
 //! coordinates, and the run ends with everything else.
 
-use crate::control::Event;
 use crate::job::{Job, Precision};
 use crate::kernel;
 use crate::run::Run;
-use crate::scene::Setup;
+use crate::setup::Setup;
+use crate::signals::Event;
 use glam::{UVec3, UVec4};
 use pack::Kind;
 use pack::abi::{FilmPixel, Frame};
@@ -172,7 +172,7 @@ fn worker(tile: RenderTile, setup: &Setup<'_>, run: &Run<'_>) {
         let size = [item.tile.w, item.tile.h];
         let is_over = || run.is_broken_off();
         let render = || {
-            run.control().tell(Event::Block);
+            run.signals().tell(Event::Block);
             tile(inputs, size, film, &is_over)
         };
         // Only `pixels` is written, and a failed block is not read.

@@ -4,10 +4,10 @@
 //! region has arrived. So the film never depends on the order in which tiles finish, and it is
 //! evenly sampled at every moment. It does not know devices or files.
 
-use crate::convergence::{REPLICATES, REPLICATES_U32, luminance, moments};
-use crate::memory::{NoMemory, zeros};
 use crate::region::{Rect, SampleRange, insert_range};
+use crate::replicate::{REPLICATES, REPLICATES_U32, luminance, moments};
 use crate::schedule::WorkItem;
+use crate::zeros::{NoMemory, zeros};
 use pack::abi::FilmPixel;
 use std::collections::BTreeMap;
 use std::fmt;

@@ -1,7 +1,8 @@
 //! What to render, in one value: size, crop, samples, seed, limits.
 
-use crate::convergence::{Measure, REPLICATES_U32};
+use crate::convergence::Measure;
 use crate::region::{Rect, SampleRange};
+use crate::replicate::REPLICATES_U32;
 use crate::scene::Scene;
 use std::time::Duration;
 use thiserror::Error;

@@ -22,3 +22,4 @@ pub mod scene;
 pub mod software;
 pub mod stability;
 pub mod statistics;
+pub mod structure;

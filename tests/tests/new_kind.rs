@@ -73,7 +73,7 @@ fn every_kind_has_its_functions() {
 #[test]
 fn the_language_and_the_pack_have_the_same_kinds() {
     fn types(kind: Kind) -> BTreeSet<String> {
-        kind.types().iter().map(|schema| schema.name.to_owned()).collect()
+        lang::schema::types_of(kind).iter().map(|schema| schema.name.to_owned()).collect()
     }
     let mut materials: BTreeSet<String> = MaterialKind::ALL.map(MaterialKind::stem).into();
     // `dielectric` with a roughness.

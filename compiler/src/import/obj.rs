@@ -6,26 +6,20 @@
 //! units become metres.
 
 mod build;
+mod frame;
 mod lines;
 mod mtl;
 mod parse;
 
 use self::parse::Oddities;
 use super::error::{ErrorKind, ImportError};
-use super::file::{Limits, Reader, keep, read_file};
+use super::file::{Limits, Reader, read_file};
 use super::image_set::ImageSet;
-use super::mesh::{MeshFile, Part};
+use super::mesh::{MeshFile, Part, keep};
 use super::report::ImportReport;
 use files::ShowPath as _;
 use lang::scene::Axis;
 use std::path::Path;
-
-/// How the numbers of a file become metres with +Y up.
-#[derive(Clone, Copy)]
-struct Frame {
-    metres_per_unit: f64,
-    up: Axis,
-}
 
 /// Reads an OBJ file whose unit is `metres_per_unit` and whose `up` axis is to become +Y.
 ///
@@ -61,7 +55,7 @@ pub fn read_obj(
     let library = mtl::load(folder, &file, &obj, &mut reader, &mut images, &mut report)?;
     let source = build::Source {
         file: &file,
-        frame: Frame { metres_per_unit, up },
+        frame: frame::Frame { metres_per_unit, up },
         names: &obj.names,
         material_ids: &library.ids,
         limits,
@@ -140,23 +134,4 @@ fn warn_about(odd: &Oddities, file: &str, report: &mut ImportReport) {
         let what = "have normal indices, but there are no `vn` lines above them";
         format!("{n} faces {what}: their normals are computed")
     });
-}
-
-impl Frame {
-    /// Turns the `up` axis to +Y.
-    fn turn(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
-        match self.up {
-            Axis::PlusY => [x, y, z],
-            Axis::MinusY => [x, -y, -z],
-            Axis::PlusZ => [x, z, -y],
-            Axis::MinusZ => [x, -z, y],
-            Axis::PlusX => [-y, x, z],
-            Axis::MinusX => [y, -x, z],
-        }
-    }
-
-    /// A position of the file in metres.
-    fn position(self, p: [f32; 3]) -> [f64; 3] {
-        self.turn(p.map(|x| f64::from(x) * self.metres_per_unit))
-    }
 }

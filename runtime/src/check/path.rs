@@ -70,7 +70,7 @@ macro_rules! precision {
         pub(super) mod $module {
             use super::{Sample, Step};
             use crate::kernel::$real as k;
-            use crate::scene::Setup;
+            use crate::setup::Setup;
             use glam::{UVec2, UVec4};
             use pack::Kind;
             use pack::abi::{Frame, NONE};

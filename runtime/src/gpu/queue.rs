@@ -5,16 +5,16 @@
 //! their submission ends; what a lost device did not finish goes back to the run, and what a driver
 //! cut short is rendered by the CPU kernel.
 
-use super::GpuError;
 use super::device::Device;
+use super::error::GpuError;
 use super::pace::{Busy, MAX_TILES, Pace, Work};
 use super::slot::{Slot, Slots, submit};
 use super::stopwatch::Stopwatch;
-use crate::control::Event;
 use crate::cpu;
 use crate::run::Run;
-use crate::scene::Setup;
 use crate::schedule::{Claim, WorkItem};
+use crate::setup::Setup;
+use crate::signals::Event;
 use pack::abi::FilmPixel;
 use std::collections::VecDeque;
 use std::time::Instant;
@@ -64,7 +64,7 @@ impl Device {
         run: &Run<'_>,
         pace: &mut Pace,
     ) -> Result<(), GpuError> {
-        run.control().tell(Event::Device(&self.gpu));
+        run.signals().tell(Event::Device(&self.gpu));
         let mut under_way = VecDeque::new();
         let result = self.render_loop(setup, run, pace, &mut under_way);
         for submission in &under_way {
@@ -129,7 +129,7 @@ impl Device {
         tally: &mut Tally,
     ) -> Result<(), GpuError> {
         let Some(oldest) = under_way.front_mut() else { return Ok(()) };
-        run.control().tell(Event::Submission);
+        run.signals().tell(Event::Submission);
         let waited = self.wait(oldest.index.clone());
         self.fault()?;
         waited?;

@@ -1,6 +1,6 @@
 //! `scene/constants.wgsl`: tags, flags and limits, taken from `pack::abi`.
 
-use super::tag;
+use super::wgsl::tag;
 use crate::FeatureSet;
 use pack::abi::{
     CHILD_INNER, CHILD_INSTANCE, CHILD_OUT, CHILD_SPHERES, ChildRef, LIGHT_LEAF, LightKind, MOVES,

@@ -2,7 +2,7 @@
 //! surfaces do to a path. Each function depends on one of these features at most, and does nothing in
 //! a scene without it.
 
-use super::imports;
+use super::wgsl::imports;
 use crate::FeatureSet;
 use std::fmt::Write as _;
 

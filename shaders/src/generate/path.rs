@@ -1,6 +1,6 @@
 //! `scene/dispatch.wgsl` and `scene/place.wgsl`: what a path asks of the scene at its vertices, from the camera on.
 
-use super::imports;
+use super::wgsl::imports;
 use crate::FeatureSet;
 use pack::abi::LightKind;
 use std::fmt::Write as _;

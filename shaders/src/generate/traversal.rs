@@ -1,7 +1,7 @@
 //! `scene/candidate.wgsl`, `scene/leaf.wgsl`, `scene/nodes.wgsl`, `scene/instance_leaf.wgsl`, `scene/placed.wgsl`: what
 //! the traversal does with a primitive, a leaf, a node and an instance.
 
-use super::imports;
+use super::wgsl::imports;
 use crate::{FeatureSet, NodeLayout};
 use std::fmt::Write as _;
 

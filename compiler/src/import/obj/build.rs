@@ -7,7 +7,7 @@ use super::super::mesh::{Attribute, NO_CORNER, Part};
 use super::super::normals::{self, FLAT, Wanting};
 use super::super::polygon;
 use super::super::report::ImportReport;
-use super::Frame;
+use super::frame::Frame;
 use super::parse::{Face, Geometry, PartName};
 use std::collections::BTreeMap;
 

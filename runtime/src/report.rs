@@ -3,11 +3,11 @@
 //! JSON is one object with everything, CSV one row a point. Numbers that do not exist are `null` in
 //! the one and empty in the other.
 
-use super::REPLICATES;
-use super::track::{Convergence, Point, Times};
+use crate::convergence::{Convergence, Point, Times};
 use crate::job::Job;
 use crate::left_out::LeftOut;
-use crate::render::Outcome;
+use crate::outcome::Outcome;
+use crate::replicate::REPLICATES;
 use crate::scene::Scene;
 use crate::schedule::Stop;
 use serde::Serialize;
