@@ -53,22 +53,10 @@ pub(super) fn command(
 ) -> Exit {
     let began = Instant::now();
     let console = Console::with_progress(args.quiet).beside(&args.output);
-    let Some(path) = &args.pack else {
-        console.warn("error: no pack was named");
-        return Exit::Usage;
+    let path = match pack_path(args, &console) {
+        Ok(path) => path,
+        Err(exit) => return exit,
     };
-    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("rts")) {
-        let (path, pack) = (path.shown(), path.with_extension("pack"));
-        console.warn(&format!(
-            "error: {path} is a scene source, compile it first: rtc {path} -o {}",
-            pack.shown()
-        ));
-        return Exit::World;
-    }
-    if args.watch && is_stdin(path) {
-        console.warn("error: standard input cannot be watched, name a file");
-        return Exit::Usage;
-    }
     // A mapped file must not change; one that is watched is going to.
     let scene = match open(path, How::of(args.no_mmap || args.watch)) {
         Ok(pack) => Scene::new(pack),
@@ -123,6 +111,27 @@ pub(super) fn command(
     let plan =
         Plan { args, observer, console, scene, guard, job, outputs, watching, load, resumed };
     run(&plan, Session { from, keep })
+}
+
+/// The pack that is named, if it can be one.
+fn pack_path<'a>(args: &'a RenderArgs, console: &Console) -> Result<&'a Path, Exit> {
+    let Some(path) = &args.pack else {
+        console.warn("error: no pack was named");
+        return Err(Exit::Usage);
+    };
+    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("rts")) {
+        let (path, pack) = (path.shown(), path.with_extension("pack"));
+        console.warn(&format!(
+            "error: {path} is a scene source, compile it first: rtc {path} -o {}",
+            pack.shown()
+        ));
+        return Err(Exit::World);
+    }
+    if args.watch && is_stdin(path) {
+        console.warn("error: standard input cannot be watched, name a file");
+        return Err(Exit::Usage);
+    }
+    Ok(path)
 }
 
 /// Everything that this run reads and writes.
