@@ -15,12 +15,14 @@ mod clip;
 mod collapse;
 mod cut;
 mod fragment;
+mod input;
 mod join;
 mod pieces;
 mod plan;
 mod preset;
 mod probe;
 mod quantize;
+mod range;
 mod refit;
 mod sbvh;
 mod scene;
@@ -30,13 +32,14 @@ mod top;
 mod wide;
 mod words;
 
-use std::borrow::Cow;
-
 use pack::abi::{NONE, Node};
 use thiserror::Error;
 
+use input::Corners;
+
 pub use check::TreeFault;
 pub use fragment::{Bounds, COORD_MAX, Fragment, MAX_PRIMITIVES};
+pub use input::Input;
 pub use join::{Group, GroupKind, Joined, join, stack_need};
 pub use pieces::Split;
 pub use plan::{SMALL_MESH, plan};
@@ -111,41 +114,6 @@ impl Tree {
     }
 }
 
-/// What a tree is built over.
-#[derive(Clone, Debug)]
-pub struct Input<'a> {
-    /// `fragments[i]` has index `i`.
-    pub fragments: Vec<Fragment>,
-    /// The corners of each triangle; empty where fragments are not to be split.
-    pub corners: Cow<'a, [[[f32; 3]; 3]]>,
-}
-
-/// Corners by index of a primitive; none where nothing may be split.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Corners<'a>(&'a [[[f32; 3]; 3]]);
-
-impl<'a> Corners<'a> {
-    /// The corners of what is not `whole`.
-    fn of(self, fragment: &Fragment) -> &'a [[f32; 3]; 3] {
-        &self.0[fragment.index() as usize]
-    }
-}
-
-impl<'a> Input<'a> {
-    /// Triangles that may be split, where they stand still and have finite corners.
-    #[must_use]
-    pub fn of_triangles(corners: &'a [[[f32; 3]; 3]]) -> Self {
-        let fragments = (0..).zip(corners).map(|(i, t)| Fragment::of_triangle(t, i)).collect();
-        Self { fragments, corners: Cow::Borrowed(corners) }
-    }
-
-    /// Boxes that are never split.
-    #[must_use]
-    pub fn of_boxes(fragments: Vec<Fragment>) -> Self {
-        Self { fragments, corners: Cow::Borrowed(&[]) }
-    }
-}
-
 /// Builds the tree of a group.
 ///
 /// # Errors
@@ -178,7 +146,7 @@ fn build_with_splits(rules: preset::SpatialRules, input: Input<'_>) -> Result<Tr
     let extra = (n * rules.extra / 100).min(MAX_PRIMITIVES - n);
     fragments.resize(n + extra, Fragment::new([0.0; 3], [0.0; 3], 0));
     let mut splits = vec![Split::UNUSED; extra];
-    let corners = Corners(&corners);
+    let corners = Corners::new(&corners);
     let (bounds, part) = sbvh::build(&mut fragments, n, &mut splits, corners, rules);
     drop(fragments);
     let (build::Flat { nodes, mut order }, root) = part.string();
@@ -229,7 +197,7 @@ pub(crate) fn from_shape(shape: Shape, input: &Input<'_>) -> Result<Tree, TreeFa
     } else {
         let mut all = Vec::with_capacity(order.len());
         all.extend_from_slice(&input.fragments);
-        pieces::replay(&mut all, &splits, Corners(&input.corners))?;
+        pieces::replay(&mut all, &splits, Corners::new(&input.corners))?;
         pieces = all;
         &pieces
     };

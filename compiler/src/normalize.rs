@@ -80,12 +80,6 @@ impl Normalization {
         libm::scalbn(per_metre, -self.exponent) as f32
     }
 
-    /// The world point of a normalised one, metres.
-    #[must_use]
-    pub fn world_point(&self, normalised: [f32; 3]) -> [f64; 3] {
-        [0, 1, 2].map(|k| self.center[k] + self.world_length(normalised[k]))
-    }
-
     /// The world length of a normalised one, metres.
     #[must_use]
     pub fn world_length(&self, normalised: f32) -> f64 {
@@ -173,7 +167,7 @@ mod tests {
         for x in [0.1_f32, -0.9, 1e-30, 0.0] {
             assert_eq!(n.length(n.world_length(x)).to_bits(), x.to_bits());
         }
-        assert_eq!(n.world_point([0.5, 0.25, -0.125]), [64.0, 32.0, -16.0]);
+        assert_eq!(n.world_length(-0.125), -16.0);
         assert_eq!(n.per_length(0.25) * n.length(4.0), 1.0);
     }
 }

@@ -181,3 +181,18 @@ fn a_small_stack_gives_no_error() {
         assert_eq!((code, text.as_str()), (Some(0), ""), "{kib} KiB");
     }
 }
+
+#[test]
+fn the_guide_shows_what_is_printed() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let page = |name: &str| std::fs::read_to_string(root.join(name)).expect("a page");
+    let (readme, guide) = (page("README.md"), page("docs/guide.md"));
+    let block = |text: &str, begin: &str| {
+        let (_, rest) = text.split_once(begin).expect("the block begins");
+        rest.split_once("```").expect("the block ends").0.to_owned()
+    };
+    let scene = block(&readme, "```rts\n").replace("material = glass", "material = glas");
+    let folder = folder(&[("scene.rts", &scene)]);
+    let (_, text) = check(folder.path(), &["scene.rts"]);
+    assert!(text.starts_with(&block(&guide, "```text\n")), "{text}");
+}

@@ -19,8 +19,12 @@ use crate::{medium, sky};
 pub(crate) mod camera;
 pub(crate) mod collect;
 mod define;
+pub(crate) mod exclusive;
 mod field;
 pub(crate) mod fields;
+pub(crate) mod file;
+pub(crate) mod given;
+mod index;
 mod instance;
 #[warn(clippy::wildcard_enum_match_arm)]
 pub(crate) mod light;
@@ -40,16 +44,10 @@ pub(crate) mod texture;
 mod transform;
 mod unused;
 
+pub use define::Options;
 pub(crate) use fields::Fields;
-use texture::AssetInfo;
-
-/// What is given beside the text.
-#[derive(Clone, Debug, Default)]
-pub struct Options {
-    /// `name=value` pairs that replace the values of parameters of the root file, in order; of two
-    /// with one name the last counts.
-    pub defines: Vec<(String, String)>,
-}
+use file::AssetInfo;
+use index::refuse_index;
 
 /// Everything known about a scene.
 #[derive(Clone, Debug)]
@@ -218,17 +216,6 @@ fn check_asserts(ev: &mut Evaluator<'_>) {
             ev.fault(error);
         }
     }
-}
-
-/// Reports an index on anything but an instance.
-fn refuse_index(ev: &mut Evaluator<'_>, kind: Kind, id: ItemId) -> bool {
-    let Some(index) = ev.program.decl(id).and_then(|decl| decl.index.as_ref()) else {
-        return false;
-    };
-    let text = format!("{} cannot have an index", kind.with_article());
-    let error = Diagnostic::error(diagnostic::Code("E0802"), text);
-    ev.fault(error.at(index.span, "only instances have one"));
-    true
 }
 
 /// Declarations of one kind, in order.

@@ -3,7 +3,11 @@
 //! Every phase returns these beside its result and goes on. Nothing here knows how a diagnostic is
 //! drawn or turned into JSON.
 
-use crate::source::{SourceSet, Span};
+mod short;
+
+pub use short::short;
+
+use crate::source::Span;
 
 /// Most diagnostics that are kept of a file, and of the phases after reading: each takes some hundred
 /// bytes, a fault in a hostile text two.
@@ -191,21 +195,4 @@ pub fn sort(diagnostics: &mut [Diagnostic]) {
     diagnostics.sort_by(|a, b| {
         (a.span(), a.code, a.message.as_str()).cmp(&(b.span(), b.code, b.message.as_str()))
     });
-}
-
-/// One short line, `file:line:column: error[E0101]: message`, for logs and tests.
-#[must_use]
-pub fn short(sources: &SourceSet, diagnostic: &Diagnostic) -> String {
-    let kind = match diagnostic.severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-    };
-    let (code, message) = (diagnostic.code.0, &diagnostic.message);
-    match diagnostic.span() {
-        None => format!("{kind}[{code}]: {message}"),
-        Some(span) => {
-            let (name, at) = (sources.name(span.file), sources.start(span));
-            format!("{name}:{}:{}: {kind}[{code}]: {message}", at.line, at.column)
-        }
-    }
 }

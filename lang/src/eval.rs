@@ -7,11 +7,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-use crate::check::collect::OwnFields;
-use crate::check::texture::TextureInfo;
+use crate::check::file::TextureInfo;
+use crate::check::given::OwnFields;
 use crate::diagnostic::{Code, Diagnostic, MAX_FAULTS, Severity};
-use crate::resolve::like::Model;
-use crate::resolve::{ItemId, Program};
+use crate::resolve::{ItemId, Model, Program};
 use crate::source::{SourceSet, Span};
 use crate::syntax::{Expr, ExprKind};
 

@@ -2,27 +2,17 @@
 //!
 //! Every page about a code has an example that fails with exactly that code; a test runs them.
 
+mod code;
+
+pub(crate) use code::code_page;
+pub use code::codes;
+
 use std::fmt::Write as _;
 
 use crate::eval::function::{self, FUNCTIONS};
 use crate::reference;
 use crate::schema::{self, Kind};
 use crate::units;
-
-/// Pages as Markdown; each starts with a line `# CODE: title`.
-const PAGES: [&str; 6] = [
-    include_str!("explain/syntax.md"),
-    include_str!("explain/names.md"),
-    include_str!("explain/types.md"),
-    include_str!("explain/values.md"),
-    include_str!("explain/view.md"),
-    include_str!("explain/files.md"),
-];
-
-/// Every code that has a page, in order of the pages.
-pub fn codes() -> impl Iterator<Item = &'static str> {
-    pages().map(|(code, _)| code)
-}
 
 /// A Markdown page about a code (`E0301`), a lint (`unused`), a kind (`camera`), a type
 /// (`material.diffuse` or just `diffuse`), a field of one (`metal.fuzz`), a function (`polar`) or a
@@ -37,26 +27,10 @@ pub fn explain(code_or_name: &str) -> Option<String> {
         .or_else(|| unit_page(name))
 }
 
-/// `(code, page)` of every page.
-fn pages() -> impl Iterator<Item = (&'static str, &'static str)> {
-    PAGES.iter().flat_map(|file| file.split("\n# ")).map(|page| {
-        let page = page.trim_start_matches("# ");
-        (page.split(':').next().unwrap_or(page), page)
-    })
-}
-
-fn code_page(name: &str) -> Option<String> {
-    let lint = format!("(`{name}`)");
-    let is_it = |(code, page): &(&str, &str)| {
-        code.eq_ignore_ascii_case(name)
-            || page.lines().next().is_some_and(|title| title.ends_with(&lint))
-    };
-    pages().find(is_it).map(|(_, page)| format!("# {}\n", page.trim_end()))
-}
-
 fn type_page(name: &str) -> Option<String> {
     if let Some(kind) = Kind::from_name(name) {
-        let pages: Vec<String> = kind.types().iter().map(|t| reference::type_page(t)).collect();
+        let pages: Vec<String> =
+            schema::types_of(kind).iter().map(|t| reference::type_page(t)).collect();
         return Some(pages.join("\n"));
     }
     let found: Vec<String> = schema::all_types()

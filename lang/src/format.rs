@@ -10,15 +10,14 @@
 mod print;
 mod tree;
 
+pub use print::MAX_WIDTH;
+
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lex::{Kind, lex};
 use crate::parse::parse;
 use crate::source::{FileId, SourceSet, Span};
 use crate::split::split;
 use crate::syntax::File;
-
-/// Longest line that is left unbroken, in characters.
-pub const MAX_WIDTH: usize = 100;
 
 /// Formats one text; its diagnostics name the file `FileId(0)`.
 pub fn format(text: &str) -> Result<String, Vec<Diagnostic>> {

@@ -2,7 +2,7 @@
 //! how it is written.
 
 use crate::check::Fields;
-use crate::check::camera::one_of;
+use crate::check::exclusive::one_of;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::eval::value::Value;

@@ -15,7 +15,7 @@ pub fn reference_markdown() -> String {
     let mut out = String::from(HEAD);
     for kind in Kind::ALL {
         let _ = writeln!(out, "\n## {}\n", kind.name());
-        for (i, schema) in kind.types().iter().enumerate() {
+        for (i, schema) in schema::types_of(kind).iter().enumerate() {
             if i > 0 {
                 out.push('\n');
             }
@@ -46,7 +46,7 @@ pub fn reference_markdown() -> String {
     let _ = writeln!(out, "{}.", words.join(", "));
     out.push_str("\n## Codes\n\n`rtc explain CODE` prints a page with an example.\n\n");
     for code in explain::codes() {
-        let page = explain::explain(code).unwrap_or_default();
+        let page = explain::code_page(code).unwrap_or_default();
         let title = page.lines().next().unwrap_or_default().trim_start_matches("# ");
         let title = title.trim_start_matches(code).trim_start_matches(": ");
         let _ = writeln!(out, "- `{code}` {title}");

@@ -14,8 +14,10 @@ use crate::syntax::{Decl, DeclKind, File, Ident, Item, ItemKind, Path};
 
 mod import;
 pub(crate) mod like;
+mod model;
 
 pub(crate) use import::load;
+pub(crate) use model::Model;
 
 /// Names that may be compared in search of similar ones; a file full of unknown names would
 /// otherwise take time that grows with the square of its length.

@@ -4,6 +4,10 @@
 //! every value in a unit that shows it exactly. It is for people and for comparing; the names of
 //! expanded instances and their axes are not part of the language.
 
+mod written;
+
+pub(crate) use written::{Declared, length, number, vector};
+
 use std::fmt::{self, Write as _};
 
 use crate::material::Shown;
@@ -39,7 +43,7 @@ fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
         )?;
     }
     for material in &scene.materials {
-        let mut shown = Shown { scene, lines: Vec::new() };
+        let mut shown = Shown::new(&scene.textures, &scene.media);
         let kind = material.model.show(&mut shown);
         let mut fields = shown.lines;
         if let Some(map) = &material.normal {
@@ -79,9 +83,6 @@ fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
     }
     write_view(out, scene)
 }
-
-/// Name of a type, and the fields of a declaration as they would be written.
-pub(crate) type Declared = (&'static str, Vec<(&'static str, String)>);
 
 /// A declaration with its fields, one on each line.
 fn block(out: &mut String, head: &str, fields: &[(&str, String)]) -> fmt::Result {
@@ -143,7 +144,7 @@ fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {
         ("camera", camera.name.text.clone()),
         ("film", film.name.text.clone()),
         ("sky", sky.to_owned()),
-        ("atmosphere", Shown { scene, lines: Vec::new() }.medium(render.atmosphere)),
+        ("atmosphere", Shown::new(&scene.textures, &scene.media).medium(render.atmosphere)),
         ("samples", render.samples.to_string()),
         ("depth", render.max_depth.to_string()),
         ("roulette", render.roulette_depth.to_string()),
@@ -171,21 +172,6 @@ fn camera_fields(camera: &Camera) -> [(&'static str, String); 8] {
 
 fn texture_name(scene: &Scene, texture: usize) -> &str {
     scene.textures.get(texture).map_or("", |texture| texture.name.text.as_str())
-}
-
-/// A plain number.
-pub(crate) fn number(value: f64) -> String {
-    units::show_number(value)
-}
-
-/// A length.
-pub(crate) fn length(metres: f64) -> String {
-    units::show(metres, Dim::LENGTH)
-}
-
-/// Three numbers and their unit.
-pub(crate) fn vector([x, y, z]: [f64; 3], unit: &str) -> String {
-    format!("({}, {}, {}){unit}", number(x), number(y), number(z))
 }
 
 fn axis(axis: Axis) -> &'static str {

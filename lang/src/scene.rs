@@ -8,11 +8,13 @@
 //!
 //! Lists are sorted by name, so that the order of declarations in the text does not matter.
 
+mod common;
 mod file;
 mod instance;
 mod light;
 mod view;
 
+pub use common::{Name, Rgb};
 pub use file::{Asset, AssetFormat, Axis, ColorSpace, Texture, Wrap};
 pub use instance::Instance;
 pub use light::{Light, Tint};
@@ -24,7 +26,6 @@ pub use crate::material::{
 pub use crate::medium::{Medium, MediumModel};
 pub use crate::shape::Shape;
 pub use crate::sky::{Sky, SkyModel};
-use crate::source::Span;
 
 /// A whole checked scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,15 +51,3 @@ pub struct Scene {
     /// The one `render` declaration.
     pub render: Render,
 }
-
-/// A name with the place where it was declared.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Name {
-    /// The name as other declarations use it; imported names carry their prefix (`lantern.body`).
-    pub text: String,
-    /// Where it is declared.
-    pub span: Span,
-}
-
-/// Linear Rec. 709 triple.
-pub type Rgb = [f64; 3];

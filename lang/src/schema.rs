@@ -1,7 +1,7 @@
-//! The one table of the language: every kind, type and field with unit, range, default and doc.
+//! What the one table of the language is made of: kinds, types, and fields with unit, range, default and doc.
 //!
-//! Checking, `rtc explain`, the resolved listing and `docs/reference.md` all read this table, so a
-//! field that is not here does not exist anywhere. It does not know the syntax tree or values.
+//! Checking, `rtc explain`, the resolved listing and `docs/reference.md` all read that table, so a
+//! field that is not in it does not exist anywhere; `table` has it whole. It does not know the syntax tree or values.
 
 use crate::units::{self, Dim};
 
@@ -60,7 +60,10 @@ mod film;
 mod instance;
 pub(crate) mod light;
 mod render;
+mod table;
 pub(crate) mod texture;
+
+pub use table::{all_types, find_type, types_of};
 
 /// What a declaration is, or what a call makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -151,25 +154,6 @@ impl Kind {
             Self::Render => "a render",
         }
     }
-
-    /// Its types; one without a name for kinds that are declared without `: type`.
-    #[must_use]
-    pub fn types(self) -> &'static [&'static TypeSchema] {
-        match self {
-            Self::Asset => asset::TYPES,
-            Self::Texture => texture::TYPES,
-            Self::Material => crate::material::TYPES,
-            Self::Medium => crate::medium::TYPES,
-            Self::Shape => crate::shape::TYPES,
-            Self::Object => instance::OBJECT_TYPES,
-            Self::Instance => instance::INSTANCE_TYPES,
-            Self::Light => light::TYPES,
-            Self::Sky => crate::sky::TYPES,
-            Self::Camera => camera::TYPES,
-            Self::Film => film::TYPES,
-            Self::Render => render::TYPES,
-        }
-    }
 }
 
 /// One type of a kind, such as `diffuse` of `material`.
@@ -215,17 +199,6 @@ impl TypeSchema {
             (name, kind) => format!("{} type `{name}`", kind.name()),
         }
     }
-}
-
-/// The type `name` of `kind`.
-#[must_use]
-pub fn find_type(kind: Kind, name: &str) -> Option<&'static TypeSchema> {
-    kind.types().iter().copied().find(|schema| schema.name == name)
-}
-
-/// Every type of every kind, in the order of the reference.
-pub fn all_types() -> impl Iterator<Item = &'static TypeSchema> {
-    Kind::ALL.into_iter().flat_map(|kind| kind.types().iter().copied())
 }
 
 /// One field of a type, or one argument of a call.

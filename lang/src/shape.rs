@@ -2,11 +2,15 @@
 //!
 //! They are calls that stand where a shape is due. How a shape becomes spheres and triangles is the compiler's.
 
-use crate::check::Fields;
+use std::collections::BTreeMap;
+
 use crate::schema::{Bounds, Default, Field, FieldType, Kind, TypeSchema, types};
 use crate::units::{self, Dim};
 
 types!(ShapeType { Sphere = SPHERE, Rectangle = RECTANGLE, Box = BOX });
+
+/// Arguments of a call by name, metres.
+pub(crate) type Lengths = BTreeMap<&'static str, Vec<f64>>;
 
 /// Geometry of an instance, object frame, metres.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,12 +40,16 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// The shape of a call's arguments. `None` only for arguments with faults.
-    pub(crate) fn read(fields: &Fields) -> Option<Self> {
-        Some(match ShapeType::of(fields.schema) {
-            ShapeType::Sphere => Self::Sphere { radius: fields.number("radius")? },
-            ShapeType::Rectangle => Self::Rectangle { size: fields.vector("size")? },
-            ShapeType::Box => Self::Box { size: fields.vector("size")? },
+    /// The shape of a call of `schema`. `None` only where an argument is missing.
+    pub(crate) fn read(schema: &TypeSchema, lengths: &Lengths) -> Option<Self> {
+        let of = |name: &str| lengths.get(name).map(Vec::as_slice);
+        Some(match ShapeType::of(schema) {
+            ShapeType::Sphere => {
+                let [radius] = of("radius")?.try_into().ok()?;
+                Self::Sphere { radius }
+            }
+            ShapeType::Rectangle => Self::Rectangle { size: of("size")?.try_into().ok()? },
+            ShapeType::Box => Self::Box { size: of("size")?.try_into().ok()? },
         })
     }
 

@@ -3,7 +3,9 @@
 //! Names are kept as the user wrote them, for display only. This crate never opens a file: whoever
 //! compiles a scene implements [`Loader`] and adds texts to a [`SourceSet`].
 
-use crate::diagnostic::{Code, Diagnostic, Label};
+mod span;
+
+pub use span::{FileId, Span};
 
 /// Largest source text that is read, in bytes: some 200,000 declarations. Bulk data belongs in meshes and
 /// images.
@@ -11,45 +13,6 @@ pub const MAX_FILE_BYTES: usize = 16 << 20;
 
 /// Most bytes that all texts of a scene have together.
 pub const MAX_SCENE_BYTES: usize = 32 << 20;
-
-/// Index of a file in a `SourceSet`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct FileId(pub u32);
-
-/// A byte range in one file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Span {
-    /// The file.
-    pub file: FileId,
-    /// First byte.
-    pub start: u32,
-    /// One past the last byte.
-    pub end: u32,
-}
-
-impl Span {
-    /// From the start of `self` to the end of `other`. Spans of different files cannot be joined;
-    /// `self` is returned then.
-    #[must_use]
-    pub fn to(self, other: Span) -> Span {
-        if self.file != other.file {
-            return self;
-        }
-        Span { file: self.file, start: self.start.min(other.start), end: self.end.max(other.end) }
-    }
-
-    /// The empty span just before this one.
-    #[must_use]
-    pub fn before(self) -> Span {
-        Span { end: self.start, ..self }
-    }
-
-    /// The empty span just after this one.
-    #[must_use]
-    pub fn after(self) -> Span {
-        Span { start: self.end, ..self }
-    }
-}
 
 /// A place as people count it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -172,29 +135,6 @@ impl SourceSet {
         let id = FileId(u32::try_from(self.files.len()).unwrap_or(u32::MAX));
         self.files.push(Source::new(name.into(), text.into()));
         id
-    }
-
-    /// Adds bytes that should be UTF-8. Where they are not, the wrong bytes are shown as `\u{fffd}`
-    /// and the diagnostic says where they are.
-    pub fn add_bytes(
-        &mut self,
-        name: impl Into<String>,
-        bytes: &[u8],
-    ) -> (FileId, Option<Diagnostic>) {
-        match std::str::from_utf8(bytes) {
-            Ok(text) => (self.add(name, text), None),
-            Err(error) => {
-                let start = error.valid_up_to();
-                let file = self.add(name, String::from_utf8_lossy(bytes));
-                let end = byte_offset(start + '\u{fffd}'.len_utf8());
-                let span = Span { file, start: byte_offset(start), end };
-                let byte = bytes.get(start).copied().unwrap_or_default();
-                let diagnostic = Diagnostic::error(Code("E0107"), "this file is not UTF-8 text")
-                    .with_label(Label::primary(span, format!("byte 0x{byte:02x} here")))
-                    .with_help("save the file as UTF-8");
-                (file, Some(diagnostic))
-            }
-        }
     }
 
     /// Every file, in the order of addition.

@@ -13,8 +13,9 @@ use crate::gpu::{Adapter, GpuError, Ready, adapters};
 use crate::job::Job;
 use crate::render::{DeviceChoice, RenderError, render};
 use crate::run::{Framing, Run};
-use crate::scene::{Scene, Setup};
+use crate::scene::Scene;
 use crate::schedule::Stop;
+use crate::setup::Setup;
 use crate::trust::{FULL, Trust, Wanted, is_same, judge, relink};
 use pack::manifest::KernelSize;
 use serde::Serialize;
@@ -207,8 +208,8 @@ pub fn kernel_texts(scene: &Scene, each: bool) -> Vec<(String, String)> {
     kernels(&scene.setup(&Job::of_scene(scene)), Plan { rounds: 0, each })
 }
 
-/// For tests: the pack's own kernel, put together again as the others are.
-#[doc(hidden)]
+/// The pack's own kernel, put together again from the table of declarations as the others are: the same declarations,
+/// in another order. `None` if it has one that the table does not know.
 #[must_use]
 pub fn relinked(scene: &Scene) -> Option<String> {
     let job = Job::of_scene(scene);
@@ -354,7 +355,7 @@ impl<'a> Bench<'a> {
         let second = Job { measure, seed: job.seed ^ OTHER_NOISE, ..job.clone() };
         let run = new_run(&second, control)?;
         other.render(&scene.setup(&second).with_kernel(text), &run)?;
-        let convergence = run.finish().and_then(|finished| finished.convergence);
+        let convergence = control.finish(&run).and_then(|finished| finished.convergence);
         let last = convergence.and_then(|convergence| convergence.points.last().copied());
         Ok(last.and_then(|point| point.versus).and_then(|versus| versus.z))
     }
@@ -368,12 +369,12 @@ fn timed(
 ) -> Result<(Duration, Film), AblationError> {
     let run = new_run(job, control)?;
     ready.render(setup, &run)?;
-    let finished = run.finish().ok_or(RenderError::Salvaged)?;
+    let finished = control.finish(&run).ok_or(RenderError::Salvaged)?;
     Ok((finished.elapsed, finished.film))
 }
 
 fn new_run<'a>(job: &Job, control: &'a Control) -> Result<Run<'a>, RenderError> {
-    Ok(Run::new(job, control, None, Framing::default())?)
+    Ok(control.start(job, None, Framing::default())?)
 }
 
 /// Pixels whose bits are not the same.

@@ -17,10 +17,10 @@
 
 use crate::film::{Counters, Film};
 use crate::job::{Job, MAX_PIXELS};
-use crate::memory::NoMemory;
 use crate::output::{Identity, parse_bad, parse_ranges, ranges_text};
 use crate::region::{Rect, SampleRange};
 use crate::scene::Scene;
+use crate::zeros::NoMemory;
 use files::{FileError, ShowPath as _};
 use pack::abi::BATCH;
 use std::collections::BTreeMap;

@@ -8,8 +8,10 @@
 mod ablate;
 mod args;
 mod bench;
+mod change;
 mod check;
 mod console;
+mod exit;
 mod guard;
 mod measure;
 mod open;
@@ -19,27 +21,26 @@ mod watch;
 
 use self::args::{Args, Command, MergeArgs};
 use self::console::Console;
+use self::exit::Exit;
 use self::outputs::{Claim, prove, save};
 use crate::output;
+use crate::signals::Observer;
 use clap::Parser as _;
 use files::ShowPath as _;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-/// How a command ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Exit {
-    Done = 0,
-    NotFinite = 1,
-    Usage = 2,
-    World = 3,
-    Bug = 70,
-    Interrupted = 130,
-}
-
 /// Runs `rtr` with these arguments, the program's name first. May be called several times in one
 /// process.
 pub fn run(args: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> ExitCode {
+    run_observed(args, &|_| ())
+}
+
+/// The same; `observer` is told what happens while a picture is rendered.
+pub fn run_observed(
+    args: impl IntoIterator<Item = impl Into<OsString> + Clone>,
+    observer: &'static Observer,
+) -> ExitCode {
     let args = match Args::try_parse_from(args) {
         Ok(args) => args,
         Err(error) => {
@@ -64,8 +65,8 @@ pub fn run(args: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> ExitC
         Some(Command::Check(args)) => check::command(args),
         None if args.render.list_devices => list_devices(),
         None if args.render.ablate.is_some() => ablate::command(&args.render),
-        None if args.render.watch => watch::command(&args.render),
-        None => render::command(&args.render, None),
+        None if args.render.watch => watch::command(&args.render, observer),
+        None => render::command(&args.render, observer, None),
     };
     // What could not be printed is an output that could not be written.
     code(if console::has_lost_output() && exit == Exit::Done { Exit::World } else { exit })

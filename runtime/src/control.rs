@@ -1,43 +1,18 @@
-//! What a run and its owner tell each other while it goes on: progress, notes, the wish to stop.
+//! The owner's end of a run: progress, events, the wish to stop, and what can be saved of one that hangs.
 
-use crate::render::Outcome;
-use crate::run::Shared;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use crate::film::Film;
+use crate::job::Job;
+use crate::outcome::Outcome;
+use crate::run::{Finished, Framing, Run, Shared};
+use crate::signals::{Event, Progress, Signals};
+use crate::zeros::NoMemory;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Shared between a run and whoever watches it. Counters only grow.
+/// Shared between a run and whoever watches it.
 pub struct Control {
-    cancel: AtomicBool,
-    total: AtomicU64,
-    done: AtomicU64,
-    before: AtomicU64,
-    rays: AtomicU64,
-    /// See `break_block`; 0 is never.
-    broken_block: AtomicU64,
-    /// See `stall_block`; 0 is never.
-    stalled_block: AtomicU64,
+    signals: Signals,
     /// The run, while it goes on.
     run: Mutex<Option<Arc<Shared>>>,
-    /// See `lose_device`.
-    lost_after: AtomicU64,
-    losses: AtomicU64,
-    /// See `ignore_timestamps`.
-    untimed: AtomicBool,
-    note: Box<dyn Fn(&str) + Send + Sync>,
-    gate: Box<dyn Fn() -> bool + Send + Sync>,
-}
-
-/// How far a run is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Progress {
-    /// Pixel samples of the whole job.
-    pub total: u64,
-    /// Pixel samples that were rendered.
-    pub done: u64,
-    /// Pixel samples that an earlier run had done already; part of `done`.
-    pub before: u64,
-    /// Rays that this run traced.
-    pub rays: u64,
 }
 
 impl Default for Control {
@@ -47,42 +22,33 @@ impl Default for Control {
 }
 
 impl Control {
-    /// `note` gets one line for everything worth telling: which device, what went wrong with it.
-    /// It may be called from any thread.
-    pub fn new(note: impl Fn(&str) + Send + Sync + 'static) -> Self {
-        Self {
-            cancel: AtomicBool::new(false),
-            total: AtomicU64::new(0),
-            done: AtomicU64::new(0),
-            before: AtomicU64::new(0),
-            rays: AtomicU64::new(0),
-            broken_block: AtomicU64::new(0),
-            stalled_block: AtomicU64::new(0),
-            run: Mutex::new(None),
-            lost_after: AtomicU64::new(0),
-            losses: AtomicU64::new(0),
-            untimed: AtomicBool::new(false),
-            note: Box::new(note),
-            gate: Box::new(|| true),
-        }
+    /// `observer` is told what happens, from any thread.
+    pub fn new(observer: impl Fn(Event<'_>) + Send + Sync + 'static) -> Self {
+        Self { signals: Signals::new(observer), run: Mutex::new(None) }
     }
 
     /// `gate` is asked, by any thread, before each checkpoint is written, and may take its time. What was rendered is
     /// kept only if it says yes.
     #[must_use]
     pub fn gated(self, gate: impl Fn() -> bool + Send + Sync + 'static) -> Self {
-        Self { gate: Box::new(gate), ..self }
+        Self { signals: self.signals.gated(gate), ..self }
     }
 
     /// Asks the run to end soon, with every complete batch.
     pub fn cancel(&self) {
-        self.cancel.store(true, Ordering::Relaxed);
+        self.signals.cancel();
     }
 
     /// Whether `cancel` was called.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
-        self.cancel.load(Ordering::Relaxed)
+        self.signals.is_cancelled()
+    }
+
+    /// How far the run is.
+    #[must_use]
+    pub fn progress(&self) -> Progress {
+        self.signals.progress()
     }
 
     /// Whether the run should have ended for its time limit: 10 % or one second ago, whatever is longer.
@@ -97,101 +63,36 @@ impl Control {
     /// after all, it gives `RenderError::Salvaged`.
     #[must_use]
     pub fn salvage(&self) -> Option<Outcome> {
-        self.run()?.salvage(self)
+        self.run()?.salvage(&self.signals)
+    }
+
+    pub(crate) fn signals(&self) -> &Signals {
+        &self.signals
+    }
+
+    /// Begins a run that can be salvaged from here, from `film`, which `Checkpoint::can_hold`, or from nothing.
+    pub(crate) fn start(
+        &self,
+        job: &Job,
+        film: Option<Film>,
+        frame: Framing,
+    ) -> Result<Run<'_>, NoMemory> {
+        let run = Run::new(job, &self.signals, film, frame)?;
+        self.set_run(Some(Arc::clone(run.shared())));
+        Ok(run)
+    }
+
+    /// Takes what is complete of `run`, which is over; `None` when that was done already.
+    pub(crate) fn finish(&self, run: &Run<'_>) -> Option<Finished> {
+        self.set_run(None);
+        run.shared().take()
     }
 
     fn run(&self) -> Option<Arc<Shared>> {
         self.run.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    pub(crate) fn set_run(&self, run: Option<Arc<Shared>>) {
+    fn set_run(&self, run: Option<Arc<Shared>>) {
         *self.run.lock().unwrap_or_else(PoisonError::into_inner) = run;
-    }
-
-    /// How far the run is.
-    #[must_use]
-    pub fn progress(&self) -> Progress {
-        let load = |counter: &AtomicU64| counter.load(Ordering::Relaxed);
-        Progress {
-            total: load(&self.total),
-            done: load(&self.done),
-            before: load(&self.before),
-            rays: load(&self.rays),
-        }
-    }
-
-    /// For tests: the CPU kernel panics in its `n`th block from now, counted from 1.
-    #[doc(hidden)]
-    pub fn break_block(&self, n: u64) {
-        self.broken_block.store(n, Ordering::Relaxed);
-    }
-
-    /// For tests: the `n`th block from now, counted from 1, never comes back; on a GPU the `n`th submission.
-    #[doc(hidden)]
-    pub fn stall_block(&self, n: u64) {
-        self.stalled_block.store(n, Ordering::Relaxed);
-    }
-
-    /// For tests: the next `times` GPU devices are lost after `n` tiles each.
-    #[doc(hidden)]
-    pub fn lose_device(&self, n: u64, times: u64) {
-        self.lost_after.store(n, Ordering::Relaxed);
-        self.losses.store(times, Ordering::Relaxed);
-    }
-
-    /// For tests: GPU devices are opened as if they had no timestamps.
-    #[doc(hidden)]
-    pub fn ignore_timestamps(&self) {
-        self.untimed.store(true, Ordering::Relaxed);
-    }
-
-    #[cfg(feature = "gpu")]
-    pub(crate) fn ignores_timestamps(&self) -> bool {
-        self.untimed.load(Ordering::Relaxed)
-    }
-
-    /// Whether the block that begins now is to break.
-    pub(crate) fn breaks_now(&self) -> bool {
-        let left = |n: u64| n.checked_sub(1);
-        self.broken_block.fetch_update(Ordering::Relaxed, Ordering::Relaxed, left) == Ok(1)
-    }
-
-    /// Never comes back if the block that begins now is the one to stall.
-    pub(crate) fn stall_if_asked(&self) {
-        let left = |n: u64| n.checked_sub(1);
-        if self.stalled_block.fetch_update(Ordering::Relaxed, Ordering::Relaxed, left) == Ok(1) {
-            loop {
-                std::thread::park();
-            }
-        }
-    }
-
-    /// Whether a device that has rendered `n` tiles is to be lost now.
-    #[cfg(feature = "gpu")]
-    pub(crate) fn loses_device_after(&self, n: u64) -> bool {
-        let left = |times: u64| times.checked_sub(1);
-        n >= self.lost_after.load(Ordering::Relaxed)
-            && self.losses.fetch_update(Ordering::Relaxed, Ordering::Relaxed, left).is_ok()
-    }
-
-    /// Whether what was rendered so far may be kept.
-    pub(crate) fn may_keep(&self) -> bool {
-        (self.gate)()
-    }
-
-    pub(crate) fn note(&self, text: &str) {
-        (self.note)(text);
-    }
-
-    /// A run of `total` pixel samples begins, of which `before` were done by an earlier one.
-    pub(crate) fn begin(&self, total: u64, before: u64) {
-        self.before.store(before, Ordering::Relaxed);
-        self.done.store(before, Ordering::Relaxed);
-        self.total.store(total, Ordering::Relaxed);
-    }
-
-    pub(crate) fn advance(&self, samples: u64, rays: u64) {
-        self.done.fetch_add(samples, Ordering::Relaxed);
-        self.rays.fetch_add(rays, Ordering::Relaxed);
     }
 }

@@ -8,46 +8,17 @@
 mod canvas;
 mod compare;
 mod estimate;
+mod goal;
 mod plot;
 mod raster;
 mod reference;
-mod report;
 mod track;
 
 pub use self::compare::{Comparison, Spread, compare};
-pub use self::estimate::{Noise, moments, noise};
+pub use self::estimate::{Noise, noise};
+pub use self::goal::{Goal, Measure, Quantity};
 pub use self::plot::{chart_png, chart_svg};
 pub use self::reference::{Reference, Versus};
-pub use self::report::{Report, Resolution};
-pub use self::track::{Convergence, Goal, Point, Quantity, Times};
+pub use self::track::{Convergence, Point, Times};
 pub(crate) use self::track::{Moment, Tracker};
-
-use std::sync::Arc;
-
-/// Pictures of independent noise.
-pub const REPLICATES: usize = 4;
-/// `REPLICATES` as a count of samples.
-pub(crate) const REPLICATES_U32: u32 = 4;
-
-/// What is wanted of a run that is measured.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Measure {
-    /// When the picture is good enough; `None`: only samples and time end the run.
-    pub goal: Option<Goal>,
-    /// What the picture converges to, where that is known.
-    pub reference: Option<Arc<Reference>>,
-}
-
-/// Luminance of linear Rec. 709, ITU-R BT.709-6, item 3.2.
-#[must_use]
-pub fn luminance([r, g, b]: [f64; 3]) -> f64 {
-    0.2126 * r + 0.7152 * g + 0.0722 * b
-}
-
-/// The seed of a replicate: the first has that of the image, so it is part of the usual picture.
-/// Both samplers hash the seed, so any other number makes other noise.
-#[must_use]
-pub fn replicate_seed(seed: u32, replicate: u32) -> u32 {
-    // 2^32 over the golden ratio: far from the seeds that people choose.
-    seed.wrapping_add(replicate.wrapping_mul(0x9e37_79b9))
-}
+pub use crate::replicate::{REPLICATES, luminance, moments, replicate_seed};

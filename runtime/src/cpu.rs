@@ -6,7 +6,8 @@
 use crate::job::{Job, Precision};
 use crate::kernel;
 use crate::run::Run;
-use crate::scene::Setup;
+use crate::setup::Setup;
+use crate::signals::Event;
 use glam::{UVec3, UVec4};
 use pack::Kind;
 use pack::abi::{FilmPixel, Frame};
@@ -171,8 +172,7 @@ fn worker(tile: RenderTile, setup: &Setup<'_>, run: &Run<'_>) {
         let size = [item.tile.w, item.tile.h];
         let is_over = || run.is_broken_off();
         let render = || {
-            assert!(!run.control().breaks_now(), "broken for a test");
-            run.control().stall_if_asked();
+            run.signals().tell(Event::Block);
             tile(inputs, size, film, &is_over)
         };
         // Only `pixels` is written, and a failed block is not read.

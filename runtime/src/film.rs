@@ -4,10 +4,10 @@
 //! region has arrived. So the film never depends on the order in which tiles finish, and it is
 //! evenly sampled at every moment. It does not know devices or files.
 
-use crate::convergence::{REPLICATES, REPLICATES_U32, luminance, moments};
-use crate::memory::{NoMemory, zeros};
 use crate::region::{Rect, SampleRange, insert_range};
+use crate::replicate::{REPLICATES, REPLICATES_U32, luminance, moments};
 use crate::schedule::WorkItem;
+use crate::zeros::{NoMemory, zeros};
 use pack::abi::FilmPixel;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -289,8 +289,8 @@ impl Accumulator {
                 let bad = BadSample { x, y, sample: pixel.first_bad };
                 plane.counters.rays += u64::from(pixel.rays);
                 plane.counters.depth = plane.counters.depth.max(pixel.depth);
-                plane.counters.overflows += u64::from(pixel.strays & 0xffff);
-                plane.counters.leaks += u64::from(pixel.strays >> 16);
+                plane.counters.overflows += u64::from(pixel.stack_errors & 0xffff);
+                plane.counters.leaks += u64::from(pixel.stack_errors >> 16);
                 if pixel.bad > 0 {
                     plane.counters.bad += u64::from(pixel.bad);
                     let first = plane.counters.first_bad;

@@ -5,55 +5,25 @@
 
 mod adapter;
 mod device;
+mod error;
 mod pace;
 mod queue;
 mod slot;
 mod stopwatch;
+mod trial;
 mod upload;
 
 pub use self::adapter::{Adapter, adapters, describe};
+pub use self::error::GpuError;
 
 use self::device::{Device, Module};
 use self::pace::Pace;
+use self::trial::open;
 use crate::job::Job;
 use crate::run::Run;
-use crate::scene::Setup;
+use crate::setup::Setup;
 use crate::trust::{Trust, judge};
 use std::time::Duration;
-use thiserror::Error;
-
-/// What can go wrong on a GPU.
-#[derive(Debug, Error)]
-pub enum GpuError {
-    /// The adapter gives no device.
-    #[error("the adapter gives no device: {0}")]
-    Device(String),
-    /// The scene needs more than the adapter offers.
-    #[error("the scene needs {needed} {what}, the adapter has {available}")]
-    Limit {
-        /// What there is too little of.
-        what: &'static str,
-        /// How much is needed.
-        needed: u64,
-        /// How much there is.
-        available: u64,
-    },
-    /// Memory ran out.
-    #[error("out of GPU memory: {0}")]
-    Memory(String),
-    /// The kernel does not compile on this device.
-    #[error("the kernel does not compile on this device: {0}")]
-    Kernel(String),
-    /// The device is gone: a reset, a timeout, a driver update.
-    #[error("the device was lost: {0}")]
-    Lost(String),
-    /// The device answered, but not with a picture.
-    #[error("the device gives wrong results: {0}")]
-    Wrong(String),
-    /// Another refusal of the API; a bug of ours or of the driver.
-    #[error("{0}")]
-    Api(String),
-}
 
 /// Losses after which the device is not tried again, unless it rendered something in between.
 const MAX_LOSSES: u32 = 3;
@@ -67,7 +37,7 @@ pub(crate) struct Ready {
 impl Ready {
     /// Without runtime checks: the kernel of `setup` must be known, or be ours.
     pub(crate) fn open(adapter: &Adapter, setup: &Setup<'_>, job: &Job) -> Result<Self, GpuError> {
-        let device = Device::open(adapter, setup, Module::Trusted, true)?;
+        let device = open(adapter, setup, Module::Trusted, true)?;
         Ok(Self { device, pace: Pace::new(job.submission) })
     }
 
@@ -104,12 +74,9 @@ pub(crate) fn render(
     let mut losses = 0;
     loop {
         let before = run.done();
-        let error = match Device::open(adapter, setup, module, !run.control().ignores_timestamps())
-        {
-            Ok(mut device) => match device.render(setup, run, &mut pace) {
-                Ok(()) => return Ok(()),
-                Err(error) => error,
-            },
+        let opened = open(adapter, setup, module, job.timestamps);
+        let error = match opened.and_then(|mut device| device.render(setup, run, &mut pace)) {
+            Ok(()) => return Ok(()),
             Err(error) => error,
         };
         losses = if run.done() > before { 1 } else { losses + 1 };

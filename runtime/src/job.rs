@@ -1,7 +1,8 @@
 //! What to render, in one value: size, crop, samples, seed, limits.
 
-use crate::convergence::{Measure, REPLICATES_U32};
+use crate::convergence::Measure;
 use crate::region::{Rect, SampleRange};
+use crate::replicate::REPLICATES_U32;
 use crate::scene::Scene;
 use std::time::Duration;
 use thiserror::Error;
@@ -59,6 +60,8 @@ pub struct Job {
     pub strict: bool,
     /// Wanted duration of one GPU submission.
     pub submission: Duration,
+    /// Whether submissions are timed by the timestamps of a GPU that has them, not by the wall clock.
+    pub timestamps: bool,
     /// Whether the error is measured: then the picture is the mean of `convergence::REPLICATES`
     /// pictures, and `samples` are those of each.
     pub measure: Option<Measure>,
@@ -111,6 +114,7 @@ impl Job {
             threads: None,
             strict: false,
             submission: Duration::from_millis(100),
+            timestamps: true,
             measure: None,
         }
     }

@@ -2,35 +2,33 @@
 //!
 //! Not written by hand and not edited: `build.rs` links every WGSL module and translates the text.
 
-/// The kernel in single precision: the same bits as a GPU that rounds as IEEE 754 says. Its `trace` is
-/// `walk`'s, what was generated for it is `generated_trace`.
-#[allow(
-    clippy::all,
-    clippy::pedantic,
-    dead_code,
-    missing_docs,
-    unreachable_pub,
-    unused,
-    non_snake_case,
-    non_upper_case_globals,
-    reason = "generated"
-)]
-pub mod f32 {
-    include!(concat!(env!("OUT_DIR"), "/kernel_f32.rs"));
+macro_rules! generated {
+    ($(#[$doc:meta])* $name:ident = $file:literal) => {
+        $(#[$doc])*
+        #[allow(
+            clippy::all,
+            clippy::pedantic,
+            dead_code,
+            missing_docs,
+            unreachable_pub,
+            unused,
+            non_snake_case,
+            non_upper_case_globals,
+            reason = "generated"
+        )]
+        pub mod $name {
+            include!(concat!(env!("OUT_DIR"), $file));
+        }
+    };
 }
 
-/// Its twin in double precision, which shows where rounding matters.
-#[allow(
-    clippy::all,
-    clippy::pedantic,
-    dead_code,
-    missing_docs,
-    unreachable_pub,
-    unused,
-    non_snake_case,
-    non_upper_case_globals,
-    reason = "generated"
-)]
-pub mod f64 {
-    include!(concat!(env!("OUT_DIR"), "/kernel_f64.rs"));
+generated! {
+    /// The kernel in single precision: the same bits as a GPU that rounds as IEEE 754 says. Its `trace` is
+    /// `walk`'s, what was generated for it is `generated_trace`.
+    f32 = "/kernel_f32.rs"
+}
+
+generated! {
+    /// Its twin in double precision, which shows where rounding matters.
+    f64 = "/kernel_f64.rs"
 }

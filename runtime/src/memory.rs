@@ -5,8 +5,9 @@
 //! nothing is known, and nothing is refused. A limit of the process (`ulimit -v`) is another matter: what does
 //! not fit into that is refused however small it is.
 
-use crate::convergence::REPLICATES;
 use crate::job::Job;
+use crate::replicate::REPLICATES;
+use crate::zeros::{amount, zeros};
 use thiserror::Error;
 
 /// A film of which the size is told before it is made.
@@ -28,21 +29,6 @@ pub struct TooLarge {
     pub need: u64,
     /// Bytes that are free.
     pub free: u64,
-}
-
-/// The system gives no memory.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("the system gives no {} of memory: render less at once with --crop or --size", amount(*bytes))]
-pub struct NoMemory {
-    /// Bytes that were asked for.
-    pub bytes: u64,
-}
-
-/// `n` zeros, whose memory is not touched before it is used.
-pub(crate) fn zeros<T: bytemuck::Zeroable>(n: u64) -> Result<Vec<T>, NoMemory> {
-    let error = NoMemory { bytes: n.saturating_mul(size_of::<T>() as u64) };
-    let n = usize::try_from(n).map_err(|_| error)?;
-    bytemuck::try_zeroed_vec(n).map_err(|()| error)
 }
 
 /// Bytes of memory that the film of `job` takes while it is rendered; `saved`: with a copy of it that is written to
@@ -96,13 +82,6 @@ pub(crate) fn announce(job: &Job, saved: bool, free: Free) -> Result<Option<Stri
     }
 }
 
-fn amount(bytes: u64) -> String {
-    if bytes < 1_000_000_000 {
-        return format!("{} MB", bytes / 1_000_000);
-    }
-    format!("{:.1} GB", bytes as f64 / 1e9)
-}
-
 /// What is free now.
 pub(crate) fn free() -> Free {
     Free { machine: host::machine(), limit: host::room().map(|room| room.free) }
@@ -128,6 +107,7 @@ mod tests {
             threads: None,
             strict: false,
             submission: Duration::from_millis(100),
+            timestamps: true,
             measure,
         }
     }

@@ -5,90 +5,18 @@
 
 mod exr;
 mod merge;
+mod picture;
 mod png;
 
 pub(crate) use self::exr::parse_bad;
 pub use self::exr::{encode_exr, read_exr};
 pub use self::merge::{Identity, MergeError, merge};
+pub use self::picture::{Meta, OutputError, Picture};
+pub(crate) use self::picture::{parse_ranges, ranges_text};
 pub(crate) use self::png::encode_rgb;
 pub use self::png::{encode_png, tone_map};
 
-use crate::film::Film;
-use crate::region::SampleRange;
-use files::ShowPath as _;
-use std::path::{Path, PathBuf};
-use thiserror::Error;
-
-/// A film and where it comes from.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
-    /// The pixels.
-    pub film: Film,
-    /// The rest.
-    pub meta: Meta,
-}
-
-/// What is known about a picture beside its pixels; all of it is stored in the EXR.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Meta {
-    /// Hexadecimal name of what was rendered, from the pack; parts of one picture share it.
-    pub render_id: String,
-    /// Seed of the image.
-    pub seed: u32,
-    /// Estimator switch of the kernel; 0 except in tests.
-    pub estimator: u32,
-    /// Precision of the kernel: `f32` or `f64`.
-    pub precision: String,
-    /// Devices that rendered it, in order.
-    pub device: String,
-    /// Seconds of rendering; of merged parts, their sum.
-    pub seconds: f64,
-    /// Exposure of the PNG in stops; not applied to the EXR.
-    pub exposure: f32,
-    /// `ToneMap` number of the PNG; not applied to the EXR.
-    pub tone_map: u32,
-    /// False when the run ended before all requested samples, or a tile failed.
-    pub complete: bool,
-}
-
-/// A picture that cannot be read or written.
-#[derive(Debug, Error)]
-pub enum OutputError {
-    /// The file cannot be opened, created, written or renamed.
-    #[error(transparent)]
-    Write(files::FileError),
-    /// The encoder refused.
-    #[error("cannot encode the picture: {message}")]
-    Encode {
-        /// The encoder's words.
-        message: String,
-    },
-    /// The file cannot be opened, or is none.
-    #[error(transparent)]
-    Open(files::FileError),
-    /// The file cannot be read as an EXR image.
-    #[error("cannot read {}: {message}", path.shown())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// The decoder's words.
-        message: String,
-    },
-    /// An EXR image that `rtr` did not write, or that lacks what is needed here.
-    #[error("{} is not a picture of rtr: {message}", path.shown())]
-    Foreign {
-        /// The file.
-        path: PathBuf,
-        /// What is missing.
-        message: String,
-    },
-    /// A file name that says neither `.exr` nor `.png`.
-    #[error("{}: the name must end in .exr or .png", path.shown())]
-    Format {
-        /// The name.
-        path: PathBuf,
-    },
-}
+use std::path::Path;
 
 /// Kind of a picture file, from its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -124,22 +52,4 @@ pub fn encode(format: Format, picture: &Picture, residual: bool) -> Result<Vec<u
         Format::Exr => encode_exr(picture, residual),
         Format::Png => encode_png(picture),
     }
-}
-
-/// `0..32,64..96`.
-pub(crate) fn ranges_text(ranges: &[SampleRange]) -> String {
-    ranges.iter().map(SampleRange::to_string).collect::<Vec<_>>().join(",")
-}
-
-/// The inverse of `ranges_text`; `None` when malformed, overlapping or empty ranges occur.
-pub(crate) fn parse_ranges(text: &str) -> Option<Vec<SampleRange>> {
-    let mut ranges = Vec::new();
-    for part in text.split(',').filter(|part| !part.is_empty()) {
-        let (start, end) = part.split_once("..")?;
-        let range = SampleRange::new(start.parse().ok()?, end.parse().ok()?)?;
-        if !crate::region::insert_range(&mut ranges, range) {
-            return None;
-        }
-    }
-    Some(ranges)
 }

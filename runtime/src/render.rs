@@ -1,17 +1,15 @@
 //! Scene + job + device → film: chooses the device, renders, and survives its loss.
 
 use crate::control::Control;
-use crate::convergence::Convergence;
 use crate::cpu;
-use crate::film::Film;
 use crate::job::{Job, JobError};
-use crate::mark::Mark;
-use crate::memory::{self, NoMemory, TooLarge};
-use crate::output::{Meta, Picture};
-use crate::run::{Framing, Run, Shared, TileFailure};
+use crate::memory::{self, TooLarge};
+use crate::outcome::Outcome;
+use crate::output::Meta;
+use crate::run::{Framing, Run, Shared};
 use crate::saver::{Saver, Session};
 use crate::scene::Scene;
-use crate::schedule::Stop;
+use crate::zeros::NoMemory;
 use std::time::Duration;
 use thiserror::Error;
 
@@ -64,41 +62,6 @@ pub enum RenderError {
     NoDevice(String),
 }
 
-/// What a run gives.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
-    /// The film and what is known about it.
-    pub picture: Picture,
-    /// Why the run ended.
-    pub stop: Stop,
-    /// Tiles that could not be rendered; bugs.
-    pub failures: Vec<TileFailure>,
-    /// What became of the device, when it could not finish.
-    pub device_error: Option<String>,
-    /// Time from the first claim to the last deposit, with that of the runs it went on from.
-    pub elapsed: Duration,
-    /// Whether a checkpoint was written.
-    pub saved: bool,
-    /// The checkpoint of this run: the one that it wrote last, or the one that it goes on from.
-    pub checkpoint: Option<Mark>,
-    /// The error curve, of a run that was measured.
-    pub convergence: Option<Convergence>,
-}
-
-impl Outcome {
-    /// The film.
-    #[must_use]
-    pub fn film(&self) -> &Film {
-        &self.picture.film
-    }
-
-    /// Whether more than one sample in 10^7 was not finite.
-    #[must_use]
-    pub fn too_many_bad(&self) -> bool {
-        self.film().counters.bad as f64 > 1e-7 * self.film().total_samples() as f64
-    }
-}
-
 /// Renders `job`. Whatever goes wrong on the way, the outcome holds every batch that was complete.
 pub fn render(
     scene: &Scene,
@@ -124,7 +87,7 @@ pub fn render_session(
     // A run that is measured has four pictures to keep, which no checkpoint holds.
     let (from, keep) = if job.measure.is_some() { (None, None) } else { (from, keep) };
     if let Some(text) = memory::announce(job, keep.is_some(), memory::free())? {
-        control.note(&text);
+        control.signals().note(&text);
     }
     let mut frame = Framing {
         meta: meta(scene, job),
@@ -136,14 +99,17 @@ pub fn render_session(
         frame.devices = from.device.split(" + ").map(str::to_owned).collect();
         from.film
     });
-    let run = Run::new(job, control, film, frame)?;
+    let run = control.start(job, film, frame)?;
     let (finished, device_error) = std::thread::scope(|scope| {
         if run.shared().saver().is_some() {
             let shared: &Shared = run.shared();
-            let work = move || shared.saver().into_iter().for_each(|saver| saver.work(control));
+            let work =
+                move || shared.saver().into_iter().for_each(|saver| saver.work(control.signals()));
             let thread = std::thread::Builder::new().name("rtr-saver".to_owned());
             if let Err(error) = thread.spawn_scoped(scope, work) {
-                control.note(&format!("warning: no checkpoints while it renders: {error}"));
+                control
+                    .signals()
+                    .note(&format!("warning: no checkpoints while it renders: {error}"));
             }
         }
         let backends = Backends {
@@ -154,14 +120,14 @@ pub fn render_session(
         };
         let error = backends.render(&device, &run);
         // Before the last checkpoint is waited for: from here on nothing can hang but a disk.
-        let finished = run.finish();
+        let finished = control.finish(&run);
         if let Some(saver) = run.shared().saver() {
             saver.close();
         }
         (finished, error)
     });
     let finished = finished.ok_or(RenderError::Salvaged)?;
-    Ok(run.shared().outcome(finished, device_error, control))
+    Ok(run.shared().outcome(finished, device_error, control.signals()))
 }
 
 /// What is known of a picture before it is rendered.

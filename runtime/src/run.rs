@@ -3,36 +3,26 @@
 //! Everything that decides about the picture happens here, under one lock; backends only turn work
 //! items into pixels. A tile that fails is reported and left out, the others go on.
 
-use crate::control::Control;
-use crate::convergence::{Convergence, Moment, REPLICATES_U32, Times, Tracker};
+use crate::convergence::{Convergence, Moment, Times, Tracker};
 use crate::film::{Accumulator, Film};
 use crate::job::Job;
-use crate::memory::NoMemory;
+use crate::outcome::{Outcome, TileFailure};
 use crate::output::{Meta, Picture};
-use crate::region::{Rect, SampleRange};
-use crate::render::Outcome;
+use crate::region::SampleRange;
+use crate::replicate::REPLICATES_U32;
 use crate::saver::Saver;
 use crate::schedule::{Claim, Scheduler, Stop, TileSize, WorkItem, slack};
+use crate::signals::Signals;
+use crate::zeros::NoMemory;
 use pack::abi::FilmPixel;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// A tile that could not be rendered.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TileFailure {
-    /// Its pixels.
-    pub tile: Rect,
-    /// Its first sample.
-    pub sample: u32,
-    /// What happened.
-    pub message: String,
-}
-
 /// A run, as the threads of its backend see it.
 pub(crate) struct Run<'a> {
     shared: Arc<Shared>,
-    control: &'a Control,
+    signals: &'a Signals,
     strict: bool,
 }
 
@@ -99,7 +89,7 @@ impl<'a> Run<'a> {
     /// A run that goes on from `film`, which `Checkpoint::can_hold`, or begins.
     pub(crate) fn new(
         job: &Job,
-        control: &'a Control,
+        signals: &'a Signals,
         film: Option<Film>,
         frame: Framing,
     ) -> Result<Self, NoMemory> {
@@ -112,7 +102,7 @@ impl<'a> Run<'a> {
             None => Some(job.samples),
         };
         let total = job.crop.pixels() * u64::from(job.spp());
-        control.begin(total, film.total_samples());
+        signals.begin(total, film.total_samples());
         let mut scheduler = Scheduler::new(job.crop, rest, job.time_limit);
         let (sum, tracker) = match &job.measure {
             None => (Accumulator::new(film)?, None),
@@ -145,8 +135,7 @@ impl<'a> Run<'a> {
             overdue: AtomicU64::new(u64::MAX),
             frame,
         });
-        control.set_run(Some(Arc::clone(&shared)));
-        Ok(Self { shared, control, strict: job.strict })
+        Ok(Self { shared, signals, strict: job.strict })
     }
 
     /// Its state, which does not depend on the threads that work on it.
@@ -160,7 +149,7 @@ impl<'a> Run<'a> {
 
     /// Whether items are to be broken off now, rather than rendered to their end.
     pub(crate) fn is_broken_off(&self) -> bool {
-        self.control.is_cancelled() || self.shared.is_past(&self.shared.deadline)
+        self.signals.is_cancelled() || self.shared.is_past(&self.shared.deadline)
     }
 
     /// The device that renders from now on.
@@ -184,7 +173,7 @@ impl<'a> Run<'a> {
         if state.taken {
             return Claim::Done;
         }
-        if self.control.is_cancelled() {
+        if self.signals.is_cancelled() {
             state.scheduler.stop(Stop::Cancelled);
         }
         let now = self.shared.started.elapsed();
@@ -235,7 +224,7 @@ impl<'a> Run<'a> {
                 state.scheduler.stop(Stop::Failed);
             }
             let rays = pixels.iter().map(|pixel| u64::from(pixel.rays)).sum();
-            self.control.advance(item.cost(), rays);
+            self.signals.advance(item.cost(), rays);
             if let Some(saver) = &self.shared.frame.saver {
                 saver.offer(state.sum.film(), self.shared.started.elapsed());
             }
@@ -253,7 +242,7 @@ impl<'a> Run<'a> {
             return;
         }
         if let Some(point) = tracker.round(now, sums, samples) {
-            self.control.note(&point.to_string());
+            self.signals.note(&point.to_string());
             if tracker.is_met() {
                 scheduler.stop(Stop::ErrorReached);
             }
@@ -295,24 +284,18 @@ impl<'a> Run<'a> {
     }
 
     pub(crate) fn note(&self, text: &str) {
-        self.control.note(text);
+        self.signals.note(text);
     }
 
     /// What the owner says.
-    pub(crate) fn control(&self) -> &Control {
-        self.control
+    pub(crate) fn signals(&self) -> &Signals {
+        self.signals
     }
 
     /// Whether anything has been deposited.
     #[cfg(feature = "gpu")]
     pub(crate) fn done(&self) -> u64 {
-        self.control.progress().done
-    }
-
-    /// Takes what is complete; `None` when that was done already.
-    pub(crate) fn finish(&self) -> Option<Finished> {
-        self.control.set_run(None);
-        self.shared.take()
+        self.signals.progress().done
     }
 }
 
@@ -345,8 +328,8 @@ impl Shared {
     }
 
     /// See `Control::salvage`.
-    pub(crate) fn salvage(&self, control: &Control) -> Option<Outcome> {
-        let cancelled = control.is_cancelled();
+    pub(crate) fn salvage(&self, signals: &Signals) -> Option<Outcome> {
+        let cancelled = signals.is_cancelled();
         let why = if cancelled { Stop::Cancelled } else { Stop::TimeLimit };
         let mut state = self.lock();
         if !cancelled && !state.scheduler.is_under_way() {
@@ -357,10 +340,11 @@ impl Shared {
         let finished = self.take()?;
         let error = "the kernel or the driver did not come back in time";
         let error = (!cancelled).then(|| error.to_owned());
-        Some(self.outcome(finished, error, control))
+        Some(self.outcome(finished, error, signals))
     }
 
-    fn take(&self) -> Option<Finished> {
+    /// Takes what is complete; `None` when that was done already.
+    pub(crate) fn take(&self) -> Option<Finished> {
         let elapsed = self.started.elapsed();
         let mut state = self.lock();
         if std::mem::replace(&mut state.taken, true) {
@@ -389,14 +373,14 @@ impl Shared {
         &self,
         finished: Finished,
         device_error: Option<String>,
-        control: &Control,
+        signals: &Signals,
     ) -> Outcome {
         let Finished { mut film, stop, failures, elapsed, convergence, devices } = finished;
         let well = matches!(stop, Stop::Complete | Stop::TimeLimit | Stop::ErrorReached);
         let well = well && device_error.is_none();
         let saver = self.saver();
         if let (Some(saver), false) = (saver, well) {
-            film = saver.last(film, elapsed, control);
+            film = saver.last(film, elapsed, signals);
         }
         let elapsed = self.frame.before + elapsed;
         let meta = Meta {

@@ -6,14 +6,14 @@
 //! replaced.
 
 use crate::checkpoint::Checkpoint;
-use crate::control::Control;
 use crate::film::Film;
 use crate::job::Job;
 use crate::mark::{Mark, make_way};
-use crate::memory::NoMemory;
 use crate::output::Identity;
 use crate::region::SampleRange;
 use crate::scene::Scene;
+use crate::signals::Signals;
+use crate::zeros::NoMemory;
 use files::ShowPath as _;
 use std::error::Error;
 use std::path::PathBuf;
@@ -122,7 +122,7 @@ impl Saver {
     }
 
     /// Saves what a run that did not end well has left, in this thread, and gives it back.
-    pub(crate) fn last(&self, film: Film, elapsed: Duration, control: &Control) -> Film {
+    pub(crate) fn last(&self, film: Film, elapsed: Duration, signals: &Signals) -> Film {
         let state = self.lock();
         let busy = |state: &mut State| matches!(state.task, Task::UnderWay);
         // A disk that hangs is not waited for.
@@ -133,7 +133,7 @@ impl Saver {
         }
         let checkpoint = self.checkpoint(&state, film, elapsed);
         drop(state);
-        self.write(&checkpoint, control);
+        self.write(&checkpoint, signals);
         checkpoint.film
     }
 
@@ -163,7 +163,7 @@ impl Saver {
     }
 
     /// Writes what is offered until `close`.
-    pub(crate) fn work(&self, control: &Control) {
+    pub(crate) fn work(&self, signals: &Signals) {
         let mut state = self.lock();
         loop {
             match std::mem::replace(&mut state.task, Task::Nothing) {
@@ -171,8 +171,8 @@ impl Saver {
                     state.task = Task::UnderWay;
                     drop(state);
                     match checkpoint {
-                        Ok(checkpoint) => self.write(&checkpoint, control),
-                        Err(error) => self.warn(&error, control),
+                        Ok(checkpoint) => self.write(&checkpoint, signals),
+                        Err(error) => self.warn(&error, signals),
                     }
                     state = self.lock();
                     state.task = Task::Nothing;
@@ -191,9 +191,9 @@ impl Saver {
         self.wake.notify_all();
     }
 
-    fn write(&self, checkpoint: &Checkpoint, control: &Control) {
+    fn write(&self, checkpoint: &Checkpoint, signals: &Signals) {
         // The copy was taken before this is asked, so what is wrong with it is known by now.
-        if !control.may_keep() {
+        if !signals.may_keep() {
             return;
         }
         let path = &self.keep.path;
@@ -201,14 +201,14 @@ impl Saver {
             Ok(None) => {}
             Ok(Some(aside)) => {
                 let (path, aside) = (path.shown(), aside.shown());
-                control.note(&format!(
+                signals.note(&format!(
                     "{path} is of another run and is {aside} now; to go on with that one: --resume={aside}"
                 ));
             }
-            Err(error) => return self.warn(&error, control),
+            Err(error) => return self.warn(&error, signals),
         }
         if let Err(error) = checkpoint.write(path) {
-            return self.warn(&error, control);
+            return self.warn(&error, signals);
         }
         let mut state = self.lock();
         state.own = Mark::of(path);
@@ -216,10 +216,10 @@ impl Saver {
         state.end = checkpoint.film.ranges.last().map_or(0, |range| range.end);
     }
 
-    fn warn(&self, error: &dyn Error, control: &Control) {
+    fn warn(&self, error: &dyn Error, signals: &Signals) {
         if !std::mem::replace(&mut self.lock().failed, true) {
             let path = self.keep.path.shown();
-            control.note(&format!("warning: no checkpoint in {path}: {error}; rendering goes on"));
+            signals.note(&format!("warning: no checkpoint in {path}: {error}; rendering goes on"));
         }
     }
 }

@@ -15,7 +15,7 @@
 mod pieces;
 mod relink;
 
-use crate::scene::{Setup, WINDOW_BYTES};
+use crate::setup::{Setup, WINDOW_BYTES};
 
 use pieces::pieces;
 pub(crate) use relink::{FULL, Wanted, is_same, relink};

@@ -71,8 +71,8 @@ fn walk(kernel: &mut Kernel<'_>, ray: Ray, uncut: bool) -> Hit {
                 child = nearest;
                 continue;
             }
-        } else if child & CHILD_SPHERES != 0 && kernel.dispatch_is_door(child) {
-            child = kernel.dispatch_door(child, ray, &mut walk);
+        } else if child & CHILD_SPHERES != 0 && kernel.dispatch_is_instance_leaf(child) {
+            child = kernel.dispatch_instance_leaf(child, ray, &mut walk);
             walker = Walker::new((kernel.node_words, kernel.tri_words), &walk.ray, walk.inverse);
             sheared = Sheared::new(walk.ray.origin, &walk.leaf);
             if child != NONE {

@@ -5,8 +5,10 @@ mod common;
 use common::{SIZE, SPP, assert_same, scene};
 use runtime::output::merge;
 use runtime::{
-    Control, DeviceChoice, Film, Job, Outcome, Precision, Rect, SampleRange, Scene, Stop, render,
+    Control, DeviceChoice, Event, Film, Job, Outcome, Precision, Rect, SampleRange, Scene, Stop,
+    render,
 };
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 fn run(scene: &Scene, job: &Job) -> Outcome {
@@ -187,14 +189,17 @@ fn impossible_jobs_are_refused() {
 fn a_broken_block_is_reported_and_everything_else_is_kept() {
     let scene = scene();
     let job = Job { samples: range(0, 1 << 20), ..Job::of_scene(&scene) };
-    let control = Control::default();
     // The second block of the second batch: the image has 3 x 2 blocks.
-    control.break_block(8);
+    let left = AtomicU64::new(8);
+    let control = Control::new(move |event| {
+        let breaks = matches!(event, Event::Block) && left.fetch_sub(1, Ordering::Relaxed) == 1;
+        assert!(!breaks, "this block breaks");
+    });
     let outcome = render(&scene, &Job { threads: Some(1), ..job }, &DeviceChoice::Cpu, &control);
     let outcome = outcome.expect("a picture in spite of it");
     let [failure] = outcome.failures.as_slice() else { panic!("{:?}", outcome.failures) };
     assert_eq!(failure.tile, Rect { x: 32, y: 0, w: 32, h: 32 });
-    assert_eq!((failure.sample, failure.message.as_str()), (16, "broken for a test"));
+    assert_eq!((failure.sample, failure.message.as_str()), (16, "this block breaks"));
     assert_eq!((outcome.stop, outcome.film().samples()), (Stop::Failed, (16, 32)));
     let n_short = outcome.film().counts.iter().filter(|n| **n == 16).count();
     assert_eq!(n_short, 32 * 32);

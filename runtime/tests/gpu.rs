@@ -7,8 +7,9 @@ mod common;
 
 use common::{assert_same, scene};
 use runtime::convergence::Measure;
-use runtime::{Control, DeviceChoice, Job, Outcome, Rect, SampleRange, Scene, Stop, render};
-use std::sync::{Arc, Mutex};
+use runtime::{Control, DeviceChoice, Event, Job, Outcome, Rect, SampleRange, Scene, Stop, render};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, OnceLock};
 use std::time::Duration;
 
 /// The software adapter to test with.
@@ -30,10 +31,12 @@ struct Rendered {
 fn run(scene: &Scene, job: &Job, device: &DeviceChoice) -> Rendered {
     let notes = Arc::new(Mutex::new(String::new()));
     let sink = Arc::clone(&notes);
-    let control = Control::new(move |text| {
-        let mut notes = sink.lock().expect("no panic");
-        notes.push_str(text);
-        notes.push('\n');
+    let control = Control::new(move |event| {
+        if let Event::Note(text) = event {
+            let mut notes = sink.lock().expect("no panic");
+            notes.push_str(text);
+            notes.push('\n');
+        }
     });
     let outcome = render(scene, job, device, &control).expect("the device renders");
     let notes = notes.lock().expect("no panic").clone();
@@ -71,10 +74,9 @@ fn timestamps_change_the_pace_and_no_bit() {
     let scene = scene();
     let job = Job::of_scene(&scene);
     let timed = run(&scene, &job, &device);
-    let control = Control::default();
-    control.ignore_timestamps();
-    let untimed = render(&scene, &job, &device, &control).expect("the device renders");
-    assert_same(timed.outcome.film(), untimed.film());
+    let untimed = run(&scene, &Job { timestamps: false, ..job }, &device);
+    assert_same(timed.outcome.film(), untimed.outcome.film());
+    assert!(untimed.notes.contains("by wall time"), "{}", untimed.notes);
     // Every submission is timed, in one way or the other.
     assert!(timed.notes.contains("the GPU was busy for "), "{}", timed.notes);
     let says = |text: &str| timed.notes.contains(text);
@@ -96,10 +98,8 @@ fn a_report_has_the_time_by_timestamps_where_every_pass_has_them() {
     // Passes follow each other, so that all of them together take no longer than the run.
     let run_time = timed.outcome.elapsed.as_secs_f64();
     assert!(found.device.is_none_or(|time| time > 0.0 && time < run_time), "{found:?}");
-    let control = Control::default();
-    control.ignore_timestamps();
-    let untimed = render(&scene, &job, &device, &control).expect("the device renders");
-    assert_eq!(times(&untimed).device, None);
+    let untimed = run(&scene, &Job { timestamps: false, ..job.clone() }, &device);
+    assert_eq!(times(&untimed.outcome).device, None);
     let cpu = run(&scene, &job, &DeviceChoice::Cpu);
     assert_eq!(times(&cpu.outcome).device, None);
 }
@@ -163,9 +163,18 @@ fn a_lost_device_is_replaced_and_the_picture_is_the_same() {
     let job = Job { submission: Duration::from_nanos(1), samples, ..Job::of_scene(&scene) };
     let notes = Arc::new(Mutex::new(Vec::new()));
     let sink = Arc::clone(&notes);
-    let control = Control::new(move |text| sink.lock().expect("no panic").push(text.to_owned()));
-    // After the first, large submissions, each batch is 45 workgroups.
-    control.lose_device(20, 1);
+    let (gpu, n_submissions) = (OnceLock::new(), AtomicU64::new(0));
+    let control = Control::new(move |event| match event {
+        Event::Note(text) => sink.lock().expect("no panic").push(text.to_owned()),
+        // The first device is destroyed while it renders its third submission.
+        Event::Device(device) => drop(gpu.set(device.clone())),
+        Event::Submission => {
+            if n_submissions.fetch_add(1, Ordering::Relaxed) == 2 {
+                gpu.get().expect("it was opened").destroy();
+            }
+        }
+        Event::Block => {}
+    });
     let outcome = render(&scene, &job, &device, &control).expect("it renders");
     let notes = notes.lock().expect("no panic").join("\n");
     assert!(notes.contains("the device was lost"), "{notes}");
@@ -177,9 +186,12 @@ fn a_lost_device_is_replaced_and_the_picture_is_the_same() {
 fn a_device_that_is_lost_again_and_again_leaves_what_was_complete() {
     let Some(device) = device() else { return };
     let scene = scene();
-    let control = Control::default();
     // No device lives long enough to finish anything.
-    control.lose_device(0, u64::MAX);
+    let control = Control::new(|event| {
+        if let Event::Device(device) = event {
+            device.destroy();
+        }
+    });
     let outcome = render(&scene, &Job::of_scene(&scene), &device, &control).expect("an outcome");
     let error = outcome.device_error.as_deref().unwrap_or_default();
     assert!(error.starts_with("the device was lost"), "{error}");

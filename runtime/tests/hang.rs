@@ -6,10 +6,11 @@
 mod common;
 
 use runtime::output::read_exr;
-use runtime::{Checkpoint, Film};
+use runtime::{Checkpoint, Event, Film};
 use std::io::{BufRead as _, BufReader};
 use std::path::Path;
-use std::process::{Child, ChildStderr, Command, Stdio};
+use std::process::{Child, ChildStderr, Command, ExitCode, Stdio};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// A test that fails leaves nothing running.
@@ -29,15 +30,48 @@ fn folder() -> tempfile::TempDir {
     folder
 }
 
+/// What all of these tests say to `rtr`.
+const ARGS: &[&str] = &["rtr", "marbles.pack", "--device", "cpu", "-o", "a.exr", "-o", "a.png"];
+
 /// `rtr` that renders by now.
 fn rendering(folder: &Path, args: &[&str]) -> (Running, BufReader<ChildStderr>) {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_rtr"))
-        .current_dir(folder)
-        .args(["marbles.pack", "--device", "cpu", "-o", "a.exr", "-o", "a.png"])
-        .args(args)
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("rtr starts");
+    started(Command::new(env!("CARGO_BIN_EXE_rtr")).args(&ARGS[1..]).args(args), folder)
+}
+
+/// Says to this very program that it is `rtr`, with these arguments.
+const CHILD_ARGS: &str = "RTR_TEST_ARGS";
+/// And which block of it never comes back, counted from 1.
+const CHILD_STALL: &str = "RTR_TEST_STALL";
+
+/// `rtr` that renders by now, and of which one block never comes back.
+fn stalling(folder: &Path, block: u64, args: &[&str]) -> (Running, BufReader<ChildStderr>) {
+    let mut child = Command::new(std::env::current_exe().expect("this program"));
+    child.args(["--exact", "a_block_that_never_comes_back", "--nocapture"]);
+    child.env(CHILD_ARGS, [ARGS, args].concat().join("\n")).env(CHILD_STALL, block.to_string());
+    started(child.stdout(Stdio::null()), folder)
+}
+
+/// No test, but the process of others: see `stalling`.
+#[test]
+fn a_block_that_never_comes_back() {
+    let (Ok(args), Ok(block)) = (std::env::var(CHILD_ARGS), std::env::var(CHILD_STALL)) else {
+        return;
+    };
+    let left = AtomicU64::new(block.parse().expect("a number"));
+    let observer = Box::leak(Box::new(move |event: Event<'_>| {
+        if matches!(event, Event::Block) && left.fetch_sub(1, Ordering::Relaxed) == 1 {
+            loop {
+                std::thread::park();
+            }
+        }
+    }));
+    let ended = format!("{:?}", runtime::cli::run_observed(args.split('\n'), observer));
+    let is_code = |code: &u8| format!("{:?}", ExitCode::from(*code)) == ended;
+    std::process::exit((0..=u8::MAX).find(is_code).expect("an exit code").into());
+}
+
+fn started(command: &mut Command, folder: &Path) -> (Running, BufReader<ChildStderr>) {
+    let mut child = command.current_dir(folder).stderr(Stdio::piped()).spawn().expect("rtr starts");
     let mut stderr = BufReader::new(child.stderr.take().expect("piped"));
     let mut line = String::new();
     while !line.starts_with("device: ") {
@@ -64,14 +98,15 @@ fn film(folder: &Path) -> Film {
     read_exr(&folder.join("a.exr")).expect("a picture").film
 }
 
-/// The image has 3 x 2 blocks: the 20th is in the fourth batch.
-const FOURTH_BATCH: &[&str] = &["--spp", "1000000", "--threads", "2", "--stall-block", "20"];
+/// For ever, on two threads.
+const LONG: &[&str] = &["--spp", "1000000", "--threads", "2"];
 
 #[test]
 fn an_interrupt_ends_a_run_whose_kernel_never_comes_back() {
     for name in ["-INT", "-TERM", "-HUP"] {
         let folder = folder();
-        let (child, stderr) = rendering(folder.path(), FOURTH_BATCH);
+        // The image has 3 x 2 blocks: the 20th is in the fourth batch.
+        let (child, stderr) = stalling(folder.path(), 20, LONG);
         std::thread::sleep(Duration::from_millis(500));
         signal(&child, name);
         let (log, code, time) = ended(child, stderr);
@@ -92,8 +127,7 @@ fn an_interrupt_ends_a_run_whose_kernel_never_comes_back() {
 #[test]
 fn what_a_first_batch_has_is_written_though_a_block_of_it_hangs() {
     let folder = folder();
-    let args = ["--spp", "1000000", "--threads", "2", "--stall-block", "2"];
-    let (child, stderr) = rendering(folder.path(), &args);
+    let (child, stderr) = stalling(folder.path(), 2, LONG);
     std::thread::sleep(Duration::from_millis(500));
     signal(&child, "-INT");
     let (log, code, _) = ended(child, stderr);
@@ -107,8 +141,7 @@ fn what_a_first_batch_has_is_written_though_a_block_of_it_hangs() {
 fn a_time_limit_ends_a_run_whose_kernel_never_comes_back() {
     let folder = folder();
     // Probes are blocks, too: the picture has room for one round of 16.
-    let args = ["--spp", "1000000", "--time", "500ms", "--threads", "2", "--stall-block", "36"];
-    let (child, stderr) = rendering(folder.path(), &args);
+    let (child, stderr) = stalling(folder.path(), 36, &[LONG, &["--time", "500ms"]].concat());
     let (log, code, time) = ended(child, stderr);
     assert_eq!(code, Some(3), "{log}");
     assert!(time < Duration::from_millis(2500), "{time:?}: {log}");

@@ -8,7 +8,7 @@ use runtime::{Checkpoint, Control, DeviceChoice, Job, SampleRange, Scene, render
 use std::io::{BufRead as _, BufReader, Read as _};
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime};
 
 fn command(folder: &Path, args: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_rtr"));
@@ -167,6 +167,28 @@ fn a_pack_that_changes_while_it_is_rendered_gives_no_picture() {
         let whole = render(&scene, &job, &DeviceChoice::Cpu, &Control::default());
         // Otherwise it has samples of another pack.
         common::assert_same(&film, whole.expect("it renders").film());
+    }
+}
+
+#[test]
+fn a_pack_that_is_touched_while_it_is_rendered_is_rendered() {
+    for more in [&[][..], &["--verify", "first"], &["--verify", "off"]] {
+        let folder = folder(&bytes());
+        let args = [&[NAME, "--spp", "2048", "-o", "a.exr"], more].concat();
+        let mut child =
+            command(folder.path(), &args).stderr(Stdio::piped()).spawn().expect("rtr starts");
+        let mut log = BufReader::new(child.stderr.take().expect("a pipe")).lines();
+        let device = log.find(|line| line.as_ref().is_ok_and(|line| line.starts_with("device: ")));
+        assert!(device.is_some());
+        let file = std::fs::File::options().write(true).open(folder.path().join(NAME));
+        let file = file.expect("it can be written");
+        while child.try_wait().expect("a child").is_none() {
+            file.set_modified(SystemTime::now()).expect("it can be touched");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        let rest: Vec<String> = log.map_while(Result::ok).collect();
+        assert_eq!(child.wait().expect("it ends").code(), Some(0), "{more:?} {rest:?}");
+        assert_eq!(names(folder.path()), ["a.exr", NAME]);
     }
 }
 

@@ -6,7 +6,7 @@ mod common;
 use common::{assert_same, scene};
 use runtime::output::{Identity, read_exr};
 use runtime::{
-    Checkpoint, Control, DeviceChoice, Film, Job, Keep, SampleRange, Session, Stop, render,
+    Checkpoint, Control, DeviceChoice, Event, Film, Job, Keep, SampleRange, Session, Stop, render,
     render_session,
 };
 use std::path::{Path, PathBuf};
@@ -298,7 +298,11 @@ fn a_run_that_cannot_be_saved_goes_on() {
     let path = Path::new("no such folder/a.checkpoint").to_owned();
     let notes = Arc::new(std::sync::Mutex::new(Vec::new()));
     let sink = Arc::clone(&notes);
-    let control = Control::new(move |text| sink.lock().expect("no panic").push(text.to_owned()));
+    let control = Control::new(move |event| {
+        if let Event::Note(text) = event {
+            sink.lock().expect("no panic").push(text.to_owned());
+        }
+    });
     let session = Session { from: None, keep: Some(Keep { path, every: Duration::ZERO }) };
     let outcome = render_session(&scene, &job, &DeviceChoice::Cpu, &control, session);
     let outcome = outcome.expect("the CPU renders");

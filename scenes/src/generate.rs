@@ -9,6 +9,7 @@
 )]
 
 mod evening;
+mod file;
 mod glb;
 mod knot;
 mod lathe;
@@ -18,6 +19,8 @@ mod tea_table;
 mod vector;
 
 use std::path::{Path, PathBuf};
+
+use file::write_atomically;
 
 pub use glb::{Glb, MaterialSpec, MeshData, NodeSpec};
 
@@ -60,11 +63,4 @@ pub fn generate(name: &str, dir: &Path, extent: Extent) -> std::io::Result<Gener
         _ => Err(std::io::Error::other(format!("no generator makes `{name}`"))),
     }?;
     Ok(Generated { path, holds: None })
-}
-
-/// Makes the folder, too; a reader sees the old file or the new one.
-fn write_atomically(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let dir = path.parent().unwrap_or(Path::new("."));
-    std::fs::create_dir_all(dir)?;
-    files::write(path, |out| out.write_all(bytes)).map_err(std::io::Error::other)
 }

@@ -5,37 +5,36 @@
 //! because the text is ours and naga checks all of it afterwards.
 
 use crate::error::{Location, ShaderError};
-use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// An `#import` line.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Import {
-    pub(crate) name: String,
+pub(crate) struct Import<'t> {
+    pub(crate) name: &'t str,
     pub(crate) start: usize,
 }
 
 /// A function, struct, constant, alias or variable at module scope.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Declaration {
-    pub(crate) name: String,
+pub(crate) struct Declaration<'t> {
+    pub(crate) name: &'t str,
     /// The text, with the comment lines directly above it.
     pub(crate) range: Range<usize>,
     /// Where the text proper begins.
     pub(crate) start: usize,
-    /// Every identifier in it, its own name included.
-    pub(crate) words: BTreeSet<String>,
+    /// Every identifier in it, its own name included; sorted, without repeats.
+    pub(crate) words: Vec<&'t str>,
 }
 
 /// A module taken apart.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Parts {
-    pub(crate) imports: Vec<Import>,
-    pub(crate) declarations: Vec<Declaration>,
+pub(crate) struct Parts<'t> {
+    pub(crate) imports: Vec<Import<'t>>,
+    pub(crate) declarations: Vec<Declaration<'t>>,
 }
 
 /// Takes the text of module `file` apart.
-pub(crate) fn split(file: &str, text: &str) -> Result<Parts, ShaderError> {
+pub(crate) fn split<'t>(file: &str, text: &'t str) -> Result<Parts<'t>, ShaderError> {
     let imports = imports(file, text)?;
     let tokens = tokens(text);
     let mut declarations = Vec::new();
@@ -51,11 +50,14 @@ pub(crate) fn split(file: &str, text: &str) -> Result<Parts, ShaderError> {
         rest = after;
         let name = declared_name(own)
             .ok_or_else(|| bad("expected a function, struct, constant, alias or variable"))?;
+        let mut words: Vec<&str> = own.iter().filter(|t| t.is_name()).map(|t| t.text).collect();
+        words.sort_unstable();
+        words.dedup();
         declarations.push(Declaration {
-            name: name.to_owned(),
+            name,
             range: comment_start(text, first.start)..own[n_tokens - 1].end(),
             start: first.start,
-            words: own.iter().filter(|t| t.is_name()).map(|t| t.text.to_owned()).collect(),
+            words,
         });
     }
     Ok(Parts { imports, declarations })
@@ -71,15 +73,14 @@ pub(crate) fn location(file: &str, text: &str, at: usize) -> Location {
     Location { file: file.to_owned(), line: narrow(line), column: narrow(column) }
 }
 
-fn imports(file: &str, text: &str) -> Result<Vec<Import>, ShaderError> {
+fn imports<'t>(file: &str, text: &'t str) -> Result<Vec<Import<'t>>, ShaderError> {
     let mut found = Vec::new();
     let mut start = 0;
     for line in text.split_inclusive('\n') {
         if line.starts_with('#') {
             let name = line.trim_end().strip_prefix("#import \"").and_then(|s| s.strip_suffix('"'));
-            let name = name
-                .ok_or_else(|| ShaderError::BadImport { at: location(file, text, start) })?
-                .to_owned();
+            let name =
+                name.ok_or_else(|| ShaderError::BadImport { at: location(file, text, start) })?;
             found.push(Import { name, start });
         }
         start += line.len();
@@ -211,7 +212,7 @@ mod tests {
 
     fn names(text: &str) -> Vec<(String, String)> {
         let parts = split("test.wgsl", text).expect("the text is well formed");
-        let row = |d: Declaration| (d.name, text[d.range].to_owned());
+        let row = |d: Declaration<'_>| (d.name.to_owned(), text[d.range].to_owned());
         parts.declarations.into_iter().map(row).collect()
     }
 

@@ -14,10 +14,10 @@ mod sampler;
 mod sky;
 mod texture;
 mod traversal;
+mod wgsl;
 
 use crate::{FeatureSet, ShaderError};
 pub use bindings::WINDOW_WORDS;
-use std::fmt::{Display, Write as _};
 
 /// The structs of the records: module and text, the same for every scene.
 #[must_use]
@@ -40,7 +40,7 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/dispatch_light.wgsl", light::dispatch(features)),
         ("scene/dispatch_pattern.wgsl", bsdf::pattern(features)),
         ("scene/before.wgsl", media::before(features)),
-        ("scene/door.wgsl", traversal::door(features)),
+        ("scene/instance_leaf.wgsl", traversal::instance_leaf(features)),
         ("scene/ends.wgsl", media::ends(features)),
         ("scene/fog.wgsl", media::fog(features)),
         ("scene/inside.wgsl", media::inside(features)),
@@ -70,30 +70,4 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
 #[must_use]
 pub fn root_module(features: &FeatureSet) -> &'static str {
     if features.geometry() { "kernel/render.wgsl" } else { "kernel/backdrop.wgsl" }
-}
-
-/// `#import` lines for `modules`.
-fn imports<'m>(modules: impl IntoIterator<Item = &'m str>) -> String {
-    modules.into_iter().flat_map(|module| ["#import \"", module, "\"\n"]).collect()
-}
-
-/// The name of a tag in the kernel: `MATERIAL_DIFFUSE`.
-fn tag(of: &str, stem: &str) -> String {
-    format!("{of}_{}", stem.to_ascii_uppercase())
-}
-
-/// A `switch` over tags whose cases return; one case needs no switch, none only `otherwise`.
-fn switch(selector: &str, cases: &[(impl Display, String)], otherwise: &str) -> String {
-    match cases {
-        [] => format!("    return {otherwise};\n"),
-        [(_, only)] => format!("    return {only};\n"),
-        _ => {
-            let mut text = format!("    switch ({selector}) {{\n");
-            for (tag, value) in cases {
-                let _ = writeln!(text, "        case {tag}: {{ return {value}; }}");
-            }
-            let _ = writeln!(text, "        default: {{ return {otherwise}; }}\n    }}");
-            text
-        }
-    }
 }

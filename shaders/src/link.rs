@@ -4,8 +4,10 @@
 use crate::declaration::{self, Declaration, Parts, location};
 use crate::error::{Location, ShaderError};
 use crate::{FeatureSet, generate, modules};
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
+use std::sync::LazyLock;
 
 /// Name of the entry point.
 const ENTRY: &str = "render";
@@ -51,20 +53,41 @@ impl Linked {
     }
 }
 
+/// The modules that are files, taken apart once: that is most of the work. One that cannot be is left out.
+static FILES: LazyLock<Ready<'static>> = LazyLock::new(|| {
+    let split = |(name, text): &(&'static str, &'static str)| {
+        Some((*name, declaration::split(name, text).ok()?))
+    };
+    modules::module_texts().iter().filter_map(split).collect()
+});
+
+/// Modules by name, taken apart.
+type Ready<'t> = BTreeMap<&'t str, Parts<'t>>;
+
 /// The kernel for `features`.
 pub fn link(features: &FeatureSet) -> Result<Linked, ShaderError> {
     let generated = generate::generated_texts(features)?;
     let written = modules::module_texts().iter().copied();
     let all: Vec<(&str, &str)> =
         written.chain(generated.iter().map(|(name, text)| (*name, text.as_str()))).collect();
-    link_modules(&all, generate::root_module(features))
+    link_ready(&all, &FILES, generate::root_module(features))
 }
 
 /// The kernel that begins in module `root` of `modules`, each a name and a text: what [`link`] does, for
 /// any set of modules.
 pub fn link_modules(modules: &[(&str, &str)], root: &str) -> Result<Linked, ShaderError> {
+    link_ready(modules, &Ready::new(), root)
+}
+
+/// `ready`: some of the modules.
+fn link_ready<'t>(
+    modules: &[(&'t str, &'t str)],
+    ready: &'t Ready<'t>,
+    root: &str,
+) -> Result<Linked, ShaderError> {
     let texts: BTreeMap<&str, &str> = modules.iter().copied().collect();
-    let mut walk = Walk { texts, open: Vec::new(), done: BTreeSet::new(), modules: Vec::new() };
+    let (open, done) = (Vec::new(), BTreeSet::new());
+    let mut walk = Walk { texts, ready, open, done, modules: Vec::new() };
     let unknown = || ShaderError::NoEntry { file: root.to_owned() };
     let (name, text) = walk.texts.get_key_value(root).ok_or_else(unknown)?;
     walk.visit(name, text)?;
@@ -80,12 +103,13 @@ pub fn link_modules(modules: &[(&str, &str)], root: &str) -> Result<Linked, Shad
 struct Module<'t> {
     name: &'t str,
     text: &'t str,
-    parts: Parts,
+    parts: Cow<'t, Parts<'t>>,
 }
 
 /// Depth-first walk over imports.
 struct Walk<'t> {
     texts: BTreeMap<&'t str, &'t str>,
+    ready: &'t Ready<'t>,
     open: Vec<&'t str>,
     done: BTreeSet<&'t str>,
     modules: Vec<Module<'t>>,
@@ -93,12 +117,15 @@ struct Walk<'t> {
 
 impl<'t> Walk<'t> {
     fn visit(&mut self, name: &'t str, text: &'t str) -> Result<(), ShaderError> {
-        let parts = declaration::split(name, text)?;
+        let parts = match self.ready.get(name) {
+            Some(parts) => Cow::Borrowed(parts),
+            None => Cow::Owned(declaration::split(name, text)?),
+        };
         self.open.push(name);
         for import in &parts.imports {
             let at = || location(name, text, import.start);
-            let Some((&next, &next_text)) = self.texts.get_key_value(import.name.as_str()) else {
-                return Err(ShaderError::UnknownImport { at: at(), name: import.name.clone() });
+            let Some((&next, &next_text)) = self.texts.get_key_value(import.name) else {
+                return Err(ShaderError::UnknownImport { at: at(), name: import.name.to_owned() });
             };
             if let Some(begin) = self.open.iter().position(|open| *open == next) {
                 let mut chain: Vec<String> =
@@ -124,13 +151,13 @@ fn declared<'m>(
     let mut names: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
     for (m, module) in modules.iter().enumerate() {
         for (d, declaration) in module.parts.declarations.iter().enumerate() {
-            if let Some((m0, d0)) = names.insert(&declaration.name, (m, d)) {
+            if let Some((m0, d0)) = names.insert(declaration.name, (m, d)) {
                 let first = &modules[m0];
                 let start = first.parts.declarations[d0].start;
                 return Err(ShaderError::Duplicate {
                     at: location(module.name, module.text, declaration.start),
                     first: location(first.name, first.text, start),
-                    name: declaration.name.clone(),
+                    name: declaration.name.to_owned(),
                 });
             }
         }
@@ -148,7 +175,7 @@ fn reached(
     while let Some((m, d)) = open.pop() {
         if found.insert((m, d)) {
             let words = &modules[m].parts.declarations[d].words;
-            open.extend(words.iter().filter_map(|word| names.get(word.as_str())));
+            open.extend(words.iter().filter_map(|word| names.get(word)));
         }
     }
     found
@@ -157,7 +184,7 @@ fn reached(
 fn paste(modules: &[Module<'_>], wanted: &BTreeSet<(usize, usize)>) -> Linked {
     let mut linked = Linked { text: String::new(), pieces: Vec::new(), sources: Vec::new() };
     for (m, module) in modules.iter().enumerate() {
-        let kept: Vec<&Declaration> = module
+        let kept: Vec<&Declaration<'_>> = module
             .parts
             .declarations
             .iter()
@@ -193,7 +220,7 @@ mod tests {
     #[test]
     fn modules_import_what_they_use_and_nothing_else() {
         let generated = generate::generated_texts(&FeatureSet::full()).expect("full links");
-        let mut parts: BTreeMap<&str, Parts> = BTreeMap::new();
+        let mut parts: Ready<'_> = BTreeMap::new();
         for (name, text) in modules::module_texts() {
             parts.insert(name, declaration::split(name, text).expect("modules are well formed"));
         }
@@ -203,7 +230,7 @@ mod tests {
         let mut owners: BTreeMap<&str, &str> = BTreeMap::new();
         for (module, parts) in &parts {
             for declaration in parts.declarations.iter().filter(|d| d.name != ENTRY) {
-                owners.insert(&declaration.name, module);
+                owners.insert(declaration.name, module);
             }
         }
         let mut wrong = Vec::new();
@@ -211,10 +238,10 @@ mod tests {
             let parts = &parts[module];
             let words = parts.declarations.iter().flat_map(|d| &d.words);
             let used: BTreeSet<&str> = words
-                .filter_map(|word| owners.get(word.as_str()).copied())
+                .filter_map(|word| owners.get(word).copied())
                 .filter(|owner| owner != module)
                 .collect();
-            let imported: BTreeSet<&str> = parts.imports.iter().map(|i| i.name.as_str()).collect();
+            let imported: BTreeSet<&str> = parts.imports.iter().map(|i| i.name).collect();
             wrong.extend(used.difference(&imported).map(|other| format!("{module}: add {other}")));
             wrong.extend(imported.difference(&used).map(|other| format!("{module}: drop {other}")));
         }

@@ -10,7 +10,7 @@ use compiler::pipeline::Compiled;
 use pack::abi::{Texture, TextureFormat};
 use pack::{Checked, Pack};
 use rayon::prelude::*;
-use runtime::{Control, DeviceChoice, Film, Job, Scene};
+use runtime::{Control, DeviceChoice, Event, Film, Job, Scene};
 use std::sync::mpsc;
 use tests::features::{CASES, case_pack, compiled, named};
 use tests::{picture, scene, software};
@@ -87,7 +87,11 @@ render long: path { samples = 16, depth = 1024, roulette = 1024 }
 fn pixels_whose_loops_a_driver_cuts_short_are_rendered_by_the_cpu() {
     let Some(device) = software::device() else { return };
     let (tell, heard) = mpsc::channel();
-    let control = Control::new(move |line| tell.send(line.to_owned()).unwrap());
+    let control = Control::new(move |event| {
+        if let Event::Note(line) = event {
+            tell.send(line.to_owned()).unwrap();
+        }
+    });
     let scene = Scene::new(scene::pack(LONG_PATHS));
     let film = runtime::render(&scene, &Job::of_scene(&scene), &device, &control);
     let film = film.expect("a small room").picture.film;

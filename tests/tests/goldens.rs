@@ -76,14 +76,3 @@ fn every_golden_belongs_to_an_example() {
         assert!(scenes::catalog::find(stem).is_some(), "{} is dead", path.display());
     }
 }
-
-#[test]
-fn every_example_has_a_page_and_a_row_in_the_readme() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let readme = std::fs::read_to_string(root.join("README.md")).expect("there is a README");
-    for example in EXAMPLES {
-        let page = root.join("scenes").join(example.name).join("README.md");
-        assert!(page.is_file(), "{} is missing", page.display());
-        assert!(readme.contains(&format!("`{}`", example.name)), "{} is not named", example.name);
-    }
-}

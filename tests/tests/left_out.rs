@@ -32,7 +32,7 @@ const CASES: &[Case] = &[
         without: "",
         busy: "medium mist: fog { density = 0.01/m, color = linear(9) }\nAIR mist\n",
         bits: bit::FOG,
-        words: &["veil_fog", "load_frame_fog", "load_medium"],
+        words: &["fog_segment", "load_frame_fog", "load_medium"],
     },
     Case {
         name: "clear air",

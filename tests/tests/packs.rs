@@ -127,7 +127,7 @@ asset sheet = obj(\"sheet.obj\", unit: m, up: +y)\n{places}{VIEW}"
         let pack = Pack::from_bytes(bytes(&compiled)).expect("valid");
         assert_eq!(pack.section_bytes(Kind::INSTANCE).is_some(), expected, "section");
         let code = code(pack.kernel());
-        for part in ["load_instance", "instance_ray", "instance_surface", "child_door_index"] {
+        for part in ["load_instance", "instance_ray", "instance_surface", "child_instance_index"] {
             assert_eq!(code.contains(part), expected, "{part}");
         }
         let manifest = pack.manifest().expect("readable");

@@ -6,11 +6,11 @@
 //!
 //! Stich et al. 2009, section 4.4, "Reference unsplitting".
 
-use super::Corners;
 use super::clip::{Plane, clip};
 use super::fragment::{Bounds, Fragment};
+use super::input::Corners;
 use super::pieces::Split;
-use super::sbvh::{Range, Sides};
+use super::range::{Range, Sides};
 
 /// A spatial split that is being made.
 pub(super) struct Cut {

@@ -13,7 +13,7 @@ use pack::abi::{CHILD_INNER, ChildRef, Instance, NONE, Node};
 use pack::bvh::InnerNode;
 
 use super::fragment::{Bounds, MAX_PRIMITIVES};
-use super::top::{self, Door, MAX_TOP_LEVELS, Piece, Top};
+use super::top::{self, InstanceLeaf, MAX_TOP_LEVELS, Piece, Top};
 use super::words::{as_spheres, shift_word};
 use super::{BvhError, Tree, word_of};
 
@@ -71,7 +71,10 @@ pub fn join(groups: &[Group]) -> Result<Joined, BvhError> {
 type Tangled = (Joined, Option<Vec<Piece>>);
 
 /// Joins groups and instances.
-pub(super) fn join_groups(groups: &[Group], doors: &[Door]) -> Result<Tangled, BvhError> {
+pub(super) fn join_groups(
+    groups: &[Group],
+    instances: &[InstanceLeaf],
+) -> Result<Tangled, BvhError> {
     let count = |kind| {
         let of_kind = groups.iter().filter(|g| g.kind == kind);
         of_kind.map(|g| g.tree.order.len()).sum::<usize>()
@@ -81,7 +84,7 @@ pub(super) fn join_groups(groups: &[Group], doors: &[Door]) -> Result<Tangled, B
         return Err(BvhError::TooMany { count });
     }
     let trees: Vec<&Tree> = groups.iter().map(|g| &g.tree).collect();
-    let (mut pieces, tangled) = top::pieces(&trees, doors);
+    let (mut pieces, tangled) = top::pieces(&trees, instances);
     let n_nodes: usize = trees.iter().map(|t| t.nodes.len()).sum();
     let mut out = Joined {
         nodes: Vec::with_capacity(n_nodes + groups.len()),
@@ -91,7 +94,7 @@ pub(super) fn join_groups(groups: &[Group], doors: &[Door]) -> Result<Tangled, B
         mesh_roots: Vec::new(),
         stack_need: 0,
         bounds: (trees.iter().map(|tree| tree.bounds))
-            .chain(doors.iter().map(|door| door.bounds))
+            .chain(instances.iter().map(|instance| instance.bounds))
             .fold(Bounds::EMPTY, Bounds::union),
     };
     if pieces.is_empty() {

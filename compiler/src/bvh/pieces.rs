@@ -5,9 +5,10 @@
 //! makes two parts that cover what was split: a list from an untrusted file can make a tree bad, but
 //! not wrong.
 
+use super::check::TreeFault;
 use super::clip::{Plane, clip};
 use super::fragment::Fragment;
-use super::{Corners, TreeFault};
+use super::input::Corners;
 use pack::abi::NONE;
 
 /// A piece is cut in two: the lower part keeps its number, the upper part gets the next one.

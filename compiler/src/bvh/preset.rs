@@ -54,7 +54,7 @@ pub(super) struct SpatialRules {
 }
 
 impl Preset {
-    /// Every preset, best first within a kind.
+    /// Every preset: those for use from quick to thorough, then those for comparison.
     pub const ALL: [Self; 5] =
         [Self::Fast, Self::Default, Self::Extreme, Self::ObjectMedian, Self::SpatialMedian];
 

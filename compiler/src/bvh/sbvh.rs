@@ -11,53 +11,26 @@
 
 use pack::abi::{CHILD_INNER, MAX_LEAF, Node};
 
-use super::Corners;
 use super::binned::{self, Bins, Mapping};
 use super::build::{self, MAX_INNER_LEVELS, NODE_COST, PARALLEL_BINS_MIN, PARALLEL_MIN, Part};
 use super::cut::Cut;
 use super::fragment::{Bounds, Fragment};
+use super::input::Corners;
 use super::pieces::Split;
 use super::preset::{Fineness, SpatialRules};
+use super::range::{Range, Sides};
 use super::spatial::{Slabs, SpatialBins, SpatialSplit};
 use super::sweep::{self, SWEEP_MAX};
 use super::words::leaf_word;
 
 /// A spatial split must cost at most this part of the best object split: pieces take memory.
 const MAX_COST: f32 = 0.985;
-/// No range is given room for more than this many references for each that it has.
-const MOST_PER_REFERENCE: usize = 4;
-/// Steps of a fragment's length, by the length of its node.
-const SIZE_STEPS: f32 = 1_073_741_824.0; // 2^30
-
-/// A range of fragments to turn into a subtree.
-pub(super) struct Range<'a> {
-    /// The fragments, then free places.
-    pub(super) frags: &'a mut [Fragment],
-    /// How many fragments there are.
-    pub(super) n: usize,
-    /// What becomes of the free places; as many as there are.
-    pub(super) splits: &'a mut [Split],
-    /// Number of the piece that takes the first free place.
-    pub(super) next: u32,
-    /// Inner levels that may still be used.
-    levels: u32,
-    bounds: Bounds,
-    /// Bounds of the doubled centroids.
-    centroids: Bounds,
-}
 
 /// What does not change during a build.
 #[derive(Clone, Copy)]
 struct Context<'a> {
     corners: Corners<'a>,
     rules: SpatialRules,
-}
-
-/// The two sides of a split: how many go where, and their bounds.
-pub(super) struct Sides {
-    pub(super) counts: [usize; 2],
-    pub(super) bounds: [Bounds; 2],
-    pub(super) centroids: [Bounds; 2],
 }
 
 /// Builds the nodes over `n` fragments, which are followed by free places. Returns the tree in pieces
@@ -225,69 +198,4 @@ fn candidate<const N: usize>(
         SpatialBins::fill(frags, context.corners, &slabs)
     };
     bins.best(&slabs)
-}
-
-impl<'a> Range<'a> {
-    /// Whether median splits would get both sides into leaves within the levels below this one.
-    fn fits(&self, counts: [usize; 2]) -> bool {
-        self.levels > 0 && build::levels_needed(counts[0].max(counts[1])) < self.levels
-    }
-
-    /// Whether two children share so much of this node that a spatial split may be better.
-    fn overlaps(&self, left: &Bounds, right: &Bounds, min_overlap: f32) -> bool {
-        left.overlap(*right) > min_overlap * self.bounds.half_area()
-    }
-
-    /// The two sides as ranges of their own; free places go with them.
-    fn part(self, sides: &Sides) -> [Range<'a>; 2] {
-        let Range { frags, n, splits, next, levels, bounds, .. } = self;
-        let [n_left, n_right] = sides.counts;
-        debug_assert_eq!(n, n_left + n_right);
-        let free = splits.len();
-        let unit = bounds.half_area().sqrt();
-        let for_left = share(free, [&frags[..n_left], &frags[n_left..n]], unit);
-        // The first of the right side make room for the left side's free places.
-        let moved = for_left.min(n_right);
-        frags.copy_within(n_left..n_left + moved, n + for_left - moved);
-        let (left, right) = frags.split_at_mut(n_left + for_left);
-        let (left_splits, right_splits) = splits.split_at_mut(for_left);
-        let right_next = next + u32::try_from(for_left).expect("at most 2^27 pieces");
-        let side = |frags, splits, next, k: usize| Range {
-            frags,
-            n: sides.counts[k],
-            splits,
-            next,
-            levels: levels - 1,
-            bounds: sides.bounds[k],
-            centroids: sides.centroids[k],
-        };
-        [side(left, left_splits, next, 0), side(right, right_splits, right_next, 1)]
-    }
-}
-
-/// How many of the free places the left side gets: its part of the sum of the fragments' sizes, in
-/// units of the size `unit`. Long fragments among short ones are what is split.
-fn share(free: usize, sides: [&[Fragment]; 2], unit: f32) -> usize {
-    if free == 0 {
-        return 0;
-    }
-    let wants = |part: &[Fragment]| part.iter().map(|f| size(f, unit)).sum::<u64>();
-    let [l, r] = sides.map(|part| u128::from(wants(part)) + part.len() as u128);
-    let for_left = free as u128 * l / (l + r);
-    let for_left = usize::try_from(for_left).expect("at most `free`");
-    let most = sides.map(|part| part.len() * MOST_PER_REFERENCE);
-    // What the right side could not use is better off on the left.
-    for_left.min(most[0]).max(free.saturating_sub(most[1]))
-}
-
-/// The length of a fragment as a whole number, so that sums do not depend on their order.
-fn size(f: &Fragment, unit: f32) -> u64 {
-    let parts = f.bounds().half_area().sqrt() / unit * SIZE_STEPS;
-    if f.is_whole() || !parts.is_finite() {
-        return 0;
-    }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 2^30")]
-    {
-        parts as u64
-    }
 }

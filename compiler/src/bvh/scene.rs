@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use super::join::{Group, GroupKind, Joined, join_groups};
 use super::plan::{SMALL_MESH, plan};
 use super::probe::visits;
-use super::top::{Door, Piece, knots};
+use super::top::{InstanceLeaf, Piece, knots};
 use super::{Bounds, BvhError, Fragment, Input, MAX_PRIMITIVES, Preset};
 use crate::cache::{Cache, CacheWarning, Cached, Source};
 
@@ -96,15 +96,16 @@ pub fn build_instanced(
     cache: &Cache,
 ) -> Result<(Joined, BuildReport), BvhError> {
     check_counts(primitives, shared)?;
-    let doors: Vec<Door> = shared.instances.iter().map(|instance| door(shared, instance)).collect();
+    let instances: Vec<InstanceLeaf> =
+        shared.instances.iter().map(|instance| instance_leaf(shared, instance)).collect();
     let mut report = BuildReport { preset, ..BuildReport::default() };
     let by_mesh = plan(primitives.triangles, primitives.mesh_sizes);
     let groups = build_groups(primitives, by_mesh, preset, cache, &mut report)?;
-    let (mut joined, tangled) = join_groups(&groups, &doors)?;
+    let (mut joined, tangled) = join_groups(&groups, &instances)?;
     let knots = tangled.map_or_else(Vec::new, |pieces| knots_of_triangles(&groups, pieces));
     if !knots.is_empty() {
         let groups = untie(primitives, groups, &knots, preset, cache, &mut report)?;
-        let (merged, _) = join_groups(&groups, &doors)?;
+        let (merged, _) = join_groups(&groups, &instances)?;
         let [one, many] = [&merged, &joined].map(|tree| visits(tree, primitives.triangles));
         if one < many {
             joined = merged;
@@ -160,10 +161,10 @@ fn untie(
     Ok(groups)
 }
 
-fn door(shared: &Shared, (mesh, [lo, hi]): &(usize, [[f32; 3]; 2])) -> Door {
+fn instance_leaf(shared: &Shared, (mesh, [lo, hi]): &(usize, [[f32; 3]; 2])) -> InstanceLeaf {
     let corner = |[x, y, z]: [f32; 3]| Vec4::new(x, y, z, 0.0);
     let bounds = Bounds { lo: corner(*lo), hi: corner(*hi) };
-    Door { bounds, weight: shared.meshes[*mesh].len() }
+    InstanceLeaf { bounds, weight: shared.meshes[*mesh].len() }
 }
 
 /// The trees of meshes that are stored once, side by side; their triangles are numbered from `first` on.

@@ -10,9 +10,9 @@
 use glam::Vec4;
 use rayon::prelude::*;
 
-use super::Corners;
 use super::clip::Plane;
 use super::fragment::{Bounds, Fragment};
+use super::input::Corners;
 
 /// Fragments per parallel piece of work.
 const CHUNK: usize = 1 << 13;

@@ -53,7 +53,7 @@ impl Piece {
 
 /// An instance of a mesh that has a tree of its own.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Door {
+pub(super) struct InstanceLeaf {
     pub(super) bounds: Bounds,
     /// Number of its triangles.
     pub(super) weight: usize,
@@ -97,17 +97,17 @@ pub(super) fn span(tree: &Tree, word: u32) -> Span {
 }
 
 /// Most pieces for a number of groups and instances.
-fn budget(n_groups: usize, n_doors: usize) -> usize {
+fn budget(n_groups: usize, n_instances: usize) -> usize {
     // One group needs no opening. Looking for overlaps is quadratic, hence the end of it.
-    match n_groups + n_doors {
+    match n_groups + n_instances {
         n @ (0 | 1) => n,
-        n if n_doors > MANY_DOORS => n,
-        _ => n_groups.max(8192) + n_doors,
+        n if n_instances > MANY_INSTANCES => n,
+        _ => n_groups.max(8192) + n_instances,
     }
 }
 
 /// Beyond this many instances looking for overlaps would take longer than it saves.
-const MANY_DOORS: usize = 1 << 15;
+const MANY_INSTANCES: usize = 1 << 15;
 
 /// The two children of a node as boxes and references.
 pub(super) fn children(node: &Node) -> [(Bounds, u32); 2] {
@@ -121,16 +121,16 @@ pub(super) fn children(node: &Node) -> [(Bounds, u32); 2] {
 
 /// Whole groups and instances first, then opened while that separates them. Empty groups give no piece. Also
 /// tells whether the budget ended that, so that groups are still tangled.
-pub(super) fn pieces(trees: &[&Tree], doors: &[Door]) -> (Vec<Piece>, bool) {
+pub(super) fn pieces(trees: &[&Tree], instances: &[InstanceLeaf]) -> (Vec<Piece>, bool) {
     let roots = (0..trees.len()).filter(|group| trees[*group].root != NONE);
     let mut pieces: Vec<Piece> = roots.map(|group| Piece::whole(trees, group)).collect();
     let n_groups = pieces.len();
-    let budget = budget(n_groups, doors.len());
-    pieces.extend((0..).zip(doors).map(|(i, door)| Piece {
-        bounds: door.bounds,
+    let budget = budget(n_groups, instances.len());
+    pieces.extend((0..).zip(instances).map(|(i, instance)| Piece {
+        bounds: instance.bounds,
         group: trees.len() + i as usize,
         word: ChildRef::Instance(i).encode().expect("fewer than 2^26 instances"),
-        weight: door.weight as f32,
+        weight: instance.weight as f32,
     }));
     // Largest first, equal areas in order of their place in the list.
     let key = |p: &Piece, at: usize| (ordered_bits(p.bounds.half_area()), std::cmp::Reverse(at));

@@ -2,7 +2,6 @@
 
 use super::budget::{Budget, Loan};
 use super::error::{ErrorKind, ImportError};
-use super::mesh::{Attribute, Part};
 use super::report::FileRead;
 use crate::input::{InputError, Root};
 use files::ShowPath as _;
@@ -90,28 +89,6 @@ pub(super) fn read_file(path: &Path, limits: &Limits) -> Result<(Vec<u8>, Loan),
     let loan = limits.memory.take(len, &place())?;
     let bytes = files::read_open(path, &file, limits.file_bytes).map_err(|e| failed(e.into()))?;
     Ok((bytes, loan))
-}
-
-/// Takes what the parts of a mesh need until the pack is written: here, and once more in the pack.
-pub(super) fn keep(parts: &[Part], place: &str, limits: &Limits) -> Result<(), ImportError> {
-    fn attribute<T>(attribute: &Attribute<T>) -> usize {
-        match attribute {
-            Attribute::Absent => 0,
-            Attribute::PerVertex(values) => size_of_val(values.as_slice()),
-            Attribute::Indexed { values, corners } => {
-                size_of_val(values.as_slice()) + size_of_val(corners.as_slice())
-            }
-        }
-    }
-    let part = |part: &Part| {
-        size_of_val(part.positions.as_slice())
-            + size_of_val(part.triangles.as_slice())
-            + attribute(&part.normals)
-            + attribute(&part.uvs)
-    };
-    let bytes: usize = parts.iter().map(part).sum();
-    limits.memory.take(2 * bytes as u64, place)?.keep();
-    Ok(())
 }
 
 fn input_error(path: &Path, error: InputError) -> ImportError {

@@ -11,17 +11,19 @@
 mod accessor;
 mod bake;
 mod container;
+mod document;
 mod layers;
+mod maps;
 mod material;
 mod node;
 mod primitive;
 
-use self::accessor::Buffers;
 use self::container::Images;
+use self::document::Document;
 use super::error::{ErrorKind, ImportError};
-use super::file::{Limits, Reader, keep, read_file};
+use super::file::{Limits, Reader, read_file};
 use super::image_set::ImageSet;
-use super::mesh::MeshFile;
+use super::mesh::{MeshFile, keep};
 use super::report::ImportReport;
 use ::gltf::json::{Accessor, Material, Root, deserialize, mesh, scene};
 use files::ShowPath as _;
@@ -39,19 +41,6 @@ const SUPPORTED: [&str; 9] = [
     "KHR_mesh_quantization",
     "KHR_texture_transform",
 ];
-
-/// A parsed file with its name for messages.
-struct Document<'a> {
-    root: &'a Root,
-    file: &'a str,
-}
-
-impl Document<'_> {
-    /// An error about something inside the file: `file: accessor 3: message`.
-    fn error(&self, kind: ErrorKind, what: &str, message: impl Into<String>) -> ImportError {
-        ImportError::new(kind, format!("{}: {what}", self.file), message)
-    }
-}
 
 /// Reads a `.gltf` or `.glb` file with the buffers and images that it refers to.
 pub fn load_gltf(path: &Path, limits: &Limits) -> Result<MeshFile, ImportError> {

@@ -1,5 +1,7 @@
 //! Triangles by part, object frame of the file: metres, +Y up, right-handed.
 
+use super::error::ImportError;
+use super::file::Limits;
 use super::material::{ImportedImage, ImportedMaterial};
 use super::report::ImportReport;
 use std::collections::BTreeSet;
@@ -137,4 +139,26 @@ pub(super) fn names<'a>(parts: impl Iterator<Item = Names<'a>>) -> Vec<&'a str> 
 /// Letters and digits of a name in lower case.
 fn letters(name: &str) -> impl Iterator<Item = char> {
     name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase)
+}
+
+/// Takes what the parts of a mesh need until the pack is written: here, and once more in the pack.
+pub(super) fn keep(parts: &[Part], place: &str, limits: &Limits) -> Result<(), ImportError> {
+    fn attribute<T>(attribute: &Attribute<T>) -> usize {
+        match attribute {
+            Attribute::Absent => 0,
+            Attribute::PerVertex(values) => size_of_val(values.as_slice()),
+            Attribute::Indexed { values, corners } => {
+                size_of_val(values.as_slice()) + size_of_val(corners.as_slice())
+            }
+        }
+    }
+    let part = |part: &Part| {
+        size_of_val(part.positions.as_slice())
+            + size_of_val(part.triangles.as_slice())
+            + attribute(&part.normals)
+            + attribute(&part.uvs)
+    };
+    let bytes: usize = parts.iter().map(part).sum();
+    limits.memory.take(2 * bytes as u64, place)?.keep();
+    Ok(())
 }

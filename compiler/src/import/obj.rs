@@ -1,30 +1,25 @@
 //! Wavefront OBJ with its MTL files becomes a [`MeshFile`].
 //!
-//! The scanner checks the text and feeds `tobj`; `build` turns `tobj`'s models into parts, one for
-//! each pair of name and material; triangles without normals get computed ones. Axes are turned so
-//! that `up` becomes +Y by a rotation (never a reflection), and units become metres.
+//! `parse` reads the text once into flat arrays; `mtl` reads the material libraries, with `tobj`;
+//! `build` makes the parts, one for each pair of name and material; triangles without normals get
+//! computed ones. Axes are turned so that `up` becomes +Y by a rotation (never a reflection), and
+//! units become metres.
 
 mod build;
+mod frame;
+mod lines;
 mod mtl;
-mod scan;
+mod parse;
 
-use self::scan::{Scanned, Scanner};
-use super::budget::Loan;
+use self::parse::Oddities;
 use super::error::{ErrorKind, ImportError};
-use super::file::{Limits, Reader, keep, read_file};
+use super::file::{Limits, Reader, read_file};
 use super::image_set::ImageSet;
-use super::mesh::{MeshFile, Part};
+use super::mesh::{MeshFile, Part, keep};
 use super::report::ImportReport;
 use files::ShowPath as _;
 use lang::scene::Axis;
 use std::path::Path;
-
-/// How the numbers of a file become metres with +Y up.
-#[derive(Clone, Copy)]
-struct Frame {
-    metres_per_unit: f64,
-    up: Axis,
-}
 
 /// Reads an OBJ file whose unit is `metres_per_unit` and whose `up` axis is to become +Y.
 ///
@@ -52,26 +47,26 @@ pub fn read_obj(
     reader.remember(path, bytes);
     let file = path.shown().to_string();
     reject_foreign(bytes, &file)?;
-    let (models, scanned, loan) = parse(bytes, &file, limits)?;
+    let (obj, loan) = parse::parse(bytes, &file, limits)?;
     let mut report = ImportReport::default();
-    warn_about(&scanned, &file, &mut report);
+    warn_about(&obj.oddities, &file, &mut report);
     let mut images = ImageSet::default();
     let folder = path.parent().unwrap_or(Path::new(""));
-    let library = mtl::load(folder, &file, &scanned, &mut reader, &mut images, &mut report)?;
+    let library = mtl::load(folder, &file, &obj, &mut reader, &mut images, &mut report)?;
     let source = build::Source {
         file: &file,
-        bytes,
-        frame: Frame { metres_per_unit, up },
-        scanned: &scanned,
+        frame: frame::Frame { metres_per_unit, up },
+        names: &obj.names,
         material_ids: &library.ids,
         limits,
     };
-    let parts = build::parts(models, &source, &mut report)?;
+    let n_faces = obj.geometry.faces.len();
+    let parts = build::parts(obj.geometry, &source, &mut report)?;
     drop(loan);
     keep(&parts, &file, limits)?;
     let images = images.decode(limits, &mut report)?;
     report.files = reader.finish();
-    finish(&file, &scanned, parts, report).map(|(parts, report)| MeshFile {
+    finish(&file, n_faces, parts, report).map(|(parts, report)| MeshFile {
         parts,
         materials: library.materials,
         images,
@@ -81,13 +76,13 @@ pub fn read_obj(
 
 fn finish(
     file: &str,
-    scanned: &Scanned,
+    n_faces: usize,
     parts: Vec<Part>,
     mut report: ImportReport,
 ) -> Result<(Vec<Part>, ImportReport), ImportError> {
     report.n_triangles = parts.iter().map(|part| part.triangles.len() as u64).sum();
     if report.n_triangles == 0 {
-        let message = match scanned.n_faces {
+        let message = match n_faces {
             0 => "the file has no faces".to_owned(),
             n => format!("none of its {n} faces has an area"),
         };
@@ -119,28 +114,8 @@ fn reject_foreign(bytes: &[u8], file: &str) -> Result<(), ImportError> {
         .with_help("export it as OBJ text or glTF"))
 }
 
-fn parse(
-    bytes: &[u8],
-    file: &str,
-    limits: &Limits,
-) -> Result<(Vec<tobj::Model>, Scanned, Loan), ImportError> {
-    let mut scanner = Scanner::new(file, bytes, limits);
-    let options = tobj::LoadOptions::default();
-    // Materials are read apart: the scanner passes on neither `mtllib` nor `usemtl`.
-    let parsed =
-        tobj::load_obj_buf(&mut scanner, &options, |_| Err(tobj::LoadError::OpenFileFailed));
-    if let Some(error) = scanner.error.take() {
-        return Err(error);
-    }
-    let (models, _) = parsed.map_err(|error| {
-        ImportError::new(ErrorKind::Format, scanner.place(), format!("cannot be read: {error}"))
-    })?;
-    let (scanned, loan) = scanner.finish();
-    Ok((models, scanned, loan))
-}
-
-fn warn_about(scanned: &Scanned, file: &str, report: &mut ImportReport) {
-    for (keyword, (count, line)) in &scanned.skipped {
+fn warn_about(odd: &Oddities, file: &str, report: &mut ImportReport) {
+    for (keyword, (count, line)) in &odd.skipped {
         let message = format!("`{keyword}` is not used here; {count} such lines are skipped");
         report.warn(format!("{file}:{line}"), message);
     }
@@ -149,33 +124,14 @@ fn warn_about(scanned: &Scanned, file: &str, report: &mut ImportReport) {
             report.warn(format!("{file}:{line}"), message(count));
         }
     };
-    warn(scanned.colored, &|n| format!("colours of {n} vertices are not used"));
-    warn(scanned.latin, &|n| {
+    warn(odd.colored, &|n| format!("colours of {n} vertices are not used"));
+    warn(odd.latin, &|n| {
         format!("{n} names are not UTF-8 and were read as Latin-1; this is the first")
     });
-    let [uvs, normals] = scanned.dangling;
+    let [uvs, normals] = odd.dangling;
     warn(uvs, &|n| format!("{n} faces have UV indices, but there are no `vt` lines above them"));
     warn(normals, &|n| {
         let what = "have normal indices, but there are no `vn` lines above them";
         format!("{n} faces {what}: their normals are computed")
     });
-}
-
-impl Frame {
-    /// Turns the `up` axis to +Y.
-    fn turn(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
-        match self.up {
-            Axis::PlusY => [x, y, z],
-            Axis::MinusY => [x, -y, -z],
-            Axis::PlusZ => [x, z, -y],
-            Axis::MinusZ => [x, -z, y],
-            Axis::PlusX => [-y, x, z],
-            Axis::MinusX => [y, -x, z],
-        }
-    }
-
-    /// A position of the file in metres.
-    fn position(self, p: [f32; 3]) -> [f64; 3] {
-        self.turn(p.map(|x| f64::from(x) * self.metres_per_unit))
-    }
 }

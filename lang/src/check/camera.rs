@@ -1,5 +1,6 @@
 //! Camera and film fields become angles, radii and pixels.
 
+use super::exclusive::{one_of, one_of_noting};
 use super::fields::Fields;
 use super::light::unit;
 use crate::diagnostic::{Code, Diagnostic};
@@ -18,7 +19,10 @@ const MIN_UP_SINE: f64 = 1e-6;
 /// Checks how the fields of a camera go together.
 pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
     let fov = ["lens", "fov.horizontal", "fov.vertical"];
-    one_of(ev, fields, &fov, "the field of view");
+    one_of_noting(ev, fields, &fov, "the field of view", |earlier| match earlier {
+        "lens" => lens_note(fields),
+        _ => String::new(),
+    });
     one_of(ev, fields, &["f_stop", "aperture"], "the opening of the lens");
     let (Some(from), Some(to), Some(span)) =
         (fields.vector::<3>("from"), fields.vector::<3>("to"), fields.span("to"))
@@ -45,22 +49,6 @@ pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
             .with_help("for a view straight down write `up = (0, 0, -1)`");
         ev.fault(error);
     }
-}
-
-/// At most one of these fields may be written.
-pub(crate) fn one_of(ev: &mut Evaluator<'_>, fields: &Fields, names: &[&str], what: &str) {
-    let written: Vec<&str> = names.iter().copied().filter(|name| fields.has(name)).collect();
-    let [first, second, ..] = written.as_slice() else { return };
-    let (Some(a), Some(b)) = (fields.span(first), fields.span(second)) else { return };
-    let (earlier, later) = if a <= b { (first, second) } else { (second, first) };
-    let (a, b) = (a.min(b), a.max(b));
-    let text = format!("`{earlier}` and `{later}` both set {what}");
-    let note = match *earlier {
-        "lens" => lens_note(fields),
-        _ => String::new(),
-    };
-    let error = Diagnostic::error(Code("E0703"), text).at(b, "keep one of them").because(a, note);
-    ev.fault(error);
 }
 
 /// What the lens sees: `50mm on a 36mm sensor: 39.6deg across, 22.9deg up at 16:9`.

@@ -4,37 +4,15 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::fields::{Fields, default_value};
+use super::given::{Given, Givens, OwnFields};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::eval::value::Value;
 use crate::eval::{Evaluator, Scope};
 use crate::resolve::{ItemId, quoted_list};
-use crate::schema::{Field, FieldType, Kind, TypeSchema};
+use crate::schema::{Field, FieldType, Kind, TypeSchema, types_of};
 use crate::source::Span;
 use crate::suggest::suggest;
 use crate::syntax::{Arg, Expr, Ident};
-
-/// An assignment before it is evaluated.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Given<'p> {
-    pub(crate) field: &'static Field,
-    pub(crate) expr: &'p Expr,
-    /// The whole assignment.
-    pub(crate) span: Span,
-    /// Where it is written, which decides what names it sees.
-    pub(crate) module: u32,
-}
-
-/// The assignments of a declaration, its bases included.
-pub(crate) type Givens<'p> = BTreeMap<&'static str, Given<'p>>;
-
-/// What a declaration sets itself: the last assignment of each field. Others may be like it or refer to it
-/// any number of times, so it is collected once.
-#[derive(Debug, Default)]
-pub(crate) struct OwnFields<'p> {
-    givens: Givens<'p>,
-    /// Some of its fields do not exist or could not be read.
-    unsure: bool,
-}
 
 impl<'p> Evaluator<'p> {
     /// The assignments of a declaration: the nearest along `like` wins.
@@ -360,9 +338,7 @@ fn is_optical_constant(schema: &TypeSchema, name: &Ident) -> bool {
 
 /// A field of another type of the same kind: says which. Else lists the fields there are.
 fn other_owner(error: Diagnostic, schema: &TypeSchema, name: &Ident) -> Diagnostic {
-    let others: Vec<String> = schema
-        .kind
-        .types()
+    let others: Vec<String> = types_of(schema.kind)
         .iter()
         .filter(|other| other.field(&name.text).is_some())
         .map(|other| other.name.to_owned())

@@ -2,12 +2,19 @@
 
 use std::collections::BTreeMap;
 
-use super::Options;
 use crate::diagnostic::{Code, Diagnostic, Edit, Fix};
 use crate::eval::Define;
 use crate::parse;
 use crate::source::{SourceSet, Span};
 use crate::syntax::ItemKind;
+
+/// What is given beside the text.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// `name=value` pairs that replace the values of parameters of the root file, in order; of two
+    /// with one name the last counts.
+    pub defines: Vec<(String, String)>,
+}
 
 /// Reads all definitions; of two with one name the last counts.
 pub(super) fn read(

@@ -6,6 +6,7 @@ use crate::eval::value::Value;
 use crate::resolve::ItemId;
 use crate::scene::{Axis, Rgb};
 use crate::schema::{self, Default, Field, FieldType, TypeSchema};
+use crate::shape::Lengths;
 use crate::source::Span;
 use crate::units::{self, Dim};
 
@@ -155,6 +156,16 @@ impl Fields {
             Some(Value::Vector(values, _)) => values.try_into().ok(),
             _ => None,
         }
+    }
+
+    /// The numbers of every field that has some, in SI.
+    pub(crate) fn lengths(&self) -> Lengths {
+        let numbers = |field: &Field| match self.get(field.name)? {
+            Value::Number(value, _) => Some((field.name, vec![value])),
+            Value::Vector(values, _) => Some((field.name, values)),
+            _ => None,
+        };
+        self.schema.fields.iter().filter_map(numbers).collect()
     }
 
     /// A constant colour.

@@ -2,8 +2,8 @@
 
 use std::rc::Rc;
 
-use super::collect::Givens;
 use super::fields::Fields;
+use super::given::Givens;
 use super::object::{self, Objects, Thing};
 use super::transform::{self, Pose};
 use crate::diagnostic::{Code, Diagnostic};

@@ -1,6 +1,6 @@
 //! Material fields become the material of the scene.
 
-use super::camera::one_of;
+use super::exclusive::one_of;
 use super::fields::Fields;
 use super::medium;
 use super::pattern;

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::fields::Fields;
+use super::index::refuse_index;
 use super::transform::{self, Pose};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
@@ -41,7 +42,7 @@ impl Objects {
     /// Checks every object, then which objects hold which.
     pub(super) fn check(&mut self, ev: &mut Evaluator<'_>, ids: &[ItemId]) {
         for &id in ids {
-            let known = !super::refuse_index(ev, Kind::Object, id);
+            let known = !refuse_index(ev, Kind::Object, id);
             let fields = if known { ev.fields_of(id) } else { None };
             let thing = fields.filter(|fields| fields.ok).and_then(|fields| thing(&fields));
             self.0.insert(id, thing.map(Rc::new));

@@ -1,6 +1,7 @@
 //! `asset` and `texture` declarations: a call after `=` becomes what the file needs to be told.
 
 use super::fields::Fields;
+use super::file::{AssetInfo, TextureInfo};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::eval::value::Value;
 use crate::eval::{Evaluator, Scope};
@@ -9,29 +10,7 @@ use crate::scene::{AssetFormat, ColorSpace, Wrap};
 use crate::schema::asset::AssetType;
 use crate::schema::texture::TextureType;
 use crate::schema::{self, Kind};
-use crate::source::Span;
 use crate::syntax::{Binding, Expr, ExprKind, Ident};
-
-/// A sound `texture` declaration.
-#[derive(Clone, Debug)]
-pub(crate) struct TextureInfo {
-    pub(crate) path: String,
-    pub(crate) path_span: Span,
-    pub(crate) space: ColorSpace,
-    /// `space: srgb`.
-    pub(crate) space_span: Span,
-    /// `srgb`.
-    pub(crate) space_value: Span,
-    pub(crate) wrap: [Wrap; 2],
-}
-
-/// A sound `asset` declaration.
-#[derive(Clone, Debug)]
-pub(crate) struct AssetInfo {
-    pub(crate) path: String,
-    pub(crate) path_span: Span,
-    pub(crate) format: AssetFormat,
-}
 
 /// Checks an `asset`.
 pub(super) fn asset(ev: &mut Evaluator<'_>, id: ItemId, binding: &Binding) -> Option<AssetInfo> {
@@ -90,8 +69,10 @@ fn file_call(ev: &mut Evaluator<'_>, id: ItemId, kind: Kind, expr: &Expr) -> Opt
         _ => {
             let value = ev.eval(expr, scope);
             if value != Value::Poison {
-                let examples: Vec<String> =
-                    kind.types().iter().map(|schema| format!("`{}(...)`", schema.name)).collect();
+                let examples: Vec<String> = schema::types_of(kind)
+                    .iter()
+                    .map(|schema| format!("`{}(...)`", schema.name))
+                    .collect();
                 let text = format!(
                     "{} is {}, not {}",
                     kind.with_article(),
@@ -109,7 +90,7 @@ fn file_call(ev: &mut Evaluator<'_>, id: ItemId, kind: Kind, expr: &Expr) -> Opt
 fn unknown_call(ev: &mut Evaluator<'_>, kind: Kind, name: &Ident) {
     let text = format!("there is no {} `{}(...)`", kind.name(), name.text);
     let error = Diagnostic::error(Code("E0202"), text);
-    let foreign = kind.types().iter().find_map(|schema| {
+    let foreign = schema::types_of(kind).iter().find_map(|schema| {
         schema.foreign.iter().find(|f| f.0 == name.text).map(|f| (schema.name, f.1))
     });
     let error = if let Some((ours, from)) = foreign {
@@ -118,7 +99,7 @@ fn unknown_call(ev: &mut Evaluator<'_>, kind: Kind, name: &Ident) {
             .with_note(format!("`{}` is the name in {from}", name.text))
             .with_fix(Fix::sure(format!("in `.rts` it is `{ours}`"), name.span, ours))
     } else {
-        let names = kind.types().iter().map(|schema| schema.name);
+        let names = schema::types_of(kind).iter().map(|schema| schema.name);
         did_you_mean(error, name, names)
     };
     ev.fault(error);

@@ -13,9 +13,7 @@ impl Evaluator<'_> {
         expr: &Expr,
         scope: Scope<'_>,
     ) -> Diagnostic {
-        let mut names = Vec::new();
-        walk_paths(expr, &mut |path| names.push(path));
-        for path in names.into_iter().take(3) {
+        for path in paths(expr).into_iter().take(3) {
             let Some(id) = self.program.lookup(scope.module, path) else { continue };
             let is_value =
                 matches!(self.program.item(id).kind, ItemKind::Param(_) | ItemKind::Let(_));
@@ -38,9 +36,7 @@ impl Evaluator<'_> {
         expr: &Expr,
         scope: Scope<'_>,
     ) -> Diagnostic {
-        let mut names = Vec::new();
-        walk_paths(expr, &mut |path| names.push(path));
-        for path in names.into_iter().take(4) {
+        for path in paths(expr).into_iter().take(4) {
             if let Some(id) = self.program.lookup(scope.module, path)
                 && let Some(value) = self.known_binding(id)
             {
@@ -50,6 +46,13 @@ impl Evaluator<'_> {
         }
         error
     }
+}
+
+/// Every path of an expression, calls included.
+fn paths(expr: &Expr) -> Vec<&syntax::Path> {
+    let mut paths = Vec::new();
+    walk_paths(expr, &mut |path| paths.push(path));
+    paths
 }
 
 /// Calls `visit` for every path of an expression, calls included.

@@ -30,7 +30,7 @@ impl Evaluator<'_> {
         }
         if let Some(schema) = schema::find_type(Kind::Shape, &name.text) {
             let fields = self.call_fields(schema, name, args, scope);
-            let shape = Shape::read(&fields).filter(|_| fields.ok);
+            let shape = Shape::read(schema, &fields.lengths()).filter(|_| fields.ok);
             return shape
                 .map_or(Value::Poison, |shape| Value::Shape(Rc::new(ShapeValue::Plain(shape))));
         }
@@ -51,7 +51,7 @@ impl Evaluator<'_> {
 
     fn unknown_function(&mut self, name: &Ident) -> Value {
         let error = Diagnostic::error(Code("E0202"), format!("no function named `{}`", name.text));
-        let foreign = Kind::Shape.types().iter().find_map(|shape| {
+        let foreign = schema::types_of(Kind::Shape).iter().find_map(|shape| {
             shape.foreign.iter().find(|f| f.0 == name.text).map(|f| (shape.name, f.1))
         });
         if let Some((ours, from)) = foreign {
@@ -60,7 +60,7 @@ impl Evaluator<'_> {
             return self.fault(error.at(name.span, "not known").with_note(note).with_fix(fix));
         }
         let functions = FUNCTIONS.iter().map(|function| function.name);
-        let shapes = Kind::Shape.types().iter().map(|shape| shape.name);
+        let shapes = schema::types_of(Kind::Shape).iter().map(|shape| shape.name);
         self.fault(did_you_mean(error, name, functions.chain(shapes)))
     }
 

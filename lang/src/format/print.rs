@@ -2,9 +2,11 @@
 
 use std::ops::Range;
 
-use super::MAX_WIDTH;
 use super::tree::{Group, Node, Piece, Pieces, Style, declaration};
 use crate::lex::{Kind, Token, ends_value, is_callee};
+
+/// Longest line that is left unbroken, in characters.
+pub const MAX_WIDTH: usize = 100;
 
 /// Columns per level.
 const INDENT: usize = 2;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::check::Fields;
 use crate::eval::value::Value;
 use crate::resolve::ItemId;
-use crate::scene::{Rgb, Scene};
+use crate::scene::{Medium, Rgb, Texture};
 use crate::schema::{self, Field, FieldType, color_text};
 use crate::source::Span;
 use crate::units::{self, Dim};
@@ -110,24 +110,29 @@ impl Reader<'_> {
 
 /// Fields of a declaration as they would be written.
 pub(crate) struct Shown<'a> {
-    /// Names of what they refer to.
-    pub(crate) scene: &'a Scene,
+    /// What they may refer to, by index.
+    textures: &'a [Texture],
+    media: &'a [Medium],
     /// Names and values.
     pub(crate) lines: Vec<(&'static str, String)>,
 }
 
-impl Shown<'_> {
+impl<'a> Shown<'a> {
+    pub(crate) fn new(textures: &'a [Texture], media: &'a [Medium]) -> Self {
+        Self { textures, media, lines: Vec::new() }
+    }
+
     fn push(&mut self, field: &Field, value: String) {
         self.lines.push((field.name, value));
     }
 
     fn texture(&self, texture: usize) -> &str {
-        self.scene.textures.get(texture).map_or("", |texture| texture.name.text.as_str())
+        self.textures.get(texture).map_or("", |texture| texture.name.text.as_str())
     }
 
     /// The name of a medium, or `none`.
     pub(crate) fn medium(&self, medium: Option<usize>) -> String {
-        let medium = medium.and_then(|medium| self.scene.media.get(medium));
+        let medium = medium.and_then(|medium| self.media.get(medium));
         medium.map_or("none", |medium| medium.name.text.as_str()).to_owned()
     }
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::model::Model;
 use super::{Found, ItemId, Program, decl_kind, quoted_list};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::schema::{self, Kind, TypeSchema};
@@ -11,17 +12,6 @@ use crate::syntax::{Base, Decl, Path};
 
 /// A chain of `like` may be this long.
 const MAX_LIKE: usize = 8;
-
-/// What a declaration is built on.
-#[derive(Clone, Debug)]
-pub(crate) struct Model {
-    /// Its table of fields.
-    pub(crate) schema: &'static TypeSchema,
-    /// Itself, then what it is like, and so on.
-    pub(crate) chain: Vec<ItemId>,
-    /// For `instance name: object`: the object and where it is named.
-    pub(crate) object: Option<(ItemId, Span)>,
-}
 
 /// The models of all declarations that have one, and what is wrong with the others.
 pub(crate) fn models(program: &Program) -> (BTreeMap<ItemId, Model>, Vec<Diagnostic>) {
@@ -131,8 +121,7 @@ impl Bases<'_> {
             return;
         }
         let error = Diagnostic::error(code, format!("there is no {word} type `{name}`"));
-        let foreign = kind
-            .types()
+        let foreign = schema::types_of(kind)
             .iter()
             .find_map(|t| t.foreign.iter().find(|f| f.0 == name).map(|f| (t.name, f.1)));
         let types = type_names(kind);
@@ -268,5 +257,5 @@ impl Bases<'_> {
 }
 
 fn type_names(kind: Kind) -> Vec<String> {
-    kind.types().iter().map(|schema| schema.name.to_owned()).collect()
+    schema::types_of(kind).iter().map(|schema| schema.name.to_owned()).collect()
 }

@@ -1,6 +1,6 @@
 //! Files that a scene uses: meshes and images.
 
-use super::Name;
+use super::common::Name;
 use crate::schema::words;
 use crate::source::Span;
 

@@ -1,6 +1,6 @@
 //! Things in the world.
 
-use super::Name;
+use super::common::Name;
 use crate::shape::Shape;
 use crate::source::Span;
 

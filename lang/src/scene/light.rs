@@ -1,6 +1,6 @@
 //! Where light comes from.
 
-use super::{Name, Rgb};
+use super::common::{Name, Rgb};
 
 /// A sphere light.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! Who looks, and what becomes of it.
 
-use super::Name;
+use super::common::Name;
 use crate::schema::words;
 
 /// A perspective camera.

@@ -1,6 +1,6 @@
 //! Differences of pixels → a picture of them.
 
-use super::Report;
+use super::report::Report;
 use crate::output::{OutputError, encode_rgb};
 
 /// Colours from no difference to all of it, sRGB: black, blue, purple, orange, yellow, white.

@@ -32,7 +32,7 @@ pub struct Sample {
     /// Segments of the path.
     pub segments: u32,
     /// As in the film: overflows in bits 0-15, leaks in bits 16-31.
-    pub strays: u32,
+    pub stack_errors: u32,
     /// A number that is another where another ray was traced, or met another thing.
     pub way: u64,
     /// Every ray, when they were asked for.
@@ -70,7 +70,7 @@ macro_rules! precision {
         pub(super) mod $module {
             use super::{Sample, Step};
             use crate::kernel::$real as k;
-            use crate::scene::Setup;
+            use crate::setup::Setup;
             use glam::{UVec2, UVec4};
             use pack::Kind;
             use pack::abi::{Frame, NONE};
@@ -129,7 +129,7 @@ macro_rules! precision {
                 }
                 found.radiance = $wide(path.radiance);
                 found.segments = path.segments;
-                found.strays = kernel.dispatch_strays(&mut path);
+                found.stack_errors = kernel.dispatch_stack_errors(&mut path);
                 found
             }
         }

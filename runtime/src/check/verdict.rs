@@ -1,6 +1,6 @@
 //! A report → stable or not, and why.
 
-use super::{PARTED, Report};
+use super::report::{PARTED, Report};
 
 /// Share of paths that may go other ways: rays near edges do.
 const PATHS: f64 = 0.01;

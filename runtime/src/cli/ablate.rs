@@ -1,8 +1,8 @@
 //! `rtr --ablate scene.pack`: what a kernel without superfluous features is worth, as a table and as JSON.
 
-use super::Exit;
 use super::args::RenderArgs;
 use super::console::Console;
+use super::exit::Exit;
 
 #[cfg(not(feature = "gpu"))]
 pub(super) fn command(args: &RenderArgs) -> Exit {
@@ -17,9 +17,9 @@ pub(super) use with_gpu::command;
 
 #[cfg(feature = "gpu")]
 mod with_gpu {
-    use super::super::args::AblateArg;
+    use super::super::args::{AblateArg, Verify};
     use super::super::console::reset_interrupts;
-    use super::super::guard::{Guard, Verify};
+    use super::super::guard::Guard;
     use super::super::open::{How, open};
     use super::super::outputs::{Claim, Use, prove, save};
     use super::{Console, Exit, RenderArgs};

@@ -1,6 +1,5 @@
 //! Arguments as clap reads them, and the parsers of their values.
 
-use super::guard::Verify;
 use crate::convergence::Goal;
 use crate::output::Format;
 use crate::region::{Rect, SampleRange};
@@ -293,9 +292,6 @@ pub(super) struct RenderArgs {
     /// Wanted duration of one GPU submission, at most 1s.
     #[arg(long, default_value = "100ms", value_name = "TIME", value_parser = parse_duration)]
     pub(super) submission: Duration,
-    /// A block that never comes back, for tests.
-    #[arg(long, hide = true, default_value = "0")]
-    pub(super) stall_block: u64,
     /// Estimator, for tests.
     #[arg(long, hide = true, default_value = "mis")]
     pub(super) estimator: Estimator,
@@ -304,6 +300,17 @@ pub(super) struct RenderArgs {
     pub(super) precision: PrecisionArg,
     #[command(flatten)]
     pub(super) error: ErrorArgs,
+}
+
+/// When a pack's bytes are compared with the hashes in it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Verify {
+    /// Before rendering.
+    First,
+    /// While rendering has begun; nothing is written before.
+    Background,
+    /// Not at all: damage that breaks no rule of the format shows in the picture.
+    Off,
 }
 
 /// Numbers are those of `Frame::estimator`.

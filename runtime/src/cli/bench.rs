@@ -1,17 +1,18 @@
 //! `rtr bench A.pack B.pack`: two packs in turns, equal time each → which has less error, and whether
 //! that could be chance.
 
-use super::Exit;
-use super::args::BenchArgs;
+use super::args::{BenchArgs, Verify};
 use super::console::{Console, Watched, reset_interrupts};
-use super::guard::{Guard, Verify};
+use super::exit::Exit;
+use super::guard::Guard;
 use super::open::{How, open};
 use super::outputs::{Claim, Use, prove, save};
 use crate::control::Control;
-use crate::convergence::{Comparison, Measure, Point, Report, Spread, compare};
+use crate::convergence::{Comparison, Measure, Point, Spread, compare};
 use crate::job::Job;
 use crate::region::SampleRange;
 use crate::render::{DeviceChoice, render};
+use crate::report::Report;
 use crate::scene::Scene;
 use crate::schedule::Stop;
 use files::ShowPath as _;

@@ -1,9 +1,9 @@
 //! `rtr check scene.pack`: where single precision is not enough, and the path of one sample.
 
-use super::Exit;
-use super::args::CheckArgs;
+use super::args::{CheckArgs, Verify};
 use super::console::Console;
-use super::guard::{Guard, Verify};
+use super::exit::Exit;
+use super::guard::Guard;
 use super::open::{How, open};
 use super::outputs::{Claim, Use, prove, save};
 use crate::check::{self, Report, Sample, Step, Verdict};

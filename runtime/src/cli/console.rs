@@ -1,8 +1,9 @@
 //! What the user sees: results on stdout, everything else on stderr, progress while it renders.
 
-use super::Exit;
-use super::watch::Change;
-use crate::control::{Control, Progress};
+use super::change::Change;
+use super::exit::Exit;
+use crate::control::Control;
+use crate::signals::Progress;
 use files::ShowPath as _;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::error::Error;

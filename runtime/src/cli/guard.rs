@@ -3,9 +3,9 @@
 //! Turns damage and change into one line and exit code 3, before anything is written. A kernel may run for ever on
 //! nodes that nobody has checked; then the process ends from here. It does not know what is made of the pack.
 
-use super::Exit;
+use super::args::Verify;
 use super::console::Console;
-use super::render::ThreadError;
+use super::exit::Exit;
 use crate::control::Control;
 use pack::{Checked, Pack, PackError, Witness};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind, set_hook, take_hook};
@@ -23,16 +23,10 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// What a run that was cancelled has to end by itself.
 const GRACE: Duration = Duration::from_secs(1);
 
-/// When a pack's bytes are compared with the hashes in it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(super) enum Verify {
-    /// Before rendering.
-    First,
-    /// While rendering has begun; nothing is written before.
-    Background,
-    /// Not at all: damage that breaks no rule of the format shows in the picture.
-    Off,
-}
+/// The system gives no thread.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot start a thread: {0}; raise the limit of this process (ulimit -u, -v)")]
+pub(super) struct ThreadError(pub(super) std::io::Error);
 
 /// What is known of a pack.
 enum State {

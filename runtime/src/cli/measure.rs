@@ -1,17 +1,17 @@
 //! `--report`, `--plot`, `--until-error`, `--reference`: what a run that is measured is asked, and
 //! where its answer goes.
 
-use super::Exit;
 use super::args::RenderArgs;
 use super::console::Console;
+use super::exit::Exit;
 use super::outputs::save;
-use crate::convergence::{
-    Convergence, Measure, REPLICATES_U32, Reference, Report, Times, chart_png, chart_svg,
-};
+use crate::convergence::{Convergence, Measure, Reference, Times, chart_png, chart_svg};
 use crate::job::Job;
+use crate::outcome::Outcome;
 use crate::output;
 use crate::region::SampleRange;
-use crate::render::Outcome;
+use crate::replicate::REPLICATES_U32;
+use crate::report::Report;
 use crate::scene::Scene;
 use files::ShowPath as _;
 use std::path::Path;

@@ -2,9 +2,9 @@
 //!
 //! Turns arguments and a pack into names and formats, and finished bytes into files. It does not render.
 
-use super::Exit;
 use super::args::RenderArgs;
 use super::console::Console;
+use super::exit::Exit;
 use crate::job::Job;
 use crate::output::Format;
 use crate::scene::Scene;

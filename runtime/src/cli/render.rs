@@ -1,48 +1,62 @@
 //! `rtr scene.pack`: opens, renders, writes, and says what happened.
 
-use super::Exit;
 use super::args::{Every, PrecisionArg, RenderArgs};
+use super::change::Change;
 use super::console::{Console, Watched, duration_text, mrays, quit, reset_interrupts};
-use super::guard::Guard;
+use super::exit::Exit;
+use super::guard::{Guard, ThreadError};
 use super::measure;
 use super::open::{How, is_stdin, open};
 use super::outputs::{Claim, Output, Use, outputs, prove, room, save, with_extension};
-use super::watch::Change;
 use crate::checkpoint::{Checkpoint, CheckpointError};
 use crate::control::Control;
 use crate::job::{Job, Precision};
 use crate::mark::Mark;
+use crate::outcome::Outcome;
 use crate::output;
 use crate::region::SampleRange;
-use crate::render::{DeviceChoice, Outcome, RenderError, render_session};
+use crate::render::{DeviceChoice, RenderError, render_session};
 use crate::saver::{Keep, Session};
 use crate::scene::Scene;
 use crate::schedule::Stop;
+use crate::signals::{Event, Observer};
 use files::ShowPath as _;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// `change`: what makes the picture pointless while it is rendered; then nothing is written.
-pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
+/// A pack that is rendered again whenever it changes.
+#[derive(Clone, Copy)]
+pub(super) struct Watching<'a> {
+    /// Makes the picture pointless while it is rendered; then nothing is written.
+    pub(super) change: &'a Change,
+    /// Names of the pictures, which stay what they were for the first.
+    pub(super) names: &'a OnceLock<Vec<Output>>,
+}
+
+impl Watching<'_> {
+    /// The names of the pictures; `first` makes them where there are none yet.
+    fn names<E>(self, first: impl FnOnce() -> Result<Vec<Output>, E>) -> Result<Vec<Output>, E> {
+        match self.names.get() {
+            Some(names) => Ok(names.clone()),
+            None => first().map(|names| self.names.get_or_init(|| names).clone()),
+        }
+    }
+}
+
+/// Renders a pack once.
+pub(super) fn command(
+    args: &RenderArgs,
+    observer: &'static Observer,
+    watching: Option<Watching<'_>>,
+) -> Exit {
     let began = Instant::now();
     let console = Console::with_progress(args.quiet).beside(&args.output);
-    let Some(path) = &args.pack else {
-        console.warn("error: no pack was named");
-        return Exit::Usage;
+    let path = match pack_path(args, &console) {
+        Ok(path) => path,
+        Err(exit) => return exit,
     };
-    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("rts")) {
-        let (path, pack) = (path.shown(), path.with_extension("pack"));
-        console.warn(&format!(
-            "error: {path} is a scene source, compile it first: rtc {path} -o {}",
-            pack.shown()
-        ));
-        return Exit::World;
-    }
-    if args.watch && is_stdin(path) {
-        console.warn("error: standard input cannot be watched, name a file");
-        return Exit::Usage;
-    }
     // A mapped file must not change; one that is watched is going to.
     let scene = match open(path, How::of(args.no_mmap || args.watch)) {
         Ok(pack) => Scene::new(pack),
@@ -62,7 +76,7 @@ pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
         return console.fail(&error, Exit::Usage);
     }
     let first = || outputs(args, &console, path, &scene);
-    let outputs = match change.map_or_else(first, |change| change.names(first)) {
+    let outputs = match watching.map_or_else(first, |watching| watching.names(first)) {
         Ok(outputs) => outputs,
         Err(text) => {
             console.warn(&format!("error: {text}"));
@@ -94,8 +108,30 @@ pub(super) fn command(args: &RenderArgs, change: Option<&Change>) -> Exit {
     };
     let (scene, guard, job, outputs) = (&scene, &guard, &job, &outputs);
     let console = &console;
-    let plan = Plan { args, console, scene, guard, job, outputs, change, load, resumed };
+    let plan =
+        Plan { args, observer, console, scene, guard, job, outputs, watching, load, resumed };
     run(&plan, Session { from, keep })
+}
+
+/// The pack that is named, if it can be one.
+fn pack_path<'a>(args: &'a RenderArgs, console: &Console) -> Result<&'a Path, Exit> {
+    let Some(path) = &args.pack else {
+        console.warn("error: no pack was named");
+        return Err(Exit::Usage);
+    };
+    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("rts")) {
+        let (path, pack) = (path.shown(), path.with_extension("pack"));
+        console.warn(&format!(
+            "error: {path} is a scene source, compile it first: rtc {path} -o {}",
+            pack.shown()
+        ));
+        return Err(Exit::World);
+    }
+    if args.watch && is_stdin(path) {
+        console.warn("error: standard input cannot be watched, name a file");
+        return Err(Exit::Usage);
+    }
+    Ok(path)
 }
 
 /// Everything that this run reads and writes.
@@ -153,12 +189,13 @@ fn job(args: &RenderArgs, scene: &Scene) -> Job {
 /// What is rendered, and where it goes.
 struct Plan<'a> {
     args: &'a RenderArgs,
+    observer: &'static Observer,
     console: &'a Console,
     scene: &'a Scene,
     guard: &'a Guard<'a>,
     job: &'a Job,
     outputs: &'a [Output],
-    change: Option<&'a Change>,
+    watching: Option<Watching<'a>>,
     /// Time that opening the pack took.
     load: Duration,
     /// The checkpoint that the run goes on from.
@@ -166,13 +203,19 @@ struct Plan<'a> {
 }
 
 fn run(plan: &Plan<'_>, session: Session) -> Exit {
-    let Plan { args, console, scene, guard, job, change, .. } = *plan;
+    let Plan { args, observer, console, scene, guard, job, watching, .. } = *plan;
+    let change = watching.map(|watching| watching.change);
     if change.is_none() {
         reset_interrupts();
     }
     let notes = console.clone();
-    let control = Control::new(move |text| notes.note(text)).gated(guard.gate());
-    control.stall_block(args.stall_block);
+    let control = Control::new(move |event| {
+        if let Event::Note(text) = event {
+            notes.note(text);
+        }
+        observer(event);
+    });
+    let control = control.gated(guard.gate());
     let watched = Watched { spp: job.spp(), limit: job.time_limit, change };
     let over = AtomicBool::new(false);
     let rescue = || rescue(plan, &control);
@@ -216,15 +259,10 @@ enum Failure {
     Pack(Exit),
 }
 
-/// The system gives no thread.
-#[derive(Debug, thiserror::Error)]
-#[error("cannot start a thread: {0}; raise the limit of this process (ulimit -u, -v)")]
-pub(super) struct ThreadError(pub(super) std::io::Error);
-
 /// Writes what is complete of a run that hangs, and ends the process. Comes back when it has ended.
 fn rescue(plan: &Plan<'_>, control: &Control) {
     // A kernel may hang because the pack is damaged. Then its guard ends the process.
-    if !control.may_keep() {
+    if !control.signals().may_keep() {
         return;
     }
     if let Some(outcome) = control.salvage() {
@@ -243,7 +281,8 @@ fn rescue(plan: &Plan<'_>, control: &Control) {
 
 /// Writes the picture and says how the run ended.
 fn conclude(plan: &Plan<'_>, outcome: &Outcome) -> Exit {
-    let Plan { args, console, scene, job, outputs, change, load, .. } = *plan;
+    let Plan { args, console, scene, job, outputs, watching, load, .. } = *plan;
+    let change = watching.map(|watching| watching.change);
     if outcome.stop == Stop::Cancelled && change.is_some_and(Change::has_come) {
         return Exit::Done;
     }

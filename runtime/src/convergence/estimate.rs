@@ -2,7 +2,7 @@
 //!
 //! No reference is needed, and no model of the noise beyond this: replicates are independent.
 
-use super::REPLICATES;
+use crate::replicate::{REPLICATES, moments};
 
 /// Side of the blocks whose spread gives the interval, in pixels. Pixels side by side see the same
 /// things, so their errors are as large or as small together.
@@ -45,15 +45,6 @@ impl Noise {
     pub fn is_heavy_tailed(&self) -> bool {
         self.top > 0.5 || self.kurtosis > 100.0
     }
-}
-
-/// Mean of a pixel and the variance of that mean. `scale` times a sum is the mean of a replicate.
-#[must_use]
-pub fn moments(sums: &[f64; REPLICATES], scale: f64) -> (f64, f64) {
-    const R: f64 = REPLICATES as f64;
-    let mean = sums.iter().sum::<f64>() / R;
-    let square = sums.iter().map(|sum| (sum - mean) * (sum - mean)).sum::<f64>();
-    (mean * scale, square * scale * scale / (R * (R - 1.0)))
 }
 
 /// The error of a picture of `width` columns. `scale` times a sum is the mean of a replicate.

@@ -4,8 +4,9 @@
 //! a straight line. This module lays shapes out; `canvas` makes SVG of them, `raster` PNG.
 
 use super::canvas::{Anchor, Canvas, Colour};
+use super::goal::Quantity;
 use super::raster;
-use super::track::{Convergence, Point, Quantity, digits};
+use super::track::{Convergence, Point, digits};
 
 const WIDTH: f64 = 1200.0;
 const HEIGHT: f64 = 900.0;

@@ -1,9 +1,9 @@
 //! A picture and what it should be → how wrong it is, and how much of that is not noise.
 
-use super::estimate::{Blocks, TRIM, moments, share, trimmed_mean};
-use super::{REPLICATES, luminance};
+use super::estimate::{Blocks, TRIM, share, trimmed_mean};
 use crate::film::Film;
 use crate::region::Rect;
+use crate::replicate::{REPLICATES, luminance, moments};
 use std::fmt;
 
 /// Standard errors that a bias must be away from 0 to be believed.

@@ -4,10 +4,10 @@
 //! 1.25-fold time, never so close that measuring takes more than 0.5 % of the time.
 
 use super::estimate::{Noise, noise};
+use super::goal::{Goal, Measure, Quantity};
 use super::reference::Versus;
-use super::{Measure, REPLICATES};
+use crate::replicate::{REPLICATES, REPLICATES_U32};
 use std::fmt;
-use std::str::FromStr;
 use std::time::{Duration, Instant};
 
 /// Samples up to which every doubling is a point, and below which no run is good enough.
@@ -19,25 +19,6 @@ const PATIENCE: f64 = 200.0;
 /// Points behind a slope.
 const SLOPE_POINTS: usize = 4;
 
-/// Which error is to become small.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    /// `Noise::rel`, at the upper end of its interval.
-    Rel,
-    /// `Noise::p95`.
-    P95,
-}
-
-/// When a picture is good enough: at two points in a row the quantity is at most `limit`, with 64
-/// samples or more and without a heavy tail.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Goal {
-    /// What is looked at.
-    pub quantity: Quantity,
-    /// How large it may be.
-    pub limit: f64,
-}
-
 impl Goal {
     fn is_met_by(&self, point: &Point) -> bool {
         let value = match self.quantity {
@@ -45,33 +26,6 @@ impl Goal {
             Quantity::P95 => point.noise.p95,
         };
         value <= self.limit && point.spp >= EARLY && point.noise.top <= 0.5
-    }
-}
-
-impl fmt::Display for Goal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let name = match self.quantity {
-            Quantity::Rel => "rel",
-            Quantity::P95 => "p95",
-        };
-        write!(f, "{name} {}", self.limit)
-    }
-}
-
-impl FromStr for Goal {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let (quantity, number) = match text.split_once(':') {
-            None => (Quantity::Rel, text),
-            Some(("rel", number)) => (Quantity::Rel, number),
-            Some(("p95", number)) => (Quantity::P95, number),
-            Some(_) => return Err("write it as 0.01 or p95:0.05".to_owned()),
-        };
-        match number.parse() {
-            Ok(limit) if limit > 0.0 && limit < f64::INFINITY => Ok(Self { quantity, limit }),
-            _ => Err("write it as 0.01 or p95:0.05".to_owned()),
-        }
     }
 }
 
@@ -227,7 +181,7 @@ impl Tracker {
         if self.first_frame == 0.0 {
             self.first_frame = now.elapsed.as_secs_f64();
         }
-        let spp = samples * super::REPLICATES_U32;
+        let spp = samples * REPLICATES_U32;
         let early = spp <= EARLY && spp.is_power_of_two();
         let seconds = self.rendering(now);
         if !early && seconds < self.next {
@@ -250,7 +204,7 @@ impl Tracker {
         let scale = 1.0 / f64::from(samples);
         let noise = noise(sums, self.width, scale);
         let reference = self.measure.reference.as_ref();
-        let spp = samples * super::REPLICATES_U32;
+        let spp = samples * REPLICATES_U32;
         self.points.push(Point {
             t_render: self.rendering(now),
             t_total: now.total.as_secs_f64(),
@@ -283,7 +237,7 @@ impl Tracker {
         times: Times,
     ) -> Convergence {
         let last = self.points.last().map_or(0, |point| point.spp);
-        if samples > 0 && last != samples * super::REPLICATES_U32 {
+        if samples > 0 && last != samples * REPLICATES_U32 {
             let began = Instant::now();
             self.measure(self.latest, sums, samples);
             self.estimate += began.elapsed();

@@ -1,11 +1,11 @@
 //! Adapter + scene → a device with everything uploaded and the kernel compiled.
 
-use super::slot::{Slot, Slots};
+use super::adapter::Adapter;
+use super::error::GpuError;
 use super::stopwatch;
 use super::upload::{Uploader, wait_at_most};
-use super::{Adapter, GpuError};
 use crate::cpu::panic_text;
-use crate::scene::{Setup, WINDOW_BYTES};
+use crate::setup::{Setup, WINDOW_BYTES};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use wgpu::{
@@ -72,7 +72,7 @@ pub(super) struct Device {
 }
 
 impl Device {
-    /// `timed`: whether to use the timestamps of an adapter that has them.
+    /// Its kernel has not run yet, see `trial`. `timed`: whether to use the timestamps of an adapter that has them.
     pub(super) fn open(
         adapter: &Adapter,
         setup: &Setup<'_>,
@@ -105,13 +105,9 @@ impl Device {
         let began = Instant::now();
         let checks = (module == Module::Trusted).then(ShaderRuntimeChecks::unchecked);
         let (layout, pipeline) = compile(&device, setup.kernel(), &windows, checks)?;
-        let (gpu, built) = (device, Duration::ZERO);
+        let (gpu, built) = (device, began.elapsed());
         let patience = PATIENCE[usize::from(adapter.is_software())];
-        let mut ready =
-            Self { gpu, queue, pipeline, layout, windows, built, patience, lost, uncaptured };
-        ready.try_one_workgroup(setup)?;
-        ready.built = began.elapsed();
-        Ok(ready)
+        Ok(Self { gpu, queue, pipeline, layout, windows, built, patience, lost, uncaptured })
     }
 
     /// Waits for a submission.
@@ -131,17 +127,6 @@ impl Device {
             return Err(GpuError::Lost(text));
         }
         uncaptured.map_or(Ok(()), |text| Err(GpuError::Api(text)))
-    }
-
-    /// Renders 8 × 8 pixels once: drivers compile at the first dispatch, and one that renders
-    /// nothing at all is found before it is trusted with a picture.
-    fn try_one_workgroup(&mut self, setup: &Setup<'_>) -> Result<(), GpuError> {
-        let mut slots = Slots::default();
-        let mut slot: Slot = slots.take(self, 64);
-        let index = slot.submit_trial(self, setup);
-        self.wait(index)?;
-        self.fault()?;
-        slot.read(self, |_| ())
     }
 }
 

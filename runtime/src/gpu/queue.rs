@@ -5,15 +5,16 @@
 //! their submission ends; what a lost device did not finish goes back to the run, and what a driver
 //! cut short is rendered by the CPU kernel.
 
-use super::GpuError;
 use super::device::Device;
+use super::error::GpuError;
 use super::pace::{Busy, MAX_TILES, Pace, Work};
 use super::slot::{Slot, Slots, submit};
 use super::stopwatch::Stopwatch;
 use crate::cpu;
 use crate::run::Run;
-use crate::scene::Setup;
 use crate::schedule::{Claim, WorkItem};
+use crate::setup::Setup;
+use crate::signals::Event;
 use pack::abi::FilmPixel;
 use std::collections::VecDeque;
 use std::time::Instant;
@@ -63,6 +64,7 @@ impl Device {
         run: &Run<'_>,
         pace: &mut Pace,
     ) -> Result<(), GpuError> {
+        run.signals().tell(Event::Device(&self.gpu));
         let mut under_way = VecDeque::new();
         let result = self.render_loop(setup, run, pace, &mut under_way);
         for submission in &under_way {
@@ -82,18 +84,13 @@ impl Device {
     ) -> Result<(), GpuError> {
         let mut free = Slots::default();
         let mut tally = Tally { busy: Busy::new(Instant::now()), tiles: 0, cut: 0 };
-        let mut n_tiles = 0;
         loop {
-            if run.control().loses_device_after(n_tiles) {
-                self.gpu.destroy();
-            }
             while under_way.len() < IN_FLIGHT {
                 let planned = pace.next();
                 let items = claim(run, pace);
                 if items.is_empty() {
                     break;
                 }
-                n_tiles += items.len() as u64;
                 under_way.push_back(self.start(setup, &mut free, &items, planned));
             }
             // With nothing under way there is nothing to wait for: the run is over.
@@ -132,7 +129,7 @@ impl Device {
         tally: &mut Tally,
     ) -> Result<(), GpuError> {
         let Some(oldest) = under_way.front_mut() else { return Ok(()) };
-        run.control().stall_if_asked();
+        run.signals().tell(Event::Submission);
         let waited = self.wait(oldest.index.clone());
         self.fault()?;
         waited?;

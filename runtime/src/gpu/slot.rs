@@ -2,12 +2,12 @@
 //!
 //! It knows nothing of runs or of time.
 
-use super::GpuError;
 use super::device::Device;
+use super::error::GpuError;
 use super::stopwatch::Stopwatch;
 use crate::region::{Rect, SampleRange};
-use crate::scene::Setup;
 use crate::schedule::WorkItem;
+use crate::setup::Setup;
 use pack::abi::{FilmPixel, Frame};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

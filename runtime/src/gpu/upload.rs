@@ -4,7 +4,7 @@
 //! filled the others are on their way, and a pack of many gigabytes takes no more staging memory
 //! than the ring. The caller watches for errors of the API.
 
-use super::GpuError;
+use super::error::GpuError;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;

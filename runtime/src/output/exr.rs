@@ -5,7 +5,7 @@
 //! `variance.Y` is the variance of the mean luminance, in pictures that are the mean of replicates.
 //! `samples` is there where pixels have different numbers of samples.
 
-use super::{Meta, OutputError, Picture, parse_ranges, ranges_text};
+use super::picture::{Meta, OutputError, Picture, parse_ranges, ranges_text};
 use crate::film::{BadSample, Counters, Film};
 use crate::region::{Rect, SampleRange};
 use ::exr::meta::MetaData;

@@ -1,6 +1,6 @@
 //! Parts of one picture → the picture: sums added in `f64`, ranges joined.
 
-use super::{Meta, Picture, ranges_text};
+use super::picture::{Meta, Picture, ranges_text};
 use crate::job::Job;
 use crate::region::{Rect, insert_range};
 use crate::scene::Scene;

@@ -1,6 +1,6 @@
 //! Film → 8-bit sRGB PNG: exposure, tone curve, encoding, the same bytes on every machine.
 
-use super::{OutputError, Picture};
+use super::picture::{OutputError, Picture};
 use image::ImageEncoder as _;
 use pack::abi::ToneMap;
 use std::io;

@@ -6,7 +6,7 @@
 
 use super::pieces::{name_of, pieces};
 use super::{KNOWN, Known, SWITCHES, stack_size, windows};
-use crate::scene::Setup;
+use crate::setup::Setup;
 use pack::features as bit;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;

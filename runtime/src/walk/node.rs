@@ -4,14 +4,12 @@
 //! order of equally near children is the same, too: the number of rays that go on behind what they hit
 //! depends on it. Children are sorted without branches: which of them a ray meets cannot be foreseen.
 
-use super::stack::{Stack, Waiting};
+use super::stack::{FAR_END, Stack, Waiting};
 use crate::kernel::f32::{CHILD_FIRST, CHILD_INDEX, CHILD_INNER, Ray};
 use bytemuck::cast;
 use glam::{UVec4, Vec3};
 use wide::{f32x4, i32x4};
 
-/// By how much the far end of a box grows; see `box_enter`.
-pub(super) const FAR_END: f32 = 1.000_001;
 /// 2^-21, eight roundings.
 const SLACK: f32 = 4.768_371_6e-7;
 /// Bits of a distance that are kept in a key; the others are the place of the child in its node.

@@ -1,8 +1,9 @@
 //! The children that a ray may still enter.
 
-use super::node::FAR_END;
 use pack::abi::MAX_STACK;
 
+/// By how much the far end of a box grows; see `box_enter`.
+pub(super) const FAR_END: f32 = 1.000_001;
 /// The deepest stack that a pack may need, and what is written above it.
 const LENGTH: usize = MAX_STACK as usize + 4;
 

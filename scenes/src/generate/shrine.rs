@@ -95,7 +95,7 @@ pub fn write(dir: &Path, detail: &Detail) -> std::io::Result<Written> {
     let mut triangles = 0;
     for (name, parts) in files {
         triangles += parts.iter().map(|(_, mesh)| mesh.triangles()).sum::<usize>();
-        super::write_atomically(&dir.join(name), &glb(parts))?;
+        super::file::write_atomically(&dir.join(name), &glb(parts))?;
     }
     let mut textures = 0;
     for picture in flora::PICTURES.iter().chain(craft::PICTURES) {
@@ -155,8 +155,12 @@ fn gate() -> Parts {
 
 /// The hall and its roof.
 fn hall() -> Parts {
-    let hall = hall::hall();
-    let roof = roof::roof();
+    let mut hall = hall::hall();
+    veranda::veranda(&mut hall, hall::FLOOR);
+    hall::furnish(&mut hall);
+    let mut roof = roof::roof();
+    ridge::ridges(&mut roof);
+    eaves::eaves(&mut roof);
     vec![
         ("columns", hall.columns),
         ("beams_x", hall.beams_x),

@@ -17,6 +17,7 @@ mod read;
 mod replace;
 mod rescue;
 mod show;
+mod steps;
 mod target;
 mod write;
 

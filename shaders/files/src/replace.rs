@@ -5,15 +5,15 @@
 //! from dead processes, and only from those, tells which ones are left over.
 
 use std::fs::{File, Metadata, TryLockError};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::Path;
 
 use tempfile::NamedTempFile;
 
 use crate::error::FileError;
 use crate::inject::step;
+use crate::steps::{Steps, gather};
 use crate::target::folder;
-use crate::write::{BUFFER, Steps};
 
 /// How temporary names end.
 const SUFFIX: &str = ".tmp";
@@ -31,7 +31,7 @@ pub(crate) fn replace(
 ) -> Result<(), FileError> {
     let dir = folder(at);
     let file = prepare(path, at, existing)?;
-    let mut out = BufWriter::with_capacity(BUFFER, Steps(file));
+    let mut out = gather(file);
     let written = content(&mut out).and_then(|()| out.flush());
     let Steps(file) = out.into_parts().0;
     written.map_err(FileError::io("write", path))?;

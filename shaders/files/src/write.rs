@@ -1,16 +1,14 @@
 //! Bytes → an output, of whatever kind it is.
 
 use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::Path;
 
 use crate::error::FileError;
 use crate::inject::step;
 use crate::replace::replace;
+use crate::steps::gather;
 use crate::target::Target;
-
-/// Bytes that are gathered before the system is asked to write them.
-pub(crate) const BUFFER: usize = 1 << 20;
 
 /// Writes an output.
 ///
@@ -36,7 +34,7 @@ fn stream(
     out: &mut dyn Write,
     content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), FileError> {
-    let mut out = BufWriter::with_capacity(BUFFER, Steps(out));
+    let mut out = gather(out);
     let written = content(&mut out).and_then(|()| out.flush());
     // What could not be written must not be tried again when the buffer goes.
     drop(out.into_parts());
@@ -53,20 +51,6 @@ fn quiet(result: io::Result<()>) -> io::Result<()> {
     match result {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         result => result,
-    }
-}
-
-/// A writer of which every write is a step.
-pub(crate) struct Steps<W>(pub(crate) W);
-
-impl<W: Write> Write for Steps<W> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        step()?;
-        self.0.write(bytes)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.0.flush()
     }
 }
 

@@ -1,8 +1,9 @@
 //! Value conversions and `bitcast`. In the f64 twin bits are still those of the f32 nearest.
 
+use crate::error::NativeError;
 use crate::functions::FunctionWriter;
+use crate::options::Precision;
 use crate::text::unwrap;
-use crate::{NativeError, Precision};
 use naga::{Bytes, Expression, Handle, ScalarKind, TypeInner};
 
 impl FunctionWriter<'_> {

@@ -50,8 +50,10 @@ mod error;
 mod expressions;
 mod functions;
 mod matrices;
+mod module;
 mod names;
 mod operators;
+mod options;
 mod places;
 mod prelude;
 mod resources;
@@ -60,28 +62,9 @@ mod text;
 mod types;
 
 pub use error::NativeError;
+pub use options::{Precision, Seam};
 
-use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
-
-/// The type that stands for WGSL's `f32` in the generated text.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Precision {
-    /// `f32`: the same bits as a GPU that rounds as IEEE 754 says.
-    F32,
-    /// `f64`: the twin that shows where rounding matters.
-    F64,
-}
-
-/// A function that hand-written Rust may do instead.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Seam<'a> {
-    /// Its name in the WGSL.
-    pub function: &'a str,
-    /// Path of the Rust function, as seen from the generated module. It takes `&mut Kernel` and the
-    /// arguments, and gives the result. The translation is there as well, under the name with
-    /// `generated_` in front, so that it can be called for what the hand-written one does not do.
-    pub path: &'a str,
-}
+use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 /// Translates a WGSL text, all of it.
 pub fn generate(source: &str, precision: Precision) -> Result<String, NativeError> {
@@ -100,15 +83,4 @@ pub fn generate_with(
         .validate(&module)
         .map_err(|error| NativeError::invalid(&error, source))?;
     context::Context::new(&module, &info, source, precision, seams)?.write()
-}
-
-/// Translates a module that is already parsed and validated. `source` is the text that its spans
-/// point into; the f64 twin also reads the decimals of literals from it.
-pub fn generate_module(
-    module: &naga::Module,
-    info: &ModuleInfo,
-    source: &str,
-    precision: Precision,
-) -> Result<String, NativeError> {
-    context::Context::new(module, info, source, precision, &[])?.write()
 }

@@ -2,10 +2,11 @@
 //! and the steps into it, read at the load and written at the store. Its indexes are evaluated when
 //! the pointer is.
 
+use crate::error::NativeError;
 use crate::functions::FunctionWriter;
+use crate::options::Precision;
 use crate::resources::Holding;
 use crate::types::column;
-use crate::{NativeError, Precision};
 use naga::{ArraySize, Expression, Handle, Scalar, ScalarKind, Type, TypeInner};
 
 /// An index into an array, a matrix or a vector.

@@ -1,8 +1,9 @@
 //! Structs, resources and private variables → `Bindings`, `Kernel` and their constructor.
 
 use crate::context::Context;
+use crate::error::NativeError;
+use crate::options::Precision;
 use crate::text::Text;
-use crate::{NativeError, Precision};
 use naga::{AddressSpace, ArraySize, GlobalVariable, Handle, StorageAccess, Type, TypeInner};
 
 /// How a global variable lies in `Kernel`.

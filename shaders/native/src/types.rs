@@ -1,7 +1,8 @@
 //! WGSL types → Rust types, their zeros, and values put together from parts.
 
 use crate::context::Context;
-use crate::{NativeError, Precision};
+use crate::error::NativeError;
+use crate::options::Precision;
 use naga::{ArraySize, Handle, Literal, Scalar, ScalarKind, Span, Type, TypeInner, VectorSize};
 
 /// The axes of a vector, in order.

@@ -14,6 +14,8 @@ mod integers;
 mod memory;
 #[path = "behaviour/names.rs"]
 mod names;
+#[path = "../src/prelude/single.rs"]
+mod single;
 #[path = "behaviour/vectors.rs"]
 mod vectors;
 
@@ -31,6 +33,7 @@ macro_rules! kernels {
             reason = "generated text"
         )]
         pub mod $name {
+            use crate::single::rules as wgsl;
             include!(concat!("generated/", $file));
         }
     )*};
@@ -39,11 +42,11 @@ macro_rules! kernels {
 /// One module a probe.
 mod kernels {
     kernels! {
-        control = "control_f32.rs";
-        floats = "floats_f32.rs";
-        integers = "integers_f32.rs";
-        memory = "memory_f32.rs";
-        names = "names_f32.rs";
-        vectors = "vectors_f32.rs";
+        control = "control.rs";
+        floats = "floats.rs";
+        integers = "integers.rs";
+        memory = "memory.rs";
+        names = "names.rs";
+        vectors = "vectors.rs";
     }
 }

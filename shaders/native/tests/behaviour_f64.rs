@@ -4,6 +4,8 @@
 
 #[path = "behaviour/control.rs"]
 mod control;
+#[path = "../src/prelude/double.rs"]
+mod double;
 #[path = "behaviour/f64_only.rs"]
 mod f64_only;
 #[path = "behaviour/floats.rs"]
@@ -31,7 +33,8 @@ macro_rules! kernels {
             reason = "generated text"
         )]
         pub mod $name {
-            include!(concat!("generated/", $file));
+            use crate::double::rules as wgsl;
+            include!(concat!(env!("OUT_DIR"), "/", $file));
         }
     )*};
 }

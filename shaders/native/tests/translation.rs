@@ -1,7 +1,11 @@
 //! The generated text of every probe is checked in, so that a change of the generator shows as a
-//! change of text. `UPDATE=1 cargo test -p native` writes it again.
+//! change of text: for f32 without the scalar rules, which all have; for f64 where it is more than
+//! other types and literals. `UPDATE=1 cargo test -p native` writes it again.
+
+mod twin;
 
 use native::{Precision, Seam, generate, generate_with};
+use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -20,27 +24,61 @@ fn probes() -> Vec<String> {
     stems
 }
 
+/// A file of the goldens is what is `expected`, or becomes it.
+fn check_golden(name: &str, expected: &str) -> Option<PathBuf> {
+    let path = tests_folder().join("generated").join(name);
+    if fs::read_to_string(&path).is_ok_and(|old| old == expected) {
+        return None;
+    }
+    if std::env::var_os("UPDATE").is_none() {
+        return Some(path);
+    }
+    fs::write(&path, expected).expect("a folder of the crate");
+    None
+}
+
+/// What a probe becomes, without the scalar rules at its end.
+fn translate(stem: &str, precision: Precision) -> String {
+    let probe = tests_folder().join(format!("probes/{stem}.wgsl"));
+    let source = fs::read_to_string(probe).expect("a probe");
+    let text = generate(&source, precision).unwrap_or_else(|e| panic!("{stem}.wgsl:{e}"));
+    let rules = include_str!("../src/prelude/scalar.rs");
+    let rules = &rules[rules.find("use super::Real;").expect("they speak of it")..];
+    let text = text.strip_suffix(&format!("\nmod wgsl {{\n{rules}}}\n"));
+    text.unwrap_or_else(|| panic!("{stem} does not end with the scalar rules")).to_owned()
+}
+
 #[test]
 fn generated_text_is_current() {
-    let update = std::env::var_os("UPDATE").is_some();
+    let mut exceptions = String::from(
+        "// Lines of the f64 twins that `tests/twin` does not make of the f32 line: probe and line, both texts.\n",
+    );
     let mut stale = Vec::new();
+    let mut translated = Vec::new();
     for stem in probes() {
-        let source =
-            fs::read_to_string(tests_folder().join(format!("probes/{stem}.wgsl"))).unwrap();
-        for (precision, suffix) in [(Precision::F32, "f32"), (Precision::F64, "f64")] {
-            let text = generate(&source, precision).unwrap_or_else(|e| panic!("{stem}.wgsl:{e}"));
-            let path = tests_folder().join(format!("generated/{stem}_{suffix}.rs"));
-            if fs::read_to_string(&path).is_ok_and(|old| old == text) {
-                continue;
-            }
-            if update {
-                fs::write(&path, text).unwrap();
-            } else {
-                stale.push(path);
+        let [single, double] = [Precision::F32, Precision::F64].map(|p| translate(&stem, p));
+        assert_eq!(
+            single.lines().count(),
+            double.lines().count(),
+            "{stem}: the twin has its lines"
+        );
+        for (number, (single, double)) in (1..).zip(single.lines().zip(double.lines())) {
+            if twin::by_rules(single) != double {
+                writeln!(exceptions, "{stem} {number}\n- {single}\n+ {double}").unwrap();
             }
         }
+        stale.extend(check_golden(&format!("{stem}.rs"), &single));
+        translated.push((stem, single, double));
     }
+    stale.extend(check_golden("f64.txt", &exceptions));
     assert!(stale.is_empty(), "run `UPDATE=1 cargo test -p native`; stale: {stale:?}");
+    for (stem, single, double) in translated {
+        assert_eq!(
+            twin::twin(&stem, &single, &exceptions),
+            double,
+            "what the build script compiles"
+        );
+    }
 }
 
 #[test]
@@ -48,8 +86,8 @@ fn every_generated_file_has_a_probe() {
     let stems = probes();
     for entry in fs::read_dir(tests_folder().join("generated")).unwrap() {
         let name = entry.unwrap().file_name().to_string_lossy().into_owned();
-        let stem = name.trim_end_matches("_f32.rs").trim_end_matches("_f64.rs");
-        assert!(stems.iter().any(|s| s == stem), "{name} belongs to no probe");
+        let of_probe = name.strip_suffix(".rs").is_some_and(|stem| stems.iter().any(|s| s == stem));
+        assert!(of_probe || name == "f64.txt", "{name} belongs to no probe");
     }
 }
 

@@ -28,8 +28,8 @@ pub use field::{AbiRecord, Field, FieldType, Record};
 pub use film::FilmPixel;
 pub use frame::Frame;
 pub use geometry::{
-    CHILD_DOOR, CHILD_INNER, CHILD_OUT, CHILD_SPHERES, ChildRef, EMPTY_BOX, MAX_DEPTH, MAX_LEAF,
-    MOVES, Node, Sphere, TRI_SMOOTH, TriShade, Triangle, WIDTH, WideNode,
+    CHILD_INNER, CHILD_INSTANCE, CHILD_OUT, CHILD_SPHERES, ChildRef, EMPTY_BOX, MAX_DEPTH,
+    MAX_LEAF, MOVES, Node, Sphere, TRI_SMOOTH, TriShade, Triangle, WIDTH, WideNode,
 };
 pub use instance::{Instance, OBJECT_OF_INSTANCE};
 pub use light::{Light, LightKind, LightSurface};

@@ -49,15 +49,15 @@ pub fn stack_need<N: InnerNode>(nodes: &[N], instances: &[Instance], root: u32) 
     if instances.is_empty() {
         return need_of(&closed, |_| 0, root);
     }
-    let door = |index: u32| {
+    let instance = |index: u32| {
         let instance = instances.get(index as usize);
         instance.map_or(0, |instance| 1 + need_of(&closed, |_| 0, instance.root))
     };
-    need_of(&needs(nodes, door), door, root)
+    need_of(&needs(nodes, instance), instance, root)
 }
 
-/// The need of every node, where `door` is that of an instance.
-fn needs<N: InnerNode>(nodes: &[N], door: impl Fn(u32) -> u32) -> Vec<u32> {
+/// The need of every node, where `instance` is that of an instance.
+fn needs<N: InnerNode>(nodes: &[N], instance: impl Fn(u32) -> u32) -> Vec<u32> {
     let mut needs = vec![0; nodes.len()];
     for (index, node) in nodes.iter().enumerate().rev() {
         let (mut others, mut below) = (0_u32, 0);
@@ -68,7 +68,7 @@ fn needs<N: InnerNode>(nodes: &[N], door: impl Fn(u32) -> u32) -> Vec<u32> {
                 | ChildRef::Triangles { .. }
                 | ChildRef::Spheres { .. }
                 | ChildRef::Instance(_)
-                | ChildRef::Empty => need_of(&needs, &door, word),
+                | ChildRef::Empty => need_of(&needs, &instance, word),
             };
             others += 1;
             below = need.max(below);
@@ -79,10 +79,10 @@ fn needs<N: InnerNode>(nodes: &[N], door: impl Fn(u32) -> u32) -> Vec<u32> {
 }
 
 /// The need of what `word` stands for.
-fn need_of(needs: &[u32], door: impl Fn(u32) -> u32, word: u32) -> u32 {
+fn need_of(needs: &[u32], instance: impl Fn(u32) -> u32, word: u32) -> u32 {
     match ChildRef::decode(word) {
         ChildRef::Inner(index) => needs.get(index as usize).copied().unwrap_or(0),
-        ChildRef::Instance(index) => door(index),
+        ChildRef::Instance(index) => instance(index),
         ChildRef::Triangles { .. } | ChildRef::Spheres { .. } | ChildRef::Empty => 0,
     }
 }
@@ -137,15 +137,16 @@ mod tests {
 
     #[test]
     fn an_instance_needs_its_tree_and_the_way_out() {
-        let door = |index| ChildRef::Instance(index).encode().unwrap();
+        let instance = |index| ChildRef::Instance(index).encode().unwrap();
         let mesh = |root| Instance { root, ..Instance::default() };
         // Node 0 is the world; node 1 is a mesh of two levels, shown twice; the third is one leaf.
-        let nodes = [node(door(0), door(2)), node(inner(2), leaf(0)), node(leaf(1), leaf(2))];
+        let nodes =
+            [node(instance(0), instance(2)), node(inner(2), leaf(0)), node(leaf(1), leaf(2))];
         let instances = [mesh(inner(1)), mesh(inner(1)), mesh(leaf(3))];
         assert_eq!(stack_need(&nodes, &instances, inner(0)), 1 + 1 + 2);
-        assert_eq!(stack_need(&nodes, &instances, door(1)), 1 + 2);
-        assert_eq!(stack_need(&nodes, &instances, door(2)), 1);
-        assert_eq!(stack_need(&nodes, &instances, door(3)), 0);
+        assert_eq!(stack_need(&nodes, &instances, instance(1)), 1 + 2);
+        assert_eq!(stack_need(&nodes, &instances, instance(2)), 1);
+        assert_eq!(stack_need(&nodes, &instances, instance(3)), 0);
         // A world within itself is no world; it gives a number.
         assert_eq!(stack_need(&nodes, &[mesh(inner(0))], inner(0)), 1 + 1 + 1);
     }

@@ -5,6 +5,7 @@
 //! motion, then the trees, then the feature bits. Linear time, no allocation beyond a bit a primitive, a byte
 //! a light and a word a node.
 
+mod broken;
 mod light_tree;
 mod motion;
 mod rule;
@@ -17,14 +18,12 @@ use rayon::prelude::*;
 
 use crate::abi::TextureFormat;
 use crate::contents::Contents;
-use crate::error::{PackError, Place};
+use crate::error::PackError;
 use crate::fault::{ElementFault, HeaderFault};
 use crate::features;
-use crate::kind::{Kind, PackRecord};
-use rules::{Broken, Ruled};
-
-/// Records a task checks at a time: large enough to hide the cost of a task, small enough to share.
-const CHUNK: usize = 1 << 14;
+use crate::kind::Kind;
+use broken::{CHUNK, element};
+use rules::Ruled;
 
 /// Checks everything; `features` are the header's.
 pub(crate) fn contents(contents: &Contents<'_>, features: u64) -> Result<(), PackError> {
@@ -113,13 +112,6 @@ fn each<R: Ruled>(records: &[R], contents: &Contents<'_>) -> Result<(), PackErro
             .find_map(|(index, record)| Some((index, record.broken(contents)?)))
     });
     broken.map_or(Ok(()), |(index, broken)| Err(element::<R>(index, broken)))
-}
-
-/// The error for a broken rule of record `index`.
-pub(in crate::check) fn element<R: PackRecord>(index: usize, (field, fault): Broken) -> PackError {
-    let in_record = R::FIELDS.iter().find(|known| known.name == field).map_or(0, |f| f.offset);
-    let offset = index * size_of::<R>() + in_record;
-    PackError::Element { at: Place { kind: R::KIND, index, offset }, field, fault }
 }
 
 /// Cumulative probabilities rise and end at 1.

@@ -6,8 +6,9 @@
 
 use std::fs::{File, Metadata};
 use std::io::{Read, Seek, SeekFrom};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, SystemTime};
 
 use memmap2::Mmap;
@@ -106,7 +107,17 @@ impl Bytes {
         let guard = unsafe { Guarded::new(&map) }.map_err(io("map", path))?;
         // A file that was cut off since it was opened is found by its length.
         let stamp = Stamp::of(&data);
-        Ok(Self::Mapped(Arc::new(Mapping { guard, map, file, path: path.to_owned(), stamp })))
+        let (written, hashes) = (Mutex::new(stamp.written), OnceLock::new());
+        let path = path.to_owned();
+        Ok(Self::Mapped(Arc::new(Mapping { guard, map, file, path, stamp, written, hashes })))
+    }
+
+    /// Where hashed bytes lie, and their hashes: then a witness can tell whether a file that was written to has the
+    /// bytes that it had.
+    pub(crate) fn are_hashed(&self, hashes: impl Iterator<Item = (Range<usize>, [u8; 16])>) {
+        if let Self::Mapped(mapping) = self {
+            mapping.hashes.get_or_init(|| hashes.collect());
+        }
     }
 
     /// Who knows whether the file has changed; memory does not change.
@@ -160,6 +171,20 @@ pub(crate) struct Mapping {
     file: File,
     path: PathBuf,
     stamp: Stamp,
+    /// Time of the last write of which it is known that it left the bytes as they were opened.
+    written: Mutex<Option<SystemTime>>,
+    hashes: OnceLock<Vec<(Range<usize>, [u8; 16])>>,
+}
+
+impl Mapping {
+    /// Whether everything that is hashed has its hash; false where nothing is known. On this thread alone: the
+    /// threads of a pool may wait for the one that asks.
+    fn has_its_bytes(&self) -> bool {
+        let is_same = |(range, hash): &(Range<usize>, [u8; 16])| {
+            blake3::hash(&self.map[range.clone()]).as_bytes().starts_with(hash)
+        };
+        self.hashes.get().is_some_and(|hashes| hashes.iter().all(is_same))
+    }
 }
 
 /// Tells whether the file of a mapped pack is still as it was opened. It keeps the mapping alive.
@@ -167,9 +192,11 @@ pub(crate) struct Mapping {
 pub struct Witness(Arc<Mapping>);
 
 impl Witness {
-    /// Fails when the file was written to or cut off, or cannot be read any more. One call of the system.
+    /// Fails when the file was written to or cut off, or cannot be read any more. One call of the system; but where
+    /// only its time is another one, the hashes decide whether it was written to, and from then on that time counts.
     pub fn look(&self) -> Result<(), PackError> {
         let (mapping, altered) = (&*self.0, |how| Err(PackError::Altered { how }));
+        let mut written = mapping.written.lock().unwrap_or_else(PoisonError::into_inner);
         let Ok(data) = mapping.file.metadata() else { return altered(Alteration::Lost) };
         let (now, then) = (Stamp::of(&data), mapping.stamp);
         if now.len != then.len {
@@ -178,8 +205,12 @@ impl Witness {
         if mapping.guard.is_lost() {
             return altered(Alteration::Lost);
         }
-        if now.written != then.written {
-            return altered(Alteration::Written);
+        if now.written != *written {
+            if !mapping.has_its_bytes() {
+                return altered(Alteration::Written);
+            }
+            // A write since then moves the time once more.
+            *written = now.written;
         }
         Ok(())
     }

@@ -64,6 +64,8 @@ impl Pack<Unchecked> {
         let table = table::check(self.bytes.as_slice())?;
         let pack = Pack { bytes: self.bytes, state: Checked { table } };
         check::contents(&pack.contents()?, pack.features())?;
+        let entries = pack.state.table.entries.iter();
+        pack.bytes.are_hashed(entries.map(|entry| (entry_range(entry), entry.hash)));
         Ok(pack)
     }
 }

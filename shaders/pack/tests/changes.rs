@@ -28,10 +28,15 @@ fn set_len(path: &Path, len: u64) {
 
 /// Overwrites the last bytes, which are those of the manifest.
 fn overwrite(path: &Path) {
+    write_at_end(path, Some([0xa5; 4]));
+}
+
+/// Writes the last bytes: other ones, or those that are there.
+fn write_at_end(path: &Path, bytes: Option<[u8; 4]>) {
     use std::os::unix::fs::FileExt;
+    let last = *fs::read(path).unwrap().last_chunk().unwrap();
     let file = open(path);
-    let len = file.metadata().unwrap().len();
-    file.write_all_at(&[0xa5; 4], len - 4).unwrap();
+    file.write_all_at(&bytes.unwrap_or(last), file.metadata().unwrap().len() - 4).unwrap();
 }
 
 /// A pack that was written long ago.
@@ -61,6 +66,8 @@ const CASES: &[Case] = &[
         None,
         None,
     ),
+    ("touched", |path| open(path).set_modified(SystemTime::now()).unwrap(), None, None),
+    ("written in place with what it had", |path| write_at_end(path, None), None, None),
     (
         "truncated",
         |path| set_len(path, 0),
@@ -154,6 +161,24 @@ fn a_file_that_was_written_a_moment_ago_is_in_doubt_until_its_hashes_are_compare
     overwrite(&path);
     open(&path).set_modified(modified).unwrap();
     assert!(pack.settle().is_err());
+}
+
+#[test]
+fn a_write_after_a_touch_is_noticed() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = old_pack(dir.path());
+    let pack = map(&path).unwrap();
+    let witness = pack.witness().unwrap();
+    for _ in 0..2 {
+        open(&path).set_modified(SystemTime::now()).unwrap();
+        assert!(witness.look().is_ok() && pack.settle().is_ok());
+        std::thread::sleep(Duration::from_millis(20)); // longer than a tick of the file system's clock
+    }
+    overwrite(&path);
+    for result in [witness.look(), pack.settle()] {
+        let written = matches!(result, Err(PackError::Altered { how: Alteration::Written }));
+        assert!(written, "{result:?}");
+    }
 }
 
 /// Many threads read many mappings while their files are cut off.
@@ -276,6 +301,8 @@ fn what_is_taken_from_a_pack_that_changed_is_not_written() {
         };
         write().unwrap();
         let before = fs::read(&to).unwrap();
+        open(&from).set_modified(SystemTime::now()).unwrap();
+        write().unwrap();
         change(&from);
         let error = write().unwrap_err();
         assert!(matches!(error, PackError::Altered { .. }), "{error}");

@@ -3,7 +3,7 @@
 //!
 //! The case of a kind reads the same in every kernel, so that a kernel with fewer kinds computes the same bits.
 
-use super::{imports, switch, tag};
+use super::wgsl::{imports, switch, tag};
 use crate::FeatureSet;
 use pack::abi::{Lobes, MaterialKind, Number};
 use std::fmt::Write as _;

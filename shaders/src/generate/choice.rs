@@ -1,6 +1,6 @@
 //! `scene/dispatch_choice.wgsl`, `scene/dispatch_tint.wgsl`: which light, and which colour it has.
 
-use super::imports;
+use super::wgsl::imports;
 use crate::FeatureSet;
 use std::fmt::Write as _;
 

@@ -1,9 +1,9 @@
 //! `scene/constants.wgsl`: tags, flags and limits, taken from `pack::abi`.
 
-use super::tag;
+use super::wgsl::tag;
 use crate::FeatureSet;
 use pack::abi::{
-    CHILD_DOOR, CHILD_INNER, CHILD_OUT, CHILD_SPHERES, ChildRef, LIGHT_LEAF, LightKind, MOVES,
+    CHILD_INNER, CHILD_INSTANCE, CHILD_OUT, CHILD_SPHERES, ChildRef, LIGHT_LEAF, LightKind, MOVES,
     MaterialKind, NONE, SamplerKind, SkyKind, TRI_SMOOTH, TextureFormat, Wrap, material_flag,
 };
 use std::fmt::Write as _;
@@ -20,8 +20,8 @@ pub(crate) fn text(features: &FeatureSet) -> String {
         named("CHILD_INNER", CHILD_INNER),
         named("CHILD_INDEX", CHILD_INNER - 1),
         named("CHILD_SPHERES", CHILD_SPHERES),
-        named("CHILD_DOOR", CHILD_DOOR),
-        named("CHILD_DOOR_INDEX", !CHILD_DOOR & (CHILD_SPHERES - 1) & ((1 << 26) - 1)),
+        named("CHILD_INSTANCE", CHILD_INSTANCE),
+        named("CHILD_INSTANCE_INDEX", !CHILD_INSTANCE & (CHILD_SPHERES - 1) & ((1 << 26) - 1)),
         named("CHILD_OUT", CHILD_OUT),
         named("CHILD_FIRST", count_unit - 1),
         named("CHILD_COUNT_SHIFT", count_unit.trailing_zeros()),

@@ -1,6 +1,6 @@
 //! `scene/dispatch_light.wgsl`: from the kind of a light to its functions.
 
-use super::{imports, switch, tag};
+use super::wgsl::{imports, switch, tag};
 use crate::FeatureSet;
 use pack::abi::{LightKind, LightSurface};
 use std::fmt::Write as _;

@@ -2,7 +2,7 @@
 //! surfaces do to a path. Each function depends on one of these features at most, and does nothing in
 //! a scene without it.
 
-use super::imports;
+use super::wgsl::imports;
 use crate::FeatureSet;
 use std::fmt::Write as _;
 
@@ -20,34 +20,34 @@ pub(crate) fn inside(features: &FeatureSet) -> String {
     } else {
         ("u32", "0u")
     };
-    let (aside, empty) = if features.through {
-        text += &imports(["kernel/aside.wgsl"]);
-        ("Aside", "aside_begin(origin)")
+    let (pending, empty) = if features.through {
+        text += &imports(["kernel/pending_ray.wgsl"]);
+        ("PendingRay", "pending_ray_begin(origin)")
     } else {
         ("u32", "0u")
     };
-    let _ = write!(text, "\nalias Inside = {volume};\n\nalias Beam = {aside};\n");
+    let _ = write!(text, "\nalias Inside = {volume};\n\nalias Pending = {pending};\n");
     let comment = "What a path that leaves the camera is in.";
     let body = format!("    return {begin};\n");
     function(&mut text, comment, "inside_begin() -> Inside", &body);
-    let comment = "No shadow ray has been moved yet; the path leaves the camera at `origin`.";
+    let comment = "No ray is pending; the path leaves the camera at `origin`.";
     let body = format!("    return {empty};\n");
-    function(&mut text, comment, "beam_begin(origin: vec3f) -> Beam", &body);
+    function(&mut text, comment, "pending_begin(origin: vec3f) -> Pending", &body);
     text
 }
 
 /// Fog along a segment.
 pub(crate) fn fog(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: whether this scene has fog.\n\n");
-    text += &imports(["kernel/state.wgsl", "kernel/veil.wgsl"]);
+    text += &imports(["kernel/state.wgsl", "kernel/fog.wgsl"]);
     let (add, fade) = if features.fog {
-        ("    veil_fog(path, t);\n", "veil_fog_fade(path, t)")
+        ("    fog_segment(path, t);\n", "fog_transmittance(path, t)")
     } else {
         ("", "vec3f(1.0)")
     };
     let comment = "Adds the fog along the path's segment, up to its hit at `t`.";
     function(&mut text, comment, "dispatch_fog(path: ptr<function, Path>, t: f32)", add);
-    let comment = "What fog leaves of the path's shadow ray up to its hit at `t`.";
+    let comment = "Transmittance of the fog along the path's shadow ray up to its hit at `t`.";
     let body = format!("    return {fade};\n");
     function(
         &mut text,
@@ -139,16 +139,16 @@ pub(crate) fn crossing(features: &FeatureSet) -> String {
         "The last vertex at which the path was scattered, or the camera.",
         &format!("dispatch_vertex({path}) -> vec3f"),
         if features.through {
-            "    return (*path).beam.vertex;\n"
+            "    return (*path).pending.vertex;\n"
         } else {
             "    return (*path).point;\n"
         },
     );
     function(
         &mut text,
-        "As `FilmPixel::strays`.",
-        &format!("dispatch_strays({path}) -> u32"),
-        with("    return (*path).inside.strays;\n", "    return 0u;\n"),
+        "As `FilmPixel::stack_errors`.",
+        &format!("dispatch_stack_errors({path}) -> u32"),
+        with("    return (*path).inside.stack_errors;\n", "    return 0u;\n"),
     );
     depart(&mut text, features);
     text
@@ -160,29 +160,29 @@ pub(crate) fn shadow(features: &FeatureSet) -> String {
     text +=
         &imports(["kernel/segment.wgsl", "kernel/state.wgsl", "scene/fog.wgsl", "trace/ray.wgsl"]);
     if features.through {
-        text += &imports(["kernel/beam.wgsl"]);
+        text += &imports(["kernel/shadow_ray.wgsl"]);
     }
     let path = "path: ptr<function, Path>";
-    let fade = if features.media { " * segment_shadow_fade(path, t)" } else { "" };
+    let fade = if features.media { " * segment_shadow_transmittance(path, t)" } else { "" };
     function(
         &mut text,
-        "Takes away what the shadow ray loses up to its hit at `t`.",
-        &format!("dispatch_fade({path}, t: f32)"),
+        "Weights the shadow ray with the transmittance up to its hit at `t`.",
+        &format!("dispatch_shadow_transmittance({path}, t: f32)"),
         &format!("    (*path).shadow_radiance *= dispatch_fog_fade(path, t){fade};\n"),
     );
     let with =
         |there: &'static str, absent: &'static str| if features.through { there } else { absent };
     function(
         &mut text,
-        "Moves the shadow ray behind its hit; false if nothing gets there.",
-        &format!("dispatch_beam({path}, hit: Hit) -> bool"),
-        with("    return beam_advance(path, hit);\n", "    return false;\n"),
+        "Moves the shadow ray through the surface it hit; false if that lets no light through.",
+        &format!("dispatch_shadow_advance({path}, hit: Hit) -> bool"),
+        with("    return shadow_ray_advance(path, hit);\n", "    return false;\n"),
     );
     function(
         &mut text,
-        "The shadow ray has come to its end: the path goes on where it was.",
-        &format!("dispatch_beam_end({path})"),
-        with("    beam_end(path);\n", ""),
+        "The shadow ray has ended: the pending ray is the path's next one again.",
+        &format!("dispatch_shadow_end({path})"),
+        with("    shadow_ray_end(path);\n", ""),
     );
     text
 }
@@ -219,7 +219,7 @@ pub(crate) fn through(features: &FeatureSet) -> String {
 
 /// What a path remembers of a vertex that it leaves.
 fn depart(text: &mut String, features: &FeatureSet) {
-    let mark = if features.through { "    (*path).beam.vertex = p;\n" } else { "" };
+    let mark = if features.through { "    (*path).pending.vertex = p;\n" } else { "" };
     let sheet = if features.sheets {
         "    if (sheet_passes(path, flags, next)) {\n        // Like a shadow ray, which counts as one segment.\n        \
          (*path).segments -= 1u;\n        return (*path).pdf;\n    }\n"

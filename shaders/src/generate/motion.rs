@@ -1,7 +1,7 @@
 //! `scene/motion.wgsl`: when a path sees the scene, and where things are then. In a scene where nothing
 //! moves the functions are there, and do nothing.
 
-use super::imports;
+use super::wgsl::imports;
 use crate::FeatureSet;
 use std::fmt::Write as _;
 

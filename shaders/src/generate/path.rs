@@ -1,6 +1,6 @@
 //! `scene/dispatch.wgsl` and `scene/place.wgsl`: what a path asks of the scene at its vertices, from the camera on.
 
-use super::imports;
+use super::wgsl::imports;
 use crate::FeatureSet;
 use pack::abi::LightKind;
 use std::fmt::Write as _;
@@ -173,14 +173,14 @@ fn direct(features: &FeatureSet) -> String {
     let sample = if features.lights.is_empty() {
         ""
     } else {
-        "    direct_sample(path, p, gap, scatter, wo);\n"
+        "    direct_sample(path, p, ray_offset, scatter, wo);\n"
     };
     let weight =
         if features.surface_lights() { "direct_weight(origin, dir, pdf, s, time)" } else { "1.0" };
     format!(
         "\n// Leaves a shadow ray in `path` if light may reach the vertex at `p` directly; rays start off it\n\
-         // by `gap` on either side.\n\
-         fn dispatch_direct(path: ptr<function, Path>, p: vec3f, gap: vec3f, scatter: Scatter, wo: vec3f) {{\n{sample}}}\n\
+         // by `ray_offset` on either side.\n\
+         fn dispatch_direct(path: ptr<function, Path>, p: vec3f, ray_offset: vec3f, scatter: Scatter, wo: vec3f) {{\n{sample}}}\n\
          \n// Weight of emission that a direction sampled with density `pdf` has found at `time`.\n\
          fn dispatch_emission_weight(origin: vec3f, dir: vec3f, pdf: f32, s: Surface, time: f32) -> f32 {{\n    \
          return {weight};\n}}\n"

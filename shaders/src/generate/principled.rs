@@ -1,7 +1,7 @@
 //! `scene/layers.wgsl`, `scene/bare.wgsl`, `scene/principled.wgsl`: which layers the principled materials of
 //! a scene have.
 
-use super::imports;
+use super::wgsl::imports;
 use crate::FeatureSet;
 use std::fmt::Write as _;
 

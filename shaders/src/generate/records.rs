@@ -90,7 +90,7 @@ pub(crate) fn text() -> String {
         String::from("// Generated: loaders of the records, from their field tables.\n\n");
     let mut modules: Vec<&str> = TABLES.iter().map(|table| table.module).collect();
     modules.extend([FILM.1, "scene/bindings.wgsl"]);
-    text += &super::imports(modules);
+    text += &super::wgsl::imports(modules);
     for Record { name, fields, size, .. } in abi::records() {
         if let Some(table) = TABLES.iter().find(|table| table.record == name) {
             text += &loaders(table, fields, size / 16);

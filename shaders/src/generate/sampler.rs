@@ -1,6 +1,6 @@
 //! `scene/sampler.wgsl`: from the kind of a sampler to its numbers.
 
-use super::{imports, switch, tag};
+use super::wgsl::{imports, switch, tag};
 use crate::FeatureSet;
 use std::fmt::Write as _;
 

@@ -1,6 +1,6 @@
 //! `scene/dispatch_sky.wgsl`, `scene/dispatch_radiance.wgsl`: what the sky sends, and what a light sends.
 
-use super::{imports, switch, tag};
+use super::wgsl::{imports, switch, tag};
 use crate::FeatureSet;
 use pack::abi::{LightKind, SkyKind};
 use std::fmt::Write as _;

@@ -1,6 +1,6 @@
 //! `scene/texture.wgsl` and `scene/texel.wgsl`: from the format of a texture to its texels.
 
-use super::{imports, switch, tag};
+use super::wgsl::{imports, switch, tag};
 use crate::FeatureSet;
 use pack::abi::TextureFormat;
 use std::fmt::Write as _;

@@ -1,7 +1,7 @@
-//! `scene/candidate.wgsl`, `scene/leaf.wgsl`, `scene/nodes.wgsl`, `scene/door.wgsl`, `scene/placed.wgsl`: what
+//! `scene/candidate.wgsl`, `scene/leaf.wgsl`, `scene/nodes.wgsl`, `scene/instance_leaf.wgsl`, `scene/placed.wgsl`: what
 //! the traversal does with a primitive, a leaf, a node and an instance.
 
-use super::imports;
+use super::wgsl::imports;
 use crate::{FeatureSet, NodeLayout};
 use std::fmt::Write as _;
 
@@ -89,15 +89,15 @@ pub(crate) fn leaf(features: &FeatureSet) -> String {
 }
 
 /// How a walk goes into an instance and out of it.
-pub(crate) fn door(features: &FeatureSet) -> String {
+pub(crate) fn instance_leaf(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: whether this scene has instances to walk into.\n\n");
     text += &imports(["scene/constants.wgsl", "trace/ray.wgsl", "trace/walk.wgsl"]);
-    let (is_door, door) = if features.instances {
+    let (is_leaf, enter) = if features.instances {
         text += &imports(["scene/records.wgsl", "trace/instance.wgsl"]);
         (
-            "(child & CHILD_DOOR) == CHILD_DOOR",
+            "(child & CHILD_INSTANCE) == CHILD_INSTANCE",
             "    if (child == CHILD_OUT) {\n        *walk = walk_begin(ray);\n        return NONE;\n    }\n    \
-             let i = child & CHILD_DOOR_INDEX;\n    *walk = walk_begin(instance_ray(i, ray));\n    \
+             let i = child & CHILD_INSTANCE_INDEX;\n    *walk = walk_begin(instance_ray(i, ray));\n    \
              return load_instance_root(i);\n",
         )
     } else {
@@ -106,10 +106,10 @@ pub(crate) fn door(features: &FeatureSet) -> String {
     let _ = write!(
         text,
         "\n// Whether the leaf's reference is that of an instance, or of the way out of one.\n\
-         fn dispatch_is_door(child: u32) -> bool {{\n    return {is_door};\n}}\n\
-         \n// Goes through the door with `ray`, which is in the world: where to go on in the instance, or `NONE` where\n\
-         // the walk is back in the world.\n\
-         fn dispatch_door(child: u32, ray: Ray, walk: ptr<function, Walk>) -> u32 {{\n{door}}}\n"
+         fn dispatch_is_instance_leaf(child: u32) -> bool {{\n    return {is_leaf};\n}}\n\
+         \n// Enters or leaves the instance with `ray`, which is in the world: the root of the instance's tree, or `NONE`\n\
+         // when the walk is back in the world.\n\
+         fn dispatch_instance_leaf(child: u32, ray: Ray, walk: ptr<function, Walk>) -> u32 {{\n{enter}}}\n"
     );
     text
 }

@@ -15,7 +15,7 @@
 // Colour of light that has crossed the sheet, Lambert & Beer.
 fn leaf_tint(s: Scatter) -> vec3f {
     let depth = load_material_sigma_a(s.material) * load_material_thickness_middle(s.material);
-    return s.color * beer_left(depth);
+    return s.color * beer_transmittance(depth);
 }
 
 // The forward lobe without its colour, times |cos_i|.

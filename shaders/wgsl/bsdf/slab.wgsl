@@ -45,7 +45,7 @@ struct SlabPassage {
 fn slab_passage(slab: Slab, c: f32) -> SlabPassage {
     let inside = max(slab_inside(slab, c), 1e-6);
     let f = slab_mirror(slab, inside);
-    let left = beer_left(slab.tau / inside);
+    let left = beer_transmittance(slab.tau / inside);
     let series = vec3f(1.0) - left * left * (f * f);
     return SlabPassage(left * (1.0 - f) / series, left * left * ((1.0 - f) * f) / series);
 }
@@ -60,7 +60,7 @@ fn slab_scattered(slab: Slab, o: vec3f, i: vec3f, key: SampleKey) -> vec3f {
     // Inside, towards the side it leaves by; the other way round, off the opposite side.
     let towards = vec3f(i.xy / slab.ior, select(out_z, -out_z, i.z < 0.0));
     let against = vec3f(towards.xy, -towards.z);
-    let across = beer_left(slab.tau / out_z);
+    let across = beer_transmittance(slab.tau / out_z);
     let bounce = across * f_out;
     // The solid angle shrinks by cos_i / (ior^2 out_z) on the way in.
     let leave = vec3f(1.0 - f_out) / (vec3f(1.0) - bounce * bounce) * (cos_i / (slab.ior * slab.ior * out_z));
@@ -88,8 +88,8 @@ fn slab_scattered(slab: Slab, o: vec3f, i: vec3f, key: SampleKey) -> vec3f {
         } else {
             thr *= slab_scatters(slab, thr, step);
             depth = clamp(depth + dir.z * step, 0.0, 1.0);
-            let near = beer_left(slab.tau * (select(1.0 - depth, depth, i.z < 0.0) / out_z));
-            let far = beer_left(slab.tau * (select(depth, 1.0 - depth, i.z < 0.0) / out_z)) * bounce;
+            let near = beer_transmittance(slab.tau * (select(1.0 - depth, depth, i.z < 0.0) / out_z));
+            let far = beer_transmittance(slab.tau * (select(depth, 1.0 - depth, i.z < 0.0) / out_z)) * bounce;
             sum += thr * (near * hg_pdf(dir, slab.g, towards) + far * hg_pdf(dir, slab.g, against)) * leave;
             dir = hg_sample(dir, slab.g, sample_2d(at, PURPOSE_SLAB_TURN));
         }
@@ -123,5 +123,5 @@ fn slab_unscattered(slab: Slab, thr: vec3f, rest: f32) -> vec3f {
 // Transmittance up to a factor common to all channels, which cancels above: nothing underflows.
 fn slab_left(slab: Slab, path: f32) -> vec3f {
     let least = min(min(slab.tau.x, slab.tau.y), slab.tau.z);
-    return beer_left((slab.tau - vec3f(least)) * path);
+    return beer_transmittance((slab.tau - vec3f(least)) * path);
 }

@@ -13,8 +13,8 @@ fn crossing_pass(path: ptr<function, Path>, s: Surface, flags: u32, skip: vec2u)
     if ((flags & FLAG_INTERIOR) == 0u) {
         return false;
     }
-    let nest = (*path).inside.nest;
-    if (!volume_interface(nest, s.material, s.front).passes) {
+    let media = (*path).inside.media;
+    if (!volume_interface(media, s.material, s.front).passes) {
         return false;
     }
     crossing_move(path, s);
@@ -22,7 +22,7 @@ fn crossing_pass(path: ptr<function, Path>, s: Surface, flags: u32, skip: vec2u)
     (*path).key.bounce += 1u;
     (*path).segments -= 1u;
     (*path).point = s.p;
-    (*path).gap = s.ng * s.gap;
+    (*path).ray_offset = s.ng * s.ray_offset;
     (*path).skip = skip;
     return true;
 }
@@ -32,21 +32,21 @@ fn crossing_bend(path: ptr<function, Path>, scatter: ptr<function, Scatter>, fla
     if ((flags & FLAG_INTERIOR) == 0u) {
         return;
     }
-    let surface = volume_interface((*path).inside.nest, (*scatter).material, (*scatter).front);
+    let surface = volume_interface((*path).inside.media, (*scatter).material, (*scatter).front);
     (*scatter).ior = surface.ior;
     (*scatter).ior_minus_1 = surface.ior_minus_1;
 }
 
 // The path leaves the surface `s` along `wi`, and its shadow ray, if it has one, on its own side.
 fn crossing_cross(path: ptr<function, Path>, s: Surface, flags: u32, wi: vec3f) {
-    (*path).inside.shadow_nest = (*path).inside.nest;
+    (*path).inside.shadow_media = (*path).inside.media;
     (*path).inside.shadow_medium = (*path).inside.medium;
     if ((flags & FLAG_INTERIOR) == 0u) {
         return;
     }
     if (dot((*path).shadow_dir, s.ng) < 0.0) {
-        let behind = volume_behind((*path).inside.nest, s.material, s.front);
-        (*path).inside.shadow_nest = behind;
+        let behind = volume_behind((*path).inside.media, s.material, s.front);
+        (*path).inside.shadow_media = behind;
         (*path).inside.shadow_medium = volume_medium(behind);
     }
     if (dot(wi, s.ng) < 0.0) {
@@ -56,22 +56,22 @@ fn crossing_cross(path: ptr<function, Path>, s: Surface, flags: u32, wi: vec3f) 
 
 // The path is behind the surface `s` now.
 fn crossing_move(path: ptr<function, Path>, s: Surface) {
-    let nest = (*path).inside.nest;
-    let behind = volume_behind(nest, s.material, s.front);
-    (*path).inside.strays += volume_stray(nest, s.material, s.front);
-    (*path).inside.nest = behind;
+    let media = (*path).inside.media;
+    let behind = volume_behind(media, s.material, s.front);
+    (*path).inside.stack_errors += volume_stack_error(media, s.material, s.front);
+    (*path).inside.media = behind;
     (*path).inside.medium = volume_medium(behind);
 }
 
 // What a shadow ray keeps at the surface `s` of a material with an inside: all where that is not there.
 // The ray is behind the surface afterwards.
 fn crossing_through(path: ptr<function, Path>, s: Surface) -> vec3f {
-    let nest = (*path).inside.shadow_nest;
-    if (!volume_interface(nest, s.material, s.front).passes) {
+    let media = (*path).inside.shadow_media;
+    if (!volume_interface(media, s.material, s.front).passes) {
         return vec3f(0.0);
     }
-    let behind = volume_behind(nest, s.material, s.front);
-    (*path).inside.shadow_nest = behind;
+    let behind = volume_behind(media, s.material, s.front);
+    (*path).inside.shadow_media = behind;
     (*path).inside.shadow_medium = volume_medium(behind);
     return vec3f(1.0);
 }

@@ -25,8 +25,8 @@ const DIRECT_BSDF_ONLY: u32 = 2u;
 const DIRECT_POWER: u32 = 3u;
 
 // Leaves a shadow ray in `path` if a light was sampled that may light the vertex at `p`, off which rays start
-// by `gap` on either side.
-fn direct_sample(path: ptr<function, Path>, p: vec3f, gap: vec3f, scatter: Scatter, wo: vec3f) {
+// by `ray_offset` on either side.
+fn direct_sample(path: ptr<function, Path>, p: vec3f, ray_offset: vec3f, scatter: Scatter, wo: vec3f) {
     let n_lights = load_frame_n_lights();
     if (n_lights == 0u || load_frame_estimator() == DIRECT_BSDF_ONLY) {
         return;
@@ -52,7 +52,7 @@ fn direct_sample(path: ptr<function, Path>, p: vec3f, gap: vec3f, scatter: Scatt
         return;
     }
     let pb = select(dispatch_pdf(scatter, wo, to.wi), 0.0, load_frame_estimator() == DIRECT_LIGHT_ONLY);
-    let aim = direct_aim(gap, to);
+    let aim = direct_aim(ray_offset, to);
     (*path).shadow_dir = aim.xyz;
     // The light itself is skipped by its index; 2^-18 keeps off what lies in its plane.
     (*path).shadow_t = aim.w * 0.9999962;
@@ -60,11 +60,11 @@ fn direct_sample(path: ptr<function, Path>, p: vec3f, gap: vec3f, scatter: Scatt
     (*path).shadow_light = choice.index;
 }
 
-// Direction and length of the ray that starts off the surface, by `gap` on its side, and ends at the sample.
+// Direction and length of the ray that starts off the surface, by `ray_offset` on its side, and ends at the sample.
 // A ray along `to.wi` would pass the sample at the distance of that start, and meet the neighbours of a small
 // triangle instead of it.
-fn direct_aim(gap: vec3f, to: LightSample) -> vec4f {
-    let v = to.wi * to.t - select(gap, -gap, dot(gap, to.wi) < 0.0);
+fn direct_aim(ray_offset: vec3f, to: LightSample) -> vec4f {
+    let v = to.wi * to.t - select(ray_offset, -ray_offset, dot(ray_offset, to.wi) < 0.0);
     let d2 = dot(v, v);
     // Too far to be missed, as the sky is; or no distance at all.
     if (to.t >= 1e6 || d2 < 1.1754944e-38) {

@@ -11,6 +11,7 @@
 #import "scene/segment.wgsl"
 #import "scene/shadow.wgsl"
 #import "trace/ray.wgsl"
+#import "trace/ray_offset.wgsl"
 
 // The camera path of `key` through `pixel`.
 fn path_begin(key: SampleKey, pixel: vec2u) -> Path {
@@ -23,7 +24,8 @@ fn path_ray(path: Path) -> Ray {
     let shadow = path.shadow_light != NONE;
     let dir = select(path.dir, path.shadow_dir, shadow);
     let t_max = select(RAY_FAR, path.shadow_t, shadow);
-    return Ray(state_origin(path.point, path.gap, dir), t_max, dir, path.skip, path.shadow_light, path.time, NONE);
+    let origin = ray_offset_origin(path.point, path.ray_offset, dir);
+    return Ray(origin, t_max, dir, path.skip, path.shadow_light, path.time, NONE);
 }
 
 // Whether there is no ray left.
@@ -34,14 +36,14 @@ fn path_ended(path: Path) -> bool {
 // Moves the path on by what its ray has hit.
 fn path_advance(path: ptr<function, Path>, hit: Hit) {
     if ((*path).shadow_light != NONE) {
-        dispatch_fade(path, hit.t);
+        dispatch_shadow_transmittance(path, hit.t);
         if (hit.prim == NONE) {
             (*path).radiance += (*path).shadow_radiance;
-        } else if (dispatch_beam(path, hit)) {
+        } else if (dispatch_shadow_advance(path, hit)) {
             return;
         }
         (*path).shadow_light = NONE;
-        dispatch_beam_end(path);
+        dispatch_shadow_end(path);
         return;
     }
     (*path).segments += 1u;

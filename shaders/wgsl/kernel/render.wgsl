@@ -27,7 +27,7 @@ fn render(@builtin(global_invocation_id) gid: vec3<u32>) {
         if (path_ended(path)) {
             let sample = path.key.sample;
             film_add(&film, path.radiance, sample, path.segments);
-            film.strays += dispatch_strays(&path);
+            film.stack_errors += dispatch_stack_errors(&path);
             path = path_begin(sample_key(pixel, sample + 1u, frame.seed), pixel);
         }
     }

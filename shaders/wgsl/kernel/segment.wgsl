@@ -1,7 +1,7 @@
 // The medium that a path is in, between two vertices.
 
 #import "kernel/state.wgsl"
-#import "kernel/veil.wgsl"
+#import "kernel/fog.wgsl"
 #import "kernel/vertex.wgsl"
 #import "math/beer.wgsl"
 #import "math/vector.wgsl"
@@ -13,6 +13,7 @@
 #import "scene/records.wgsl"
 #import "scene/sampler.wgsl"
 #import "trace/ray.wgsl"
+#import "trace/ray_offset.wgsl"
 
 // Takes away what the path's medium absorbs along its segment. Where the segment leaves the scene, the
 // medium's colour takes its place.
@@ -22,11 +23,11 @@ fn segment_absorb(path: ptr<function, Path>, t: f32) {
         return;
     }
     let m = load_medium(i);
-    if (t > VEIL_LEAVES) {
-        veil_add(path, m, m.reach);
+    if (t > FOG_LEAVES) {
+        fog_add(path, m, m.reach);
         return;
     }
-    (*path).throughput *= beer_left(m.sigma_a * (t + veil_start(path, (*path).dir)));
+    (*path).throughput *= beer_transmittance(m.sigma_a * (t + fog_start(path, (*path).dir)));
 }
 
 // The same for media that may scatter: true if the path is scattered on its way, in `v` unless it has ended.
@@ -41,27 +42,27 @@ fn segment_scatter(path: ptr<function, Path>, hit: Hit, v: ptr<function, Vertex>
         return false;
     }
     let u = sample_2d((*path).key, PURPOSE_DISTANCE);
-    let length = veil_length(path, (*path).dir, hit.t, m.reach);
+    let length = fog_length(path, (*path).dir, hit.t, m.reach);
     let step = homogeneous_sample(m, (*path).throughput, length, u);
     (*path).throughput *= step.weight;
     if (!step.scatters) {
         return false;
     }
-    let from_start = max(step.t - veil_start(path, (*path).dir), 0.0);
+    let from_start = max(step.t - fog_start(path, (*path).dir), 0.0);
     // Beyond the surface at the end of its segment it would never leave the medium.
     let at = min(from_start, dispatch_before(hit, (*path).dir));
     dispatch_fog(path, at);
-    let origin = state_origin((*path).point, (*path).gap, (*path).dir);
+    let origin = ray_offset_origin((*path).point, (*path).ray_offset, (*path).dir);
     vertex_medium(path, origin + (*path).dir * at, i, v);
     return true;
 }
 
-// What the medium of the path's shadow ray leaves of it up to its hit at `t`.
-fn segment_shadow_fade(path: ptr<function, Path>, t: f32) -> vec3f {
+// Transmittance of the medium along the path's shadow ray up to its hit at `t`.
+fn segment_shadow_transmittance(path: ptr<function, Path>, t: f32) -> vec3f {
     let i = (*path).inside.shadow_medium;
     if (i == NONE) {
         return vec3f(1.0);
     }
     let m = load_medium(i);
-    return beer_left((m.sigma_a + m.sigma_s) * veil_length(path, (*path).shadow_dir, t, m.reach));
+    return beer_transmittance((m.sigma_a + m.sigma_s) * fog_length(path, (*path).shadow_dir, t, m.reach));
 }

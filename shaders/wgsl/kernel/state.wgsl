@@ -26,8 +26,8 @@ struct Path {
     dir: vec3f,
     // Primitive of `point`, as `Ray::skip`.
     skip: vec2u,
-    // Offset of a ray's start from `point`, on one side of the surface; the other side is its negative.
-    gap: vec3f,
+    // Ray offset: from `point` to a ray's start, on one side of the surface; the other side is its negative.
+    ray_offset: vec3f,
     // There is a next segment.
     open: bool,
     // The shadow ray to trace before it: unit direction, length, light (`NONE`: no shadow ray), and the
@@ -38,8 +38,8 @@ struct Path {
     shadow_light: u32,
     // Media that the path is in, if the scene has any.
     inside: Inside,
-    // Where the path goes on after its shadow ray, if shadow rays go on behind what they hit.
-    beam: Beam,
+    // The path's next ray while its shadow ray is traced, if shadow rays pass through surfaces.
+    pending: Pending,
     // When all of it sees the scene: 0 where the shutter opens, 1 where it closes.
     time: f32,
 }
@@ -50,11 +50,6 @@ fn state_at_camera(key: SampleKey, ray: CameraRay) -> Path {
         key, vec3f(0.0), 0u, vec3f(1.0), 1.0,
         ray.origin, 0.0, ray.dir, vec2u(NONE), vec3f(0.0), true,
         ray.dir, 0.0, vec3f(0.0), NONE,
-        inside_begin(), beam_begin(ray.origin), dispatch_time(key),
+        inside_begin(), pending_begin(ray.origin), dispatch_time(key),
     );
-}
-
-// Where a ray along `dir` starts: off the surface, on the side that it goes to.
-fn state_origin(point: vec3f, gap: vec3f, dir: vec3f) -> vec3f {
-    return point + select(gap, -gap, dot(gap, dir) < 0.0);
 }

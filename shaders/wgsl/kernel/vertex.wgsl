@@ -17,6 +17,7 @@
 #import "scene/sampler.wgsl"
 #import "surface/surface.wgsl"
 #import "trace/ray.wgsl"
+#import "trace/ray_offset.wgsl"
 
 // Where light is scattered: a surface, or a point in a medium.
 struct Vertex {
@@ -31,7 +32,7 @@ struct Vertex {
 
 // The vertex at `hit`: false if the path goes straight on there, or ends.
 fn vertex_surface(path: ptr<function, Path>, hit: Hit, v: ptr<function, Vertex>) -> bool {
-    let origin = state_origin((*path).point, (*path).gap, (*path).dir);
+    let origin = ray_offset_origin((*path).point, (*path).ray_offset, (*path).dir);
     var s = dispatch_surface(hit, origin, (*path).dir, (*path).time);
     let m = load_material(s.material);
     if (dispatch_pass(path, s, m.flags, ray_skip(hit))) {
@@ -72,15 +73,15 @@ fn vertex_is_last(path: ptr<function, Path>) -> bool {
 fn vertex_scatter(path: ptr<function, Path>, v: Vertex) {
     let wo = -(*path).dir;
     let key = (*path).key;
-    let gap = v.s.ng * v.s.gap;
+    let ray_offset = v.s.ng * v.s.ray_offset;
     if (!vertex_is_last(path)) {
-        dispatch_direct(path, v.s.p, gap, v.scatter, wo);
+        dispatch_direct(path, v.s.p, ray_offset, v.scatter, wo);
     }
     let next = dispatch_sample(v.scatter, wo, key);
     dispatch_cross(path, v.s, v.flags, next.wi);
     let pdf = dispatch_depart(path, v.s.p, v.flags, next);
     (*path).point = v.s.p;
-    (*path).gap = gap;
+    (*path).ray_offset = ray_offset;
     (*path).skip = v.skip;
     vertex_leave(path, next, pdf);
     (*path).open = (*path).open && !vertex_is_last(path);
@@ -94,7 +95,7 @@ fn vertex_leave(path: ptr<function, Path>, next: Scattered, pdf: f32) {
     (*path).eta_scale *= next.eta2;
     (*path).dir = next.wi;
     (*path).pdf = pdf;
-    (*path).open = vertex_survives(path, key);
+    (*path).open = vertex_roulette(path, key);
 }
 
 // Adds what the surface emits towards the path, weighted against the chance that the previous vertex had
@@ -112,7 +113,7 @@ fn vertex_emit(path: ptr<function, Path>, s: Surface, m: Material) {
 // largest throughput, refraction's own factor taken out. No cap below 1: capped roulette has infinite
 // variance where albedo^2 exceeds the cap. False if the path ends; otherwise the throughput makes up for
 // those that did.
-fn vertex_survives(path: ptr<function, Path>, key: SampleKey) -> bool {
+fn vertex_roulette(path: ptr<function, Path>, key: SampleKey) -> bool {
     let largest = vector_max((*path).throughput);
     if (largest <= 0.0) {
         return false;

@@ -1,17 +1,17 @@
-// Lambert and Beer: what is left of light after an optical depth, and how far it comes.
+// The law of Beer and Lambert: transmittance of an optical depth, and how to sample one.
 
 #import "math/exp_log.wgsl"
 
-// e^-tau for each channel; `tau` >= 0. Largest relative error 1e-7 (1 + tau).
-fn beer_left(tau: vec3f) -> vec3f {
+// Transmittance e^-tau for each channel; `tau` >= 0. Largest relative error 1e-7 (1 + tau).
+fn beer_transmittance(tau: vec3f) -> vec3f {
     // By division: drivers would move a factor 1 / ln 2 into the product that `tau` is.
     let t = -tau / 0.6931472;
     return vec3f(exp_log_exp2(t.x), exp_log_exp2(t.y), exp_log_exp2(t.z));
 }
 
-// 1 - e^-tau for each channel, what is lost; `tau` >= 0, `left`: e^-tau. Largest relative error 6e-6, where
+// Absorptance 1 - e^-tau for each channel; `tau` >= 0, `left`: e^-tau. Largest relative error 6e-6, where
 // 1 - e^-tau alone has 5 % at 1e-6.
-fn beer_lost(tau: vec3f, left: vec3f) -> vec3f {
+fn beer_absorptance(tau: vec3f, left: vec3f) -> vec3f {
     let series = tau * (vec3f(1.0) - tau * (vec3f(3.0) - tau) / 6.0);
     return select(vec3f(1.0) - left, series, tau < vec3f(0.01));
 }

@@ -32,7 +32,7 @@ fn homogeneous_sample(m: Medium, throughput: vec3f, t_max: f32, u: vec2f) -> Hom
     // At least 1e-30: the channel is clear, and its free path longer than any segment.
     let t = beer_depth(u.y) / max(chosen, 1e-30);
     let scatters = t < t_max;
-    let fade = beer_left((sigma_t - least) * min(t, t_max));
+    let fade = beer_transmittance((sigma_t - least) * min(t, t_max));
     let density = select(fade, sigma_t * fade, scatters);
     let all = dot(p, density);
     if (all <= 0.0) {

@@ -1,19 +1,19 @@
 // Which media a path is in, and what a surface between two of them is.
 
-#import "media/nest.wgsl"
+#import "media/medium_stack.wgsl"
 #import "scene/constants.wgsl"
 #import "scene/records.wgsl"
 
 struct Volume {
-    // Materials inside of which the path is, as in `nest_enter`.
-    nest: vec4u,
+    // The medium stack of the path.
+    media: vec4u,
     // Index of the `Medium` there, or `NONE`.
     medium: u32,
-    // The same for the shadow ray.
-    shadow_nest: vec4u,
+    // The same of the shadow ray.
+    shadow_media: vec4u,
     shadow_medium: u32,
-    // As `FilmPixel::strays`.
-    strays: u32,
+    // As `FilmPixel::stack_errors`.
+    stack_errors: u32,
 }
 
 // A surface as it is for a path between two media.
@@ -27,27 +27,27 @@ struct Interface {
 
 // What a path that leaves the camera is in.
 fn volume_begin() -> Volume {
-    let nest = load_frame_inside();
-    let medium = volume_medium(nest);
-    return Volume(nest, medium, nest, medium, 0u);
+    let media = load_frame_inside();
+    let medium = volume_medium(media);
+    return Volume(media, medium, media, medium, 0u);
 }
 
-// The medium inside of `nest`: that of its first entry, or the atmosphere.
-fn volume_medium(nest: vec4u) -> u32 {
-    if (nest.x == NONE) {
+// The medium at the top of the stack `media`, or the atmosphere.
+fn volume_medium(media: vec4u) -> u32 {
+    if (media.x == NONE) {
         return load_frame_air();
     }
-    return load_material_medium(nest.x);
+    return load_material_medium(media.x);
 }
 
-// The surface of material `i` for a path in `nest` that comes from its `front` side, or from inside.
+// The surface of material `i` for a path in `media` that comes from its `front` side, or from inside.
 // A surface inside of what has a greater priority is not there; nor is one between equal indices.
-fn volume_interface(nest: vec4u, i: u32, front: bool) -> Interface {
-    let first = !front && nest.x == i;
-    let outer = select(nest.x, nest.y, first);
+fn volume_interface(media: vec4u, i: u32, front: bool) -> Interface {
+    let first = !front && media.x == i;
+    let outer = select(media.x, media.y, first);
     var outer_minus_1 = 0.0;
     if (outer != NONE) {
-        let buried = !front && !first && nest_holds(nest, i);
+        let buried = !front && !first && medium_stack_contains(media, i);
         if (buried || (!first && load_material_priority(outer) > load_material_priority(i))) {
             return Interface(true, 1.0, 0.0);
         }
@@ -57,18 +57,18 @@ fn volume_interface(nest: vec4u, i: u32, front: bool) -> Interface {
     return Interface(minus_1 == 0.0, 1.0 + minus_1, minus_1);
 }
 
-// The nest behind the surface of material `i`.
-fn volume_behind(nest: vec4u, i: u32, front: bool) -> vec4u {
+// The medium stack behind the surface of material `i`.
+fn volume_behind(media: vec4u, i: u32, front: bool) -> vec4u {
     if (front) {
-        return nest_enter(nest, i);
+        return medium_stack_push(media, i);
     }
-    return nest_leave(nest, i);
+    return medium_stack_remove(media, i);
 }
 
-// What crossing that surface adds to `Volume::strays`.
-fn volume_stray(nest: vec4u, i: u32, front: bool) -> u32 {
+// What crossing that surface adds to `Volume::stack_errors`.
+fn volume_stack_error(media: vec4u, i: u32, front: bool) -> u32 {
     if (front) {
-        return select(0u, 1u, nest.w != NONE);
+        return select(0u, 1u, media.w != NONE);
     }
-    return select(0x10000u, 0u, nest_holds(nest, i));
+    return select(0x10000u, 0u, medium_stack_contains(media, i));
 }

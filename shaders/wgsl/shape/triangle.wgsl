@@ -115,7 +115,7 @@ fn triangle_flat_surface(i: u32, b: vec2f, dir: vec3f) -> Surface {
     if (any(flat)) {
         // The point is in the plane, and whatever else is in it is at a distance of 0: one ulp is enough to be on the
         // right side of it, however thin that side is.
-        s.gap = 1.1920929e-7 * vector_max(select(vec3f(0.0), abs(p), flat)); // 2^-23
+        s.ray_offset = 1.1920929e-7 * vector_max(select(vec3f(0.0), abs(p), flat)); // 2^-23
     }
     s.uv = triangle_uv(i, b);
     s.material = load_tri_shade_material(i);

@@ -14,7 +14,7 @@ struct Surface {
     ns: vec3f,
     uv: vec2f,
     // How far a ray that leaves must start from `p`, along `ng` or against it.
-    gap: f32,
+    ray_offset: f32,
     // Index of the `Material`.
     material: u32,
     // Index of the `Light`, or `NONE`.
@@ -38,8 +38,8 @@ fn surface_new(p: vec3f, out: vec3f, dir: vec3f, reach: f32) -> Surface {
     let ng = select(-out, out, front);
     // 16 ulp of the largest coordinate: measured to lose no neighbour and to hit no own primitive for
     // triangles of any size and distance, down to grazing cosines of 1e-4, where the source is skipped.
-    let gap = 9.5367432e-7 * reach; // 16 * 2^-24
-    return Surface(p, p, ng, ng, vec2f(0.0), gap, 0u, NONE, 0u, vec3f(0.0), 1.0, front);
+    let ray_offset = 9.5367432e-7 * reach; // 16 * 2^-24
+    return Surface(p, p, ng, ng, vec2f(0.0), ray_offset, 0u, NONE, 0u, vec3f(0.0), 1.0, front);
 }
 
 // How far along a ray that hits a surface at `t` a point can be and still be on this side of it, at least, whatever
@@ -52,8 +52,8 @@ fn surface_before(t: f32) -> f32 {
 fn surface_carry(s: ptr<function, Surface>, shift: vec3f) {
     (*s).p += shift;
     // As in `surface_new`, with 2 ulp more: the sum above rounds, and so does the way back of the next ray.
-    let gap = 9.5367432e-7 * vector_max(abs((*s).p));
-    (*s).gap = max((*s).gap, gap) * 1.125;
+    let ray_offset = 9.5367432e-7 * vector_max(abs((*s).p));
+    (*s).ray_offset = max((*s).ray_offset, ray_offset) * 1.125;
 }
 
 // A shading normal that can be used with `ng` (faces the ray) for a ray along `dir`, from an

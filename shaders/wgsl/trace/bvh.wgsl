@@ -3,7 +3,7 @@
 // Nothing bounds the number of steps, because a tree is finite and a cap would open holes where geometry is hard.
 
 #import "scene/constants.wgsl"
-#import "scene/door.wgsl"
+#import "scene/instance_leaf.wgsl"
 #import "scene/ends.wgsl"
 #import "scene/leaf.wgsl"
 #import "scene/nodes.wgsl"
@@ -25,8 +25,8 @@ fn trace(ray: Ray) -> Hit {
             if (child != NONE) {
                 continue;
             }
-        } else if (dispatch_is_door(child)) {
-            child = dispatch_door(child, ray, &walk);
+        } else if (dispatch_is_instance_leaf(child)) {
+            child = dispatch_instance_leaf(child, ray, &walk);
             if (child != NONE) {
                 // Nothing lies before it: it is never left out.
                 stack_push(&n_stack, CHILD_OUT, 0u);

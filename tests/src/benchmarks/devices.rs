@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use compiler::bvh::Layout;
 use cpu_time::ProcessTime;
-use runtime::{Control, DeviceChoice, Job, SampleRange, Scene, render};
+use runtime::{Control, DeviceChoice, Event, Job, SampleRange, Scene, render};
 
 use super::packs::Packs;
 use super::{Outcome, ROUNDS, SCENES, median};
@@ -41,9 +41,11 @@ pub(super) fn cost(
     job.samples = SampleRange { start: 0, end: samples };
     change(&mut job);
     let (tell, heard) = mpsc::channel();
-    let control = Control::new(move |line| {
-        // Nobody listens any more once the run has ended.
-        let _ = tell.send(line.to_owned());
+    let control = Control::new(move |event| {
+        if let Event::Note(line) = event {
+            // Nobody listens any more once the run has ended.
+            let _ = tell.send(line.to_owned());
+        }
     });
     let pixels = f64::from(job.image_size[0]) * f64::from(job.image_size[1]);
     let n_samples = pixels * f64::from(job.samples.count());

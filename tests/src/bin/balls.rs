@@ -28,7 +28,7 @@ struct Args {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let args = Args::parse();
     std::fs::create_dir_all(&args.out)?;
-    for schema in Kind::Material.types() {
+    for schema in lang::schema::types_of(Kind::Material) {
         if args.names.is_empty() || args.names.iter().any(|name| name == schema.name) {
             render(schema, &args)?;
         }

@@ -236,7 +236,7 @@ twins! {
             off += u64::from(error.is_nan() || error >= 1e-3);
             let s = kernel.dispatch_surface(hit, v3(from), v3(dir), 0.0);
             let up = v3(DVec3::new(dir.x, 1e-6, dir.z));
-            let origin = kernel.state_origin(s.p, s.ng * s.gap, up);
+            let origin = kernel.ray_offset_origin(s.p, s.ng * s.ray_offset, up);
             again += u64::from(kernel.trace(ray(origin, up)).prim != NONE);
         }
         [off, again]

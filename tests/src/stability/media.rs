@@ -201,7 +201,7 @@ twins! {
     fn left(tau: f64) -> f64 {
         let bench = Bench::new();
         let mut kernel = open(&bench);
-        f64::from(kernel.beer_left(V3::splat(real(tau))).x)
+        f64::from(kernel.beer_transmittance(V3::splat(real(tau))).x)
     }
 }
 

@@ -2,12 +2,13 @@
 
 use std::collections::BTreeSet;
 use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 use pack::abi::{Camera, MaterialKind, SamplerKind, material_flag};
 use runtime::convergence::{Measure, Point};
 use runtime::{
-    Control, Counters, DeviceChoice, Job, Precision, Rect, SampleRange, Scene, Stop, render,
+    Control, Counters, DeviceChoice, Event, Job, Precision, Rect, SampleRange, Scene, Stop, render,
 };
 
 use super::tools::{
@@ -364,15 +365,18 @@ instance ball {{ shape = sphere(radius: 1m), material = m }}\n{}",
         let mut job = Job::of_scene(&scene);
         job.resize([128, 128]);
         job.samples = SampleRange { start: 0, end: 1 << 20 };
-        let control = Control::default();
+        let n_blocks = AtomicU64::new(0);
+        let control = Control::new(move |event| {
+            // Between two batches of sixteen blocks each.
+            let breaks = wanted == Stop::Failed
+                && matches!(event, Event::Block)
+                && n_blocks.fetch_add(1, Ordering::Relaxed) == 23;
+            assert!(!breaks, "this block breaks");
+        });
         match wanted {
             Stop::TimeLimit => job.time_limit = Some(Duration::from_millis(60)),
             Stop::Cancelled => control.cancel(),
-            // Between two batches of sixteen blocks each.
-            _ => {
-                job.samples.end = 64;
-                control.break_block(24);
-            }
+            _ => job.samples.end = 64,
         }
         let row = match render(&scene, &job, &DeviceChoice::Cpu, &control) {
             Err(error) => Row::fact(name, &format!("{wanted:?}"), &error.to_string(), false),

@@ -25,7 +25,7 @@ fn ray(origin: Vec3, dir: Vec3, skip: u32) -> single::Ray {
 
 /// Where the kernel starts a ray from `s` along `dir`.
 fn start(kernel: &mut single::Kernel<'_>, s: &single::Surface, dir: Vec3) -> Vec3 {
-    kernel.state_origin(s.p, s.ng * s.gap, dir)
+    kernel.ray_offset_origin(s.p, s.ng * s.ray_offset, dir)
 }
 
 /// Without the skip of the source: the offset alone keeps off ordinary triangles of any size and place.

@@ -194,13 +194,13 @@ fn surfaces_of_instances_are_where_and_as_the_map_says() {
         assert!(s.ng.as_dvec3().dot(normal).abs() > 1.0 - 1e-6);
         assert_eq!(s.front, normal.dot(dir.as_dvec3()) <= 0.0);
         assert!(s.ng.dot(dir) <= 0.0);
-        far = far.max((s.p.as_dvec3() - p).dot(normal).abs() / f64::from(s.gap));
+        far = far.max((s.p.as_dvec3() - p).dot(normal).abs() / f64::from(s.ray_offset));
         // A ray that leaves, on either side, at any angle.
         let cos = 10.0_f64.powf(stream.between(-4.0, 0.0));
         let side = normal.cross(stream.direction()).normalize();
         let sign = if stream.unit() < 0.5 { 1.0 } else { -1.0 };
         let out = (normal * (sign * cos) + side * (1.0 - cos * cos).sqrt()).normalize().as_vec3();
-        let origin = kernel.state_origin(s.p, s.ng * s.gap, out);
+        let origin = kernel.ray_offset_origin(s.p, s.ng * s.ray_offset, out);
         let leaving = single::Ray { time, ..ray(origin, out) };
         let inner = kernel.instance_ray(instance, leaving);
         let shear = kernel.triangle_shear(inner.dir);

@@ -187,13 +187,13 @@ fn coloured_media_pass_and_scatter_what_they_should() {
 fn clear_and_dense_media_have_no_surprises() {
     let bench = Bench::new();
     let mut kernel = bench.single();
-    let clear = kernel.beer_left(Vec3::ZERO);
+    let clear = kernel.beer_transmittance(Vec3::ZERO);
     assert_eq!(clear, Vec3::ONE);
-    assert_eq!(kernel.beer_lost(Vec3::ZERO, clear), Vec3::ZERO);
-    assert_eq!(kernel.beer_left(Vec3::splat(1e26)), Vec3::ZERO);
+    assert_eq!(kernel.beer_absorptance(Vec3::ZERO, clear), Vec3::ZERO);
+    assert_eq!(kernel.beer_transmittance(Vec3::splat(1e26)), Vec3::ZERO);
     for x in [1e-8_f64, 1e-6, 1e-3, 0.009_9, 0.010_1, 0.5, 90.0] {
-        let left = kernel.beer_left(Vec3::splat(x as f32));
-        let loss = kernel.beer_lost(Vec3::splat(x as f32), left);
+        let left = kernel.beer_transmittance(Vec3::splat(x as f32));
+        let loss = kernel.beer_absorptance(Vec3::splat(x as f32), left);
         let truth = -(-f64::from(x as f32)).exp_m1();
         assert!((f64::from(loss.x) / truth - 1.0).abs() < 7e-6, "{x}: {} {truth}", loss.x);
     }

@@ -161,7 +161,7 @@ fn single_surface(s: &double::Surface) -> single::Surface {
         ng: s.ng.as_vec3(),
         ns: s.ns.as_vec3(),
         uv: s.uv.as_vec2(),
-        gap: s.gap as f32,
+        ray_offset: s.ray_offset as f32,
         material: s.material,
         light: s.light,
         object: s.object,

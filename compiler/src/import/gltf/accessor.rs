@@ -1,7 +1,7 @@
 //! Accessors become plain arrays, each byte range checked before it is read.
 
 use super::super::error::{ErrorKind, ImportError};
-use super::Document;
+use super::document::Document;
 use ::gltf::json::Index;
 use ::gltf::json::accessor::{Accessor, ComponentType, Type, sparse};
 use ::gltf::json::buffer::View;

@@ -2,7 +2,8 @@
 
 use super::super::error::{ErrorKind, ImportError, excerpt};
 use super::super::file::Reader;
-use super::{Buffers, Document};
+use super::accessor::Buffers;
+use super::document::Document;
 use ::gltf::json::buffer::View;
 use ::gltf::json::{Image, Index};
 use base64::Engine as _;

@@ -2,7 +2,7 @@
 
 use super::super::error::{ErrorKind, ImportError};
 use super::super::material::ImportedMaterial;
-use super::material::{Maps, Notes};
+use super::maps::{Maps, Notes};
 use ::gltf::json::material::Material;
 use ::gltf::json::texture::Info;
 use ::gltf::json::{Value, deserialize};

@@ -1,7 +1,7 @@
 //! The scene graph becomes a list of meshes with their matrices and names.
 
 use super::super::error::{ErrorKind, ImportError};
-use super::Document;
+use super::document::Document;
 use ::gltf::json::{Index, Node};
 
 /// Deepest nesting; real files stay below 50.

@@ -3,8 +3,8 @@
 use super::super::error::{ErrorKind, ImportError};
 use super::super::file::Reader;
 use super::super::report::ImportReport;
-use super::Document;
 use super::accessor::Buffers;
+use super::document::Document;
 use super::node::Placed;
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;

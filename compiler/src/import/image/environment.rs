@@ -4,10 +4,10 @@
 //! which loses nothing above 2^-24 of its brightest texel. Texels that cannot be radiance are errors here:
 //! one of them would spoil every path that leaves the scene. It does not know directions.
 
-use super::{
-    Format, HalfImage, Image, ImportError, decode_image, exr, gave_up, guard, hdr, recognise,
-};
-use crate::import::error::ErrorKind;
+use super::format::{Format, gave_up, recognise};
+use super::texels::{HalfImage, Image};
+use super::{decode_image, exr, guard, hdr};
+use crate::import::error::{ErrorKind, ImportError};
 use crate::import::file::{Limits, read_file};
 use files::ShowPath as _;
 use std::path::Path;

@@ -4,7 +4,8 @@
 //! associated (premultiplied) in EXR and straight here, so colour is divided by it where it is
 //! between 0 and 1.
 
-use super::{HalfImage, broken, checked_size, kept};
+use super::format::{broken, checked_size, kept};
+use super::texels::HalfImage;
 use crate::import::error::{ErrorKind, ImportError};
 use crate::import::file::Limits;
 use ::exr::image::read::image::ReadLayers as _;

@@ -1,6 +1,7 @@
 //! Radiance HDR (shared exponent, linear) becomes half floats.
 
-use super::{Format, HalfImage, broken, checked_size, kept, raw};
+use super::format::{Format, broken, checked_size, kept, raw};
+use super::texels::HalfImage;
 use crate::import::error::ImportError;
 use crate::import::file::Limits;
 use ::image::ImageDecoder as _;

@@ -1,4 +1,4 @@
-//! `tobj`'s models become parts: polygons cut, triangles judged, missing normals computed.
+//! Flat arrays of an OBJ file become parts: polygons cut, triangles judged, missing normals computed.
 
 use super::super::check::{Quality, grow, is_zero, quality, single, unit};
 use super::super::error::{ErrorKind, ImportError};
@@ -7,17 +7,17 @@ use super::super::mesh::{Attribute, NO_CORNER, Part};
 use super::super::normals::{self, FLAT, Wanting};
 use super::super::polygon;
 use super::super::report::ImportReport;
-use super::Frame;
-use super::scan::{PartName, Scanned, Tag, line_of_face};
+use super::frame::Frame;
+use super::parse::{Face, Geometry, PartName};
 use std::collections::BTreeMap;
 
-/// What the parts are made from, beside the models.
+/// What the parts are made from, beside the faces.
 pub(super) struct Source<'a> {
     pub(super) file: &'a str,
-    pub(super) bytes: &'a [u8],
     pub(super) frame: Frame,
-    pub(super) scanned: &'a Scanned,
-    /// For each of `scanned.materials`, its index among the imported ones.
+    /// Names that runs refer to.
+    pub(super) names: &'a [PartName],
+    /// For each material that runs refer to, its index among the imported ones.
     pub(super) material_ids: &'a [Option<u32>],
     pub(super) limits: &'a Limits,
 }
@@ -40,118 +40,131 @@ struct Draft {
 const NONE_HERE: [u32; 3] = [NO_CORNER; 3];
 
 impl Source<'_> {
-    fn place(&self, face_idx: u64) -> String {
-        format!("{}:{}", self.file, line_of_face(self.bytes, face_idx))
+    fn place(&self, face: Face) -> String {
+        format!("{}:{}", self.file, face.line)
     }
 
     fn limit(&self, message: String) -> ImportError {
         ImportError::new(ErrorKind::Limit, self.file, message)
     }
+
+    /// A position of the file in metres, +Y up.
+    fn position(&self, p: [f32; 3]) -> Result<[f32; 3], ImportError> {
+        let metres = single(self.frame.position(p));
+        if metres.iter().all(|x| x.is_finite()) {
+            return Ok(metres);
+        }
+        let message = format!("vertex ({}, {}, {}) is infinite in metres", p[0], p[1], p[2]);
+        Err(ImportError::new(ErrorKind::Number, self.file, message)
+            .with_help("check the `unit:` of the asset"))
+    }
+
+    /// A normal of the file as a unit vector, +Y up; zero where it has no direction.
+    fn normal(&self, n: [f32; 3]) -> [f32; 3] {
+        unit(self.frame.turn(n.map(f64::from))).map_or([0.0; 3], single)
+    }
 }
 
 /// Makes the parts, in the order in which their names and materials first appear.
 pub(super) fn parts(
-    models: Vec<tobj::Model>,
+    geometry: Geometry,
     source: &Source<'_>,
     report: &mut ImportReport,
 ) -> Result<Vec<Part>, ImportError> {
+    let mut drafts = drafts(geometry, source, report)?;
+    drafts.retain(|draft| !draft.triangles.is_empty());
+    compute_normals(&mut drafts, source, report)?;
+    for draft in &drafts {
+        grow(&mut report.bounds, &draft.positions);
+    }
+    Ok(drafts.into_iter().map(|draft| finish(draft, source.names)).collect())
+}
+
+fn drafts(
+    mut file: Geometry,
+    source: &Source<'_>,
+    report: &mut ImportReport,
+) -> Result<Vec<Draft>, ImportError> {
     let mut drafts: Vec<Draft> = Vec::new();
     let mut ids: BTreeMap<(u32, Option<u32>), usize> = BTreeMap::new();
+    let mut copier = Copier::new(&file);
+    let mut corners = std::mem::take(&mut file.corners);
+    let (mut next_face, mut next_corner) = (0, 0);
     let mut n_triangles = 0;
-    for model in models {
-        let tag = model.name.parse::<usize>().ok().and_then(|i| source.scanned.tags.get(i));
-        let Some((tag, first_face)) = tag else {
-            continue; // the model without faces that `tobj` makes of an empty file
-        };
-        let material = tag.material.and_then(|id| *source.material_ids.get(id as usize)?);
+    for run in &file.runs {
+        let faces = &file.faces[next_face..][..run.n_faces];
+        let n_corners = faces.iter().map(|face| face.n_corners as usize).sum();
+        let corners = &mut corners[next_corner..][..n_corners];
+        (next_face, next_corner) = (next_face + faces.len(), next_corner + n_corners);
+        let state = &run.state;
+        let material = state.material.and_then(|id| *source.material_ids.get(id as usize)?);
         let new = drafts.len();
-        let draft_idx = *ids.entry((tag.name, material)).or_insert(new);
+        let draft_idx = *ids.entry((state.name, material)).or_insert(new);
         if draft_idx == new {
-            drafts.push(Draft { name: tag.name, material, ..Draft::default() });
+            drafts.push(Draft { name: state.name, material, ..Draft::default() });
         }
         let draft = &mut drafts[draft_idx];
         let before = draft.triangles.len();
-        add_model(draft, &model.mesh, (tag, *first_face), source, report)?;
+        copier.copy(corners, draft, &file, source)?;
+        let smoothing = state.smoothing.unwrap_or(u32::MAX);
+        add_triangles(draft, (faces, corners), smoothing, source, report);
         n_triangles += (draft.triangles.len() - before) as u64;
         if n_triangles > source.limits.triangles {
             let max = source.limits.triangles;
             return Err(source.limit(format!("more than {max} triangles")));
         }
     }
-    drafts.retain(|draft| !draft.triangles.is_empty());
-    compute_normals(&mut drafts, source, report)?;
-    for draft in &drafts {
-        grow(&mut report.bounds, &draft.positions);
-    }
-    Ok(drafts.into_iter().map(|draft| finish(draft, &source.scanned.names)).collect())
+    Ok(drafts)
 }
 
-/// Appends the faces of one model.
-fn add_model(
+/// Appends the triangles of some faces, whose corners refer to the values of `draft`.
+fn add_triangles(
     draft: &mut Draft,
-    mesh: &tobj::Mesh,
-    (tag, first_face): (&Tag, u64),
+    (faces, mut corners): (&[Face], &[[u32; 3]]),
+    smoothing: u32,
     source: &Source<'_>,
     report: &mut ImportReport,
-) -> Result<(), ImportError> {
-    let bases = add_values(draft, mesh, tag, source)?;
-    let smoothing = tag.smoothing.unwrap_or(u32::MAX);
-    let mut start = 0;
-    let n_faces =
-        if mesh.face_arities.is_empty() { mesh.indices.len() / 3 } else { mesh.face_arities.len() };
-    for face in 0..n_faces {
-        let n_corners = mesh.face_arities.get(face).map_or(3, |n| *n as usize);
-        let face_idx = first_face + face as u64;
-        let corner = |list: &[u32], base: u32, i: u32| base + list[start + i as usize];
-        for cut in cut_face(draft, mesh, bases[0], start..start + n_corners, report, || {
-            source.place(face_idx)
-        }) {
-            let tri = cut.map(|i| corner(&mesh.indices, bases[0], i));
+) {
+    for face in faces {
+        let (of_face, rest) = corners.split_at(face.n_corners as usize);
+        corners = rest;
+        for cut in cut_face(draft, of_face, report, || source.place(*face)) {
+            let [tri, uvs, mut normals] =
+                [0, 1, 2].map(|which| cut.map(|i| of_face[i as usize][which]));
             let points = tri.map(|vertex| draft.positions[vertex as usize]);
             match quality(points) {
                 Quality::ZeroArea => {
-                    report.zero_area.add(|| source.place(face_idx));
+                    report.zero_area.add(|| source.place(*face));
                     continue;
                 }
-                Quality::Needle => report.needles.add(|| source.place(face_idx)),
+                Quality::Needle => report.needles.add(|| source.place(*face)),
                 Quality::Fine => {}
+            }
+            let is_zero = |n: &u32| draft.normals.get(*n as usize).is_some_and(|n| is_zero(*n));
+            if normals.iter().any(is_zero) {
+                report.zero_normals.add(|| source.place(*face));
+                normals = NONE_HERE;
             }
             draft.triangles.push(tri);
             draft.smoothing.push(smoothing);
-            draft.uv_corners.push(if tag.has_uv {
-                cut.map(|i| corner(&mesh.texcoord_indices, bases[1], i))
-            } else {
-                NONE_HERE
-            });
-            let mut normals = NONE_HERE;
-            if tag.has_normal {
-                normals = cut.map(|i| corner(&mesh.normal_indices, bases[2], i));
-                if normals.iter().any(|n| is_zero(draft.normals[*n as usize])) {
-                    report.zero_normals.add(|| source.place(face_idx));
-                    normals = NONE_HERE;
-                }
-            }
+            draft.uv_corners.push(uvs);
             draft.normal_corners.push(normals);
         }
-        start += n_corners;
     }
-    Ok(())
 }
 
 /// Triangles of one face, as indices of its corners.
 fn cut_face(
     draft: &Draft,
-    mesh: &tobj::Mesh,
-    base: u32,
-    corners: std::ops::Range<usize>,
+    corners: &[[u32; 3]],
     report: &mut ImportReport,
     place: impl FnOnce() -> String,
 ) -> Vec<[u32; 3]> {
     if corners.len() == 3 {
         return vec![[0, 1, 2]];
     }
-    let position = |vertex: &u32| draft.positions[(base + vertex) as usize];
-    let points: Vec<[f32; 3]> = mesh.indices[corners].iter().map(position).collect();
+    let position = |corner: &[u32; 3]| draft.positions[corner[0] as usize];
+    let points: Vec<[f32; 3]> = corners.iter().map(position).collect();
     let cut = polygon::triangulate(&points);
     report.n_polygons += 1;
     if cut.crooked {
@@ -160,45 +173,86 @@ fn cut_face(
     cut.triangles
 }
 
-/// Appends positions, UVs and normals of a model; returns where each of them begins.
-fn add_values(
-    draft: &mut Draft,
-    mesh: &tobj::Mesh,
-    tag: &Tag,
-    source: &Source<'_>,
-) -> Result<[u32; 3], ImportError> {
-    let base = |here: usize, more: usize| {
-        let fits = here.checked_add(more).is_some_and(|n| n < NO_CORNER as usize);
-        let base = u32::try_from(here).ok().filter(|_| fits);
-        base.ok_or_else(|| source.limit("more than 2^32 vertices in one group".to_owned()))
-    };
-    let n = [mesh.positions.len() / 3, mesh.texcoords.len() / 2, mesh.normals.len() / 3];
-    let bases = [
-        base(draft.positions.len(), n[0])?,
-        base(draft.uvs.len(), n[1])?,
-        base(draft.normals.len(), n[2])?,
-    ];
-    draft.positions.reserve(n[0]);
-    for p in mesh.positions.chunks_exact(3) {
-        let metres = single(source.frame.position([p[0], p[1], p[2]]));
-        if !metres.iter().all(|x| x.is_finite()) {
-            let message = format!("vertex ({}, {}, {}) is infinite in metres", p[0], p[1], p[2]);
-            return Err(ImportError::new(ErrorKind::Number, source.file, message)
-                .with_help("check the `unit:` of the asset"));
+/// Copies the values that a run of faces uses to a part, each once, in the order of their first use.
+struct Copier {
+    positions: Renumbering,
+    uvs: Renumbering,
+    normals: Renumbering,
+}
+
+impl Copier {
+    fn new(file: &Geometry) -> Self {
+        Self {
+            positions: Renumbering::new(file.positions.len()),
+            uvs: Renumbering::new(file.uvs.len()),
+            normals: Renumbering::new(file.normals.len()),
         }
-        draft.positions.push(metres);
     }
-    if tag.has_uv {
-        draft.uvs.extend(mesh.texcoords.chunks_exact(2).map(|uv| [uv[0], uv[1]]));
+
+    /// Afterwards `corners` refer to the values of `draft`.
+    fn copy(
+        &mut self,
+        corners: &mut [[u32; 3]],
+        draft: &mut Draft,
+        file: &Geometry,
+        source: &Source<'_>,
+    ) -> Result<(), ImportError> {
+        for [vertex, uv, normal] in corners {
+            let position = |old: u32| source.position(file.positions[old as usize]);
+            self.positions.renumber(vertex, &mut draft.positions, source, position)?;
+            let value = |old: u32| Ok(file.uvs[old as usize]);
+            self.uvs.renumber(uv, &mut draft.uvs, source, value)?;
+            let value = |old: u32| Ok(source.normal(file.normals[old as usize]));
+            self.normals.renumber(normal, &mut draft.normals, source, value)?;
+        }
+        for renumbering in [&mut self.positions, &mut self.uvs, &mut self.normals] {
+            renumbering.forget();
+        }
+        Ok(())
     }
-    if tag.has_normal {
-        let turn = |n: &[f32]| {
-            let turned = source.frame.turn([n[0].into(), n[1].into(), n[2].into()]);
-            unit(turned).map_or([0.0; 3], single) // zero marks it; `add_model` replaces it
+}
+
+/// From indices into a list of the file to those into a list of a part.
+struct Renumbering {
+    /// `NO_CORNER` for what is not copied.
+    new: Vec<u32>,
+    /// Old indices of what is.
+    copied: Vec<u32>,
+}
+
+impl Renumbering {
+    fn new(n: usize) -> Self {
+        Self { new: vec![NO_CORNER; n], copied: Vec::new() }
+    }
+
+    fn forget(&mut self) {
+        for old in self.copied.drain(..) {
+            self.new[old as usize] = NO_CORNER;
+        }
+    }
+
+    /// Makes `index` the new one, unless there is none; what is not copied yet is appended to `values`.
+    fn renumber<T>(
+        &mut self,
+        index: &mut u32,
+        values: &mut Vec<T>,
+        source: &Source<'_>,
+        value: impl FnOnce(u32) -> Result<T, ImportError>,
+    ) -> Result<(), ImportError> {
+        let old = *index;
+        let Some(new) = self.new.get_mut(old as usize) else {
+            return Ok(()); // `NO_CORNER`: all others were checked
         };
-        draft.normals.extend(mesh.normals.chunks_exact(3).map(turn));
+        if *new == NO_CORNER {
+            let next = u32::try_from(values.len()).ok().filter(|next| *next < NO_CORNER - 1);
+            let too_many = || source.limit("more than 2^32 vertices in one group".to_owned());
+            *new = next.ok_or_else(too_many)?;
+            self.copied.push(old);
+            values.push(value(old)?);
+        }
+        *index = *new;
+        Ok(())
     }
-    Ok(bases)
 }
 
 /// Gives normals to the triangles that have none.
@@ -285,4 +339,4 @@ fn part_names(name: &PartName) -> (String, Vec<String>) {
     (full, aliases)
 }
 
-const _: () = assert!(FLAT == 0, "`s off` is group 0 in the scanner, too");
+const _: () = assert!(FLAT == 0, "the parser makes group 0 of `s off`");

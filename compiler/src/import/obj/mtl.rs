@@ -1,7 +1,7 @@
 //! MTL files become materials.
 //!
-//! As for OBJ, the text is checked first (with lines), and `tobj` gets what it reads right. The old
-//! Phong numbers become metallic-roughness ones:
+//! The text is checked first (with lines), and `tobj` gets what it reads right. The old Phong numbers
+//! become metallic-roughness ones:
 //!
 //! - `Kd` is the base colour, taken as linear Rec. 709, as exporters write it. A black `Kd` beside a
 //!   `map_Kd` is taken as white: many exporters write that, and black would hide the image.
@@ -19,7 +19,8 @@ use super::super::file::Reader;
 use super::super::image_set::{Alpha, ImageSet};
 use super::super::material::{ImportedMaterial, MapUse};
 use super::super::report::ImportReport;
-use super::scan::{Scanned, numbers_of, split_word, text, uncommented};
+use super::lines::{numbers_of, split_word, text, uncommented};
+use super::parse::Obj;
 use crate::input::Root;
 use files::ShowPath as _;
 use lang::scene::{ColorSpace, Wrap};
@@ -47,7 +48,7 @@ const MATERIAL_BYTES: u64 = 2048;
 pub(super) fn load(
     folder: &Path,
     obj_file: &str,
-    scanned: &Scanned,
+    obj: &Obj,
     reader: &mut Reader<'_>,
     images: &mut ImageSet<'_>,
     report: &mut ImportReport,
@@ -55,7 +56,7 @@ pub(super) fn load(
     let mut found: BTreeMap<String, Found> = BTreeMap::new();
     let mut missing = false;
     let mut done: BTreeSet<&str> = BTreeSet::new();
-    for (written, line) in &scanned.libraries {
+    for (written, line) in &obj.libraries {
         if !done.insert(written) {
             continue;
         }
@@ -79,7 +80,7 @@ pub(super) fn load(
         }
     }
     let mut library = Library { materials: Vec::new(), ids: Vec::new() };
-    for (name, line) in &scanned.materials {
+    for (name, line) in &obj.materials {
         let Some(found) = found.get(name) else {
             if !missing {
                 let message = format!("no material library defines `{name}`");

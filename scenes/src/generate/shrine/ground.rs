@@ -2,7 +2,9 @@
 //! fallen on land and water, petals in the air, lily pads.
 
 use super::kit::{Mesh, Place, V3, add, ball, cross, normalize, scale};
-use super::land::{POND, STAIRS_BOTTOM, STAIRS_TOP, TERRACE, height, normal, shore_distance};
+use super::land::{
+    POND, STAIRS_BOTTOM, STAIRS_HALF_WIDTH, STAIRS_TOP, TERRACE, height, normal, shore_distance,
+};
 use super::noise::{Rng, noise};
 use super::tree::card;
 use super::{bridge, stairs};
@@ -26,7 +28,7 @@ fn rim(angle: f64, out: f64) -> [f64; 2] {
 
 /// Whether a point is under paving, stairs, gate or the ends of the bridge.
 fn built(x: f64, z: f64) -> bool {
-    libm::fabs(x) < stairs::HALF_WIDTH + 0.5 && z < STAIRS_BOTTOM + 3.3
+    libm::fabs(x) < STAIRS_HALF_WIDTH + 0.5 && z < STAIRS_BOTTOM + 3.3
 }
 
 /// Rocks along the rim, and some in the garden.
@@ -157,7 +159,7 @@ fn rest(x: f64, z: f64) -> (f64, V3) {
     if libm::fabs(x) < 1.1 && libm::fabs(from_bridge) < bridge::HALF_LENGTH {
         return (bridge::deck(from_bridge) + 0.012, up);
     }
-    if libm::fabs(x) < stairs::HALF_WIDTH && z < STAIRS_BOTTOM + 3.1 {
+    if libm::fabs(x) < STAIRS_HALF_WIDTH && z < STAIRS_BOTTOM + 3.1 {
         return (if z < STAIRS_TOP { TERRACE + 0.02 } else { stairs::tread(z) } + 0.014, up);
     }
     (height(x, z) + 0.02, normal(x, z))

@@ -8,7 +8,7 @@ use super::roof::height;
 
 /// Heights over the ground: top of the podium, floor, lintel, tops of the columns.
 const PODIUM: f64 = 0.75;
-const FLOOR: f64 = 1.15;
+pub(super) const FLOOR: f64 = 1.15;
 const LINTEL: f64 = 3.75;
 const HEAD: f64 = 5.05;
 /// Where columns stand along x and z.
@@ -45,7 +45,7 @@ pub(super) struct Hall {
     pub(super) gold: Mesh,
 }
 
-/// The hall.
+/// The hall, empty and without a veranda.
 pub(super) fn hall() -> Hall {
     let mut hall = Hall::default();
     podium(&mut hall);
@@ -67,11 +67,14 @@ pub(super) fn hall() -> Hall {
             side_bay(&mut hall, side, [pair[1], pair[0]]);
         }
     }
-    super::veranda::veranda(&mut hall, FLOOR);
+    hall
+}
+
+/// What stands inside.
+pub(super) fn furnish(hall: &mut Hall) {
     let screen = [[-3.0, FLOOR, -2.6], [3.0, FLOOR, -2.6], [3.0, 3.6, -2.6], [-3.0, 3.6, -2.6]];
     hall.screen.quad(screen, [3.0, 1.0]);
     hall.bronze.bar([-0.9, FLOOR, -2.2], [0.9, FLOOR + 0.85, -1.5], 0.03);
-    hall
 }
 
 fn podium(hall: &mut Hall) {

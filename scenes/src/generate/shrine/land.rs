@@ -7,6 +7,8 @@ use super::noise::{fbm, noise};
 /// Height of the shore where the gate stands, and of the hall's terrace, metres.
 pub(super) const SHORE: f64 = 0.34;
 pub(super) const TERRACE: f64 = 5.3;
+/// Half the width of the stairs, metres.
+pub(super) const STAIRS_HALF_WIDTH: f64 = 2.0;
 /// Where the stairs begin and end, along z.
 pub(super) const STAIRS_BOTTOM: f64 = -0.6;
 pub(super) const STAIRS_TOP: f64 = -12.6;
@@ -66,15 +68,29 @@ pub(super) fn normal(x: f64, z: f64) -> V3 {
     super::kit::normalize([-dx, 2.0 * e, -dz])
 }
 
+/// Height of the stairs at `z`; they start at the shore and end on the terrace.
+pub(super) fn stairs_height(z: f64) -> f64 {
+    let (low, high) = (SHORE, TERRACE);
+    let t = ((STAIRS_BOTTOM - z) / (STAIRS_BOTTOM - STAIRS_TOP)).clamp(0.0, 1.0);
+    // A landing in the middle.
+    let t = if t < 0.44 {
+        t / 0.44 * 0.5
+    } else if t < 0.56 {
+        0.5
+    } else {
+        0.5 + (t - 0.56) / 0.44 * 0.5
+    };
+    low + (high - low) * t
+}
+
 /// Under stairs and paving the ground steps back so that it does not come through.
 fn under_stones(x: f64, z: f64) -> f64 {
     let y = height(x, z);
-    let inside =
-        smooth(super::stairs::HALF_WIDTH + 0.55, super::stairs::HALF_WIDTH - 0.1, libm::fabs(x));
+    let inside = smooth(STAIRS_HALF_WIDTH + 0.55, STAIRS_HALF_WIDTH - 0.1, libm::fabs(x));
     if !(STAIRS_TOP - 6.0..=STAIRS_BOTTOM + 3.2).contains(&z) {
         return y;
     }
-    let stone = super::stairs::height(z) - 0.35;
+    let stone = stairs_height(z) - 0.35;
     y + (stone.min(y) - y) * inside
 }
 

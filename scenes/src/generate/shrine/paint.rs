@@ -42,7 +42,7 @@ impl Picture {
     pub(super) fn write(&self, dir: &Path) -> std::io::Result<()> {
         let mut png = std::io::Cursor::new(Vec::new());
         self.paint().write_to(&mut png, image::ImageFormat::Png).map_err(std::io::Error::other)?;
-        super::super::write_atomically(&dir.join(self.name), png.get_ref())
+        super::super::file::write_atomically(&dir.join(self.name), png.get_ref())
     }
 }
 

@@ -79,7 +79,7 @@ impl Slope {
     }
 }
 
-/// The roof.
+/// The tiles of the roof.
 pub(super) fn roof() -> Roof {
     let mut roof = Roof::default();
     for sign in [1.0, -1.0] {
@@ -97,8 +97,6 @@ pub(super) fn roof() -> Roof {
             column(&mut roof, &Slope { along_x: false, sign, upper: false }, z, end);
         }
     }
-    super::ridge::ridges(&mut roof);
-    super::eaves::eaves(&mut roof);
     roof
 }
 

@@ -1,28 +1,11 @@
 //! Stone stairs up the hill, with cheek walls, paving before and behind, and lacquered handrails.
 
 use super::kit::{Mesh, Place, V3};
-use super::land::{SHORE, STAIRS_BOTTOM, STAIRS_TOP, TERRACE};
+use super::land::{SHORE, STAIRS_BOTTOM, STAIRS_HALF_WIDTH, STAIRS_TOP, TERRACE, stairs_height};
 use super::noise::Rng;
 
-/// Half the width of the stairs, metres.
-pub(super) const HALF_WIDTH: f64 = 2.0;
 /// Steps in each of the two flights.
 const STEPS: i32 = 13;
-
-/// Height of the stairs at `z`; they start at the shore and end on the terrace.
-pub(super) fn height(z: f64) -> f64 {
-    let (low, high) = (SHORE, TERRACE);
-    let t = ((STAIRS_BOTTOM - z) / (STAIRS_BOTTOM - STAIRS_TOP)).clamp(0.0, 1.0);
-    // A landing in the middle.
-    let t = if t < 0.44 {
-        t / 0.44 * 0.5
-    } else if t < 0.56 {
-        0.5
-    } else {
-        0.5 + (t - 0.56) / 0.44 * 0.5
-    };
-    low + (high - low) * t
-}
 
 /// Height of the step (or landing) under `z`, which lies between bottom and top of the stairs.
 pub(super) fn tread(z: f64) -> f64 {
@@ -74,21 +57,21 @@ pub(super) fn stairs() -> Stairs {
         &mut stairs.stone,
         [STAIRS_BOTTOM - 0.56 * run, STAIRS_BOTTOM - 0.44 * run],
         middle,
-        HALF_WIDTH,
+        STAIRS_HALF_WIDTH,
         &mut rng,
     );
     paving(
         &mut stairs.stone,
         [STAIRS_BOTTOM, STAIRS_BOTTOM + 3.1],
         SHORE + 0.02,
-        HALF_WIDTH,
+        STAIRS_HALF_WIDTH,
         &mut rng,
     );
     paving(
         &mut stairs.stone,
         [STAIRS_TOP - 6.2, STAIRS_TOP],
         TERRACE + 0.02,
-        HALF_WIDTH + 0.3,
+        STAIRS_HALF_WIDTH + 0.3,
         &mut rng,
     );
     for side in [-1.0, 1.0] {
@@ -99,11 +82,11 @@ pub(super) fn stairs() -> Stairs {
 
 /// One step of several blocks, none exactly where it was laid.
 fn row(stone: &mut Mesh, top: f64, [z0, z1]: [f64; 2], deep: f64, rng: &mut Rng) {
-    let mut x = -HALF_WIDTH;
-    while x < HALF_WIDTH - 0.01 {
+    let mut x = -STAIRS_HALF_WIDTH;
+    while x < STAIRS_HALF_WIDTH - 0.01 {
         let mut next = x + rng.range(0.65, 1.2);
-        if next > HALF_WIDTH - 0.4 {
-            next = HALF_WIDTH;
+        if next > STAIRS_HALF_WIDTH - 0.4 {
+            next = STAIRS_HALF_WIDTH;
         }
         let at = [
             0.5 * (x + next),
@@ -139,11 +122,11 @@ fn paving(stone: &mut Mesh, [z0, z1]: [f64; 2], top: f64, half_width: f64, rng: 
 
 /// The sloping wall at one side, its coping, and the handrail on it.
 fn cheek(stairs: &mut Stairs, side: f64, rng: &mut Rng) {
-    let x = side * (HALF_WIDTH + 0.2);
+    let x = side * (STAIRS_HALF_WIDTH + 0.2);
     let run = STAIRS_BOTTOM - STAIRS_TOP;
     let n = 15;
     let at = |k: i32| STAIRS_BOTTOM + 0.25 - (run + 0.3) * f64::from(k) / f64::from(n);
-    let p = |z: f64, up: f64| -> V3 { [x, height(z) + up, z] };
+    let p = |z: f64, up: f64| -> V3 { [x, stairs_height(z) + up, z] };
     for k in 0..n {
         let (a, b) = (at(k), at(k + 1));
         let jitter = 0.01 * rng.bell();
@@ -182,8 +165,8 @@ mod tests {
 
     #[test]
     fn the_stairs_join_shore_and_terrace() {
-        assert!((height(STAIRS_BOTTOM) - SHORE).abs() < 1e-9);
-        assert!((height(STAIRS_TOP) - TERRACE).abs() < 1e-9);
+        assert!((stairs_height(STAIRS_BOTTOM) - SHORE).abs() < 1e-9);
+        assert!((stairs_height(STAIRS_TOP) - TERRACE).abs() < 1e-9);
         assert!(stairs().stone.triangles() > 4_000);
     }
 }

@@ -15,9 +15,9 @@ abi_struct! {
         pub first_bad: u32,
         /// Longest path of this dispatch in segments.
         pub depth: u32,
-        /// Crossings at which the nest of media was wrong: bits 0-15 count those that found it full,
+        /// Crossings at which the medium stack was wrong: bits 0-15 count those that found it full,
         /// bits 16-31 those that left a thing which the path had never entered.
-        pub strays: u32,
+        pub stack_errors: u32,
     }
 }
 

@@ -15,7 +15,7 @@ pub const MAX_LEAF: u32 = 8;
 pub const MAX_DEPTH: u32 = 48;
 
 /// Both bits of a reference to an instance: spheres have 26 bits for the first of them.
-pub const CHILD_DOOR: u32 = CHILD_SPHERES | 1 << 26;
+pub const CHILD_INSTANCE: u32 = CHILD_SPHERES | 1 << 26;
 /// What the traversal leaves on its stack when it goes into an instance: behind it is the world again.
 /// No reference of a pack.
 pub const CHILD_OUT: u32 = CHILD_INNER - 1;
@@ -49,7 +49,7 @@ pub enum ChildRef {
 
 impl ChildRef {
     const FIRST_MASK: u32 = (1 << 27) - 1;
-    const DOOR_MASK: u32 = (1 << 26) - 1;
+    const INSTANCE_MASK: u32 = (1 << 26) - 1;
 
     /// Decodes a reference word; every word decodes to something.
     #[must_use]
@@ -60,8 +60,8 @@ impl ChildRef {
         if word & CHILD_INNER != 0 {
             return Self::Inner(word & !CHILD_INNER);
         }
-        if word & !Self::DOOR_MASK == CHILD_DOOR {
-            return Self::Instance(word & Self::DOOR_MASK);
+        if word & !Self::INSTANCE_MASK == CHILD_INSTANCE {
+            return Self::Instance(word & Self::INSTANCE_MASK);
         }
         let first = word & Self::FIRST_MASK;
         let count = ((word >> 27) & 7) + 1;
@@ -83,11 +83,13 @@ impl ChildRef {
             // The all-ones word means `Empty`, so the largest index is not usable.
             Self::Inner(index) => (index < CHILD_INNER - 1).then_some(index | CHILD_INNER),
             Self::Triangles { first, count } => leaf(first, count, 0),
-            Self::Spheres { first, count } if first <= Self::DOOR_MASK => {
+            Self::Spheres { first, count } if first <= Self::INSTANCE_MASK => {
                 leaf(first, count, CHILD_SPHERES)
             }
             Self::Spheres { .. } => None,
-            Self::Instance(index) => (index <= Self::DOOR_MASK).then_some(CHILD_DOOR | index),
+            Self::Instance(index) => {
+                (index <= Self::INSTANCE_MASK).then_some(CHILD_INSTANCE | index)
+            }
             Self::Empty => Some(super::NONE),
         }
     }

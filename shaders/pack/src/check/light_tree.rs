@@ -8,6 +8,8 @@ use crate::contents::Contents;
 use crate::error::PackError;
 use crate::fault::ElementFault;
 
+use super::broken::element;
+
 /// Checks the shape of the tree; fields of nodes have been checked. Scenes without a tree have no nodes.
 pub(super) fn check(contents: &Contents<'_>) -> Result<(), PackError> {
     let (nodes, lights) = (contents.light_nodes, contents.lights);
@@ -17,12 +19,12 @@ pub(super) fn check(contents: &Contents<'_>) -> Result<(), PackError> {
     };
     if let Some(index) = lights.iter().position(astray) {
         let fault = ElementFault::Trail { found: lights[index].trail, expected: 0 };
-        return Err(super::element::<Light>(index, ("trail", fault)));
+        return Err(element::<Light>(index, ("trail", fault)));
     }
     if nodes.is_empty() {
         return Ok(());
     }
-    let fault = |node: usize, fault| Err(super::element::<LightNode>(node, ("child", fault)));
+    let fault = |node: usize, fault| Err(element::<LightNode>(node, ("child", fault)));
     // Nodes in the order of the walk: first children directly behind their parents.
     let mut open = vec![(0_usize, 0_u32, 0_u32)];
     let mut next = 0;
@@ -49,7 +51,7 @@ pub(super) fn check(contents: &Contents<'_>) -> Result<(), PackError> {
         found[light as usize] = true;
         if known.trail != trail {
             let fault = ElementFault::Trail { found: known.trail, expected: trail };
-            return Err(super::element::<Light>(light as usize, ("trail", fault)));
+            return Err(element::<Light>(light as usize, ("trail", fault)));
         }
     }
     if next != nodes.len() {
@@ -60,6 +62,6 @@ pub(super) fn check(contents: &Contents<'_>) -> Result<(), PackError> {
     };
     match found.iter().enumerate().find_map(lost) {
         None => Ok(()),
-        Some(index) => Err(super::element::<Light>(index, ("trail", ElementFault::LightLost))),
+        Some(index) => Err(element::<Light>(index, ("trail", ElementFault::LightLost))),
     }
 }

@@ -10,8 +10,7 @@ use crate::contents::Contents;
 use crate::error::PackError;
 use crate::fault::ElementFault;
 
-use super::rules::Broken;
-use super::{CHUNK, element};
+use super::broken::{Broken, CHUNK, element};
 
 /// Every triangle, then every sphere, then every instance.
 pub(super) fn check(contents: &Contents<'_>) -> Result<(), PackError> {

@@ -4,8 +4,12 @@
 
 use crate::abi::{NONE, f64_from_bits};
 use crate::fault::ElementFault;
+use crate::kind::Kind;
 
 type Fault = Option<ElementFault>;
+
+/// A section and its number of elements.
+pub(super) type TableRef = (Kind, usize);
 
 /// Values of one or several `f32` lanes.
 pub(super) trait Lanes {
@@ -130,19 +134,19 @@ pub(super) fn power_of_two(bits: [u32; 2]) -> Fault {
 
 /// An index into a table.
 #[inline]
-pub(super) fn index(found: u32, table: super::rules::TableRef) -> Fault {
+pub(super) fn index(found: u32, table: TableRef) -> Fault {
     let (target, count) = table;
     (found as usize >= count).then_some(ElementFault::Index { found, target, count })
 }
 
 /// An index into a table, or `NONE`.
 #[inline]
-pub(super) fn index_or_none(found: u32, table: super::rules::TableRef) -> Fault {
+pub(super) fn index_or_none(found: u32, table: TableRef) -> Fault {
     if found == NONE { None } else { index(found, table) }
 }
 
 /// Indices into a table, or `NONE`.
-pub(super) fn indices_or_none(found: [u32; 4], table: super::rules::TableRef) -> Fault {
+pub(super) fn indices_or_none(found: [u32; 4], table: TableRef) -> Fault {
     found.into_iter().find_map(|found| index_or_none(found, table))
 }
 

@@ -12,17 +12,12 @@ use crate::contents::Contents;
 use crate::fault::ElementFault;
 use crate::kind::{Kind, PackRecord};
 
+use super::broken::Broken;
 use super::rule::{
-    bits, corner, cosine, count, direction, finite, finite64, index, index_or_none,
+    TableRef, bits, corner, cosine, count, direction, finite, finite64, index, index_or_none,
     indices_or_none, not_negative, positive, power_of_two, probability, refractive, step, tag,
     unit_range, unused,
 };
-
-/// Field and fault.
-pub(super) type Broken = (&'static str, ElementFault);
-
-/// A section and its number of elements.
-pub(super) type TableRef = (Kind, usize);
 
 /// A record with rules.
 pub(super) trait Ruled: PackRecord + Sync {

@@ -11,13 +11,15 @@ use crate::error::{PackError, Place};
 use crate::fault::ElementFault;
 use crate::kind::Kind;
 
+use super::broken::element;
+
 /// Checks everything about it.
 pub(super) fn check(contents: &Contents<'_>) -> Result<(), PackError> {
     let is_sky = |light: &Light| light.kind == LightKind::Sky as u32;
     let light = contents.sky.map_or(NONE, |sky| sky.light);
     for (index, found) in contents.lights.iter().enumerate() {
         if is_sky(found) && index != light as usize {
-            return Err(super::element::<Light>(index, ("kind", ElementFault::NotOfSky(light))));
+            return Err(element::<Light>(index, ("kind", ElementFault::NotOfSky(light))));
         }
     }
     let Some(sky) = contents.sky.filter(|sky| sky.light != NONE) else {
@@ -30,7 +32,7 @@ pub(super) fn check(contents: &Contents<'_>) -> Result<(), PackError> {
     };
     if !is_sky(&contents.lights[light as usize]) {
         let fault = ElementFault::NotASky(light);
-        return Err(super::element::<Sky>(0, ("light", fault)));
+        return Err(element::<Sky>(0, ("light", fault)));
     }
     table(sky, contents.sky_table)
 }

@@ -12,7 +12,7 @@ use crate::error::{PackError, Place};
 use crate::fault::ElementFault;
 use crate::kind::Kind;
 
-use super::CHUNK;
+use super::broken::CHUNK;
 
 /// All texels; every range is inside TEXEL already.
 pub(super) fn check(contents: &Contents<'_>) -> Result<(), PackError> {

@@ -21,8 +21,8 @@ use crate::error::{PackError, Place};
 use crate::fault::BvhFault;
 use crate::kind::Kind;
 
+use super::broken::{CHUNK, element};
 use super::rules::Ruled;
-use super::{CHUNK, element};
 
 /// The whole tree. Structure is reported before boxes.
 pub(super) fn check(contents: &Contents<'_>) -> Result<(), PackError> {

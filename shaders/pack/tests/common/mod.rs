@@ -409,7 +409,7 @@ impl Scene {
             ..Instance::default()
         };
         scene.instances = vec![place([0.1; 3], NONE, 0), place([-0.1; 3], 4, MOVES | 1)];
-        // Two world nodes, the two before the doors, the way out, two nodes of the mesh.
+        // Two world nodes, the two before the instances, the way out, two nodes of the mesh.
         scene.render.stack_need = 3 + 1 + 2;
         scene
     }

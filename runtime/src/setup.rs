@@ -1,0 +1,246 @@
+//! Scene + job → what the kernel binds: the heap, the big sections, the numbers of a dispatch.
+//!
+//! Both backends read the same bytes from here. It does not render.
+
+use crate::job::Job;
+use crate::replicate::replicate_seed;
+use crate::scene::Scene;
+use crate::schedule::WorkItem;
+use glam::UVec4;
+use pack::abi::{Camera, Frame, NONE};
+use pack::{Kind, features};
+
+/// Sections that the kernel binds as they are, with their binding numbers.
+#[cfg(feature = "gpu")]
+const BOUND: [(u32, Kind); 6] = [
+    (3, Kind::NODE),
+    (3, Kind::WIDENODE),
+    (4, Kind::TRIANGLE),
+    (5, Kind::TRISHADE),
+    (6, Kind::SPHERE),
+    (7, Kind::TEXEL),
+];
+
+/// Small tables that share one buffer, in this order.
+const HEAP: [Kind; 11] = [
+    Kind::CAMERA,
+    Kind::SKY,
+    Kind::MATERIAL,
+    Kind::OBJECT,
+    Kind::MEDIUM,
+    Kind::LIGHT,
+    Kind::TEXTURE,
+    Kind::SRGBLUT,
+    Kind::SKYTABLE,
+    Kind::LIGHTNODE,
+    Kind::INSTANCE,
+];
+
+/// Bytes of one window of a section: the largest binding that every device has. Window `w` of binding
+/// `b` is binding `b + 8 w`.
+#[cfg(feature = "gpu")]
+pub(crate) const WINDOW_BYTES: u64 = 128 << 20;
+
+/// A scene and a job, ready for any backend.
+pub(crate) struct Setup<'a> {
+    scene: &'a Scene,
+    heap: Vec<UVec4>,
+    /// Everything of `Frame` that is the same for all tiles.
+    frame: Frame,
+    /// Runs instead of the pack's.
+    #[cfg(feature = "gpu")]
+    kernel: Option<&'a str>,
+}
+
+impl Scene {
+    /// The camera for an image of `size`: another aspect keeps the horizontal field of view.
+    fn camera(&self, size: [u32; 2]) -> Camera {
+        let camera = *self.pack().camera();
+        let [w, h] = size.map(u64::from);
+        let [scene_w, scene_h] = self.settings().image_size.map(u64::from);
+        if w * scene_h == h * scene_w {
+            return camera;
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "rounded once, as the compiler does")]
+        let tan_half_height =
+            (f64::from(camera.tan_half_width) * f64::from(size[1]) / f64::from(size[0])) as f32;
+        Camera { tan_half_height, ..camera }
+    }
+
+    pub(crate) fn setup(&self, job: &Job) -> Setup<'_> {
+        let settings = self.settings();
+        let camera = self.camera(job.image_size);
+        let mut heap: Vec<UVec4> = Vec::new();
+        let at = HEAP.map(|kind| {
+            let at = u32::try_from(heap.len()).expect("the checks bound every table");
+            if kind == Kind::CAMERA {
+                heap.extend_from_slice(words(bytemuck::bytes_of(&camera)));
+            } else if let Some(bytes) = self.pack().section_bytes(kind) {
+                heap.extend_from_slice(words(bytes));
+            }
+            at
+        });
+        let [
+            camera_at,
+            sky_at,
+            material_at,
+            object_at,
+            medium_at,
+            light_at,
+            texture_at,
+            srgb_at,
+            sky_table_at,
+            light_tree_at,
+            instance_at,
+        ] = at;
+        // The full kernel asks this number whether there is a sky; a specialised one knows.
+        let sky_at = if self.pack().sky().is_some() { sky_at } else { NONE };
+        let has_tree = self.pack().section_bytes(Kind::LIGHTNODE).is_some();
+        let light_tree_at = if has_tree { light_tree_at } else { NONE };
+        // Likewise whether there are objects.
+        let has_objects = self.pack().section_bytes(Kind::OBJECT).is_some();
+        let object_at = if has_objects { object_at } else { NONE };
+        let frame = Frame {
+            image_size: job.image_size,
+            seed: job.seed,
+            max_depth: settings.max_depth,
+            roulette_depth: settings.roulette_depth,
+            n_lights: settings.n_lights,
+            camera_at,
+            sky_at,
+            material_at,
+            object_at,
+            medium_at,
+            light_at,
+            texture_at,
+            srgb_at,
+            sky_table_at,
+            light_tree_at,
+            instance_at,
+            root: settings.root,
+            estimator: job.estimator,
+            sampler: settings.sampler,
+            air: settings.air,
+            fog: settings.fog,
+            wide: match self.pack().section_bytes(Kind::WIDENODE) {
+                None => 0,
+                Some(_) if !job.native_walk => 2,
+                Some(_) if self.pack().features() & features::ALPHA_CLIP == 0 => 3,
+                Some(_) => 1,
+            },
+            inside: settings.inside,
+            ..Frame::default()
+        };
+        Setup {
+            scene: self,
+            heap,
+            frame,
+            #[cfg(feature = "gpu")]
+            kernel: None,
+        }
+    }
+}
+
+#[cfg(feature = "gpu")]
+impl<'a> Setup<'a> {
+    /// The same scene for another kernel, which can do at least what the pack's can.
+    pub(crate) fn with_kernel(self, kernel: &'a str) -> Self {
+        Self { kernel: Some(kernel), ..self }
+    }
+}
+
+impl Setup<'_> {
+    /// The uniform of one tile.
+    pub(crate) fn frame(&self, item: &WorkItem) -> Frame {
+        Frame {
+            tile_origin: [item.tile.x, item.tile.y],
+            tile_size: [item.tile.w, item.tile.h],
+            sample_first: item.samples.start,
+            sample_count: item.samples.count(),
+            seed: replicate_seed(self.frame.seed, item.replicate),
+            ..self.frame
+        }
+    }
+
+    /// Whole image in pixels.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn image_size(&self) -> [u32; 2] {
+        self.frame.image_size
+    }
+
+    /// Binding 2.
+    pub(crate) fn heap(&self) -> &[UVec4] {
+        &self.heap
+    }
+
+    /// 16-byte words of a section; empty when the scene has none.
+    pub(crate) fn section(&self, kind: Kind) -> &[UVec4] {
+        self.scene.pack().section_bytes(kind).map_or(&[], words)
+    }
+
+    /// The nodes of the tree, in either layout.
+    pub(crate) fn nodes(&self) -> &[UVec4] {
+        let wide = self.section(Kind::WIDENODE);
+        if wide.is_empty() { self.section(Kind::NODE) } else { wide }
+    }
+
+    /// Every storage buffer that is only read: binding number and bytes, none empty.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn buffers(&self) -> Vec<(u32, &[u8])> {
+        let heap = (2, bytemuck::cast_slice(&self.heap));
+        let bound =
+            BOUND.map(|(binding, kind)| (binding, bytemuck::cast_slice(self.section(kind))));
+        let mut buffers: Vec<(u32, &[u8])> =
+            std::iter::once(heap).chain(bound).filter(|(_, bytes)| !bytes.is_empty()).collect();
+        // A tree that is one leaf has no node, but the kernel's loop names the buffer.
+        let has_nodes = buffers.iter().any(|(binding, _)| *binding == BOUND[0].0);
+        if self.frame.root != NONE && !has_nodes {
+            buffers.insert(1, (BOUND[0].0, &[0; 64]));
+        }
+        // A kernel that can do more names sections that this pack lacks, and never reads them.
+        for (binding, _) in BOUND {
+            let named = || self.kernel().contains(&format!("@group(0) @binding({binding}) "));
+            let bound = buffers.iter().any(|(number, _)| *number == binding);
+            if self.kernel.is_some() && !bound && named() {
+                buffers.push((binding, &[0; 64]));
+            }
+        }
+        buffers
+    }
+
+    /// Bits of `pack::features`.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn features(&self) -> u64 {
+        self.scene.pack().features()
+    }
+
+    /// Entries that the traversal stack needs, as the checks of the pack computed them.
+    pub(crate) fn stack_need(&self) -> u32 {
+        self.scene.settings().stack_need
+    }
+
+    /// The WGSL text that renders it.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn kernel(&self) -> &str {
+        self.kernel.unwrap_or_else(|| self.scene.pack().kernel())
+    }
+}
+
+/// Bytes of whole records as words.
+fn words(bytes: &[u8]) -> &[UVec4] {
+    bytemuck::try_cast_slice(bytes).expect("sections are whole 16-byte words at page boundaries")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sections_are_bound_where_the_pack_says() {
+        assert!(HEAP.iter().all(|kind| kind.binding() == Some(2)));
+        #[cfg(feature = "gpu")]
+        assert!(BOUND.iter().all(|(binding, kind)| kind.binding() == Some(*binding)));
+        let n_heap = pack::SECTIONS.iter().filter(|spec| spec.kind.binding() == Some(2)).count();
+        assert_eq!(n_heap, HEAP.len());
+    }
+}

@@ -1,0 +1,21 @@
+//! What is asked for beside the WGSL: the precision, and functions that hand-written Rust does instead.
+
+/// The type that stands for WGSL's `f32` in the generated text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Precision {
+    /// `f32`: the same bits as a GPU that rounds as IEEE 754 says.
+    F32,
+    /// `f64`: the twin that shows where rounding matters.
+    F64,
+}
+
+/// A function that hand-written Rust may do instead.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Seam<'a> {
+    /// Its name in the WGSL.
+    pub function: &'a str,
+    /// Path of the Rust function, as seen from the generated module. It takes `&mut Kernel` and the
+    /// arguments, and gives the result. The translation is there as well, under the name with
+    /// `generated_` in front, so that it can be called for what the hand-written one does not do.
+    pub path: &'a str,
+}
