@@ -73,7 +73,7 @@ pub enum Source {
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum CacheWarning {
     /// A file failed a check; the tree was built again.
-    #[error("cache entry {path} is damaged ({fault}); the tree was built again")]
+    #[error("cache entry {path} is damaged ({fault}); the tree was rebuilt")]
     Damaged {
         /// The file, relative to the cache directory.
         path: String,

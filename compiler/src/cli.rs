@@ -33,18 +33,18 @@ pub use args::{BUG, IO, OK, SCENE, USAGE};
 const EXAMPLES: &str = "\
 Examples:
   rtc scene.rts -o scene.pack        compile a scene; then: rtr scene.pack
-  rtc scene.rts --watch              compile again whenever a file of the scene changes
-  rtc scene.rts -o - | rtr - -o a.png   without a file in between
+  rtc scene.rts --watch              recompile whenever a file of the scene changes
+  rtc scene.rts -o - | rtr - -o a.png   compile and render through a pipe
   rtc scene.rts --depfile scene.d    also write what the pack depends on, for make or ninja
-  rtc check scene.rts                only look for errors
+  rtc check scene.rts                report errors without compiling
   rtc scene.rts -D hour=7h           override a `param` of the scene
-  rtc fmt scene.rts                  tidy the text; `rtc fmt .` every one below, `rtc fmt -` standard input
-  rtc scene.rts --explain-features   what its kernel can do, which line needs that, what was left out
-  rtc explain E0301                  what an error means, with an example
-  rtc show --resolved scene.rts      every value, defaults included
-  rtc inspect scene.pack             what is in a pack";
+  rtc fmt scene.rts                  format the text; `rtc fmt .` a folder, `rtc fmt -` standard input
+  rtc scene.rts --explain-features   explain which features the kernel has, and which lines need them
+  rtc explain E0301                  explain an error, with an example
+  rtc show --resolved scene.rts      print every value, defaults included
+  rtc inspect scene.pack             print what a pack contains";
 
-/// Compiles a text scene into a render pack.
+/// Compile a text scene into a render pack.
 #[derive(Debug, Parser)]
 #[command(name = "rtc", version, about, after_help = EXAMPLES, max_term_width = 100)]
 #[command(override_usage = "rtc [build] [OPTIONS] <SCENE>\n       rtc <COMMAND>")]
@@ -58,9 +58,9 @@ struct Cli {
 enum Command {
     /// Compile a scene; the default command.
     Build(build::BuildArgs),
-    /// Look for errors without writing anything.
+    /// Report errors without writing anything.
     Check(build::CheckArgs),
-    /// Tidy scene texts in place; comments and numbers stay as written.
+    /// Format scene texts in place; comments and numbers are kept.
     Fmt(fmt::FmtArgs),
     /// Explain an error code (`E0301`) or a kind (`material.diffuse`).
     Explain(explain::ExplainArgs),
@@ -68,7 +68,7 @@ enum Command {
     Show(show::ShowArgs),
     /// Print what a pack contains.
     Inspect(inspect::InspectArgs),
-    /// Look at or clear the BVH cache.
+    /// Show or clear the cache.
     Cache(cache::CacheArgs),
 }
 

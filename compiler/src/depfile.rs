@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 /// A name that no rule can hold.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{} cannot stand in a depfile: the name {why}", path.shown())]
+#[error("{} cannot be written to a depfile: the name {why}", path.shown())]
 pub struct UnspeakableName {
     path: PathBuf,
     why: &'static str,

@@ -20,7 +20,7 @@ pub struct Root(Option<Arc<PathBuf>>);
 #[derive(Debug, thiserror::Error)]
 pub enum InputError {
     /// It leads out of the root.
-    #[error("it lies outside of the folder {}, which --root does not allow", .0.shown())]
+    #[error("it lies outside the folder {}, which --root forbids", .0.shown())]
     Outside(PathBuf),
     /// It is a folder, a device, a pipe or a socket.
     #[error("this is not a regular file")]

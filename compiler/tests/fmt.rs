@@ -61,8 +61,8 @@ fn every_text_below_a_folder_is_tidied_and_nothing_else() {
     }
     let output = fmt(folder.path(), &["--check", "."], "");
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    let expected =
-        texts.map(|name| format!("./{name} is not tidy; `rtc fmt ./{name}` would change it\n"));
+    let expected = texts
+        .map(|name| format!("./{name} is not formatted; `rtc fmt ./{name}` would change it\n"));
     assert_eq!((code(&output), said), (1, expected.concat()));
     assert_eq!(code(&fmt(folder.path(), &["."], "")), 0);
     for name in texts {

@@ -100,7 +100,7 @@ fn no_file_of_a_scene_lies_outside_of_the_root() {
     for (uses, place) in bad {
         scene(folder, "in/scene.rts", &uses);
         let output = rtc(folder, &["check", "in/scene.rts", "--root", "in"]);
-        check(&output, 1, &[place, "which --root does not allow"]);
+        check(&output, 1, &[place, "which --root forbids"]);
     }
     scene(folder, "out/scene.rts", "");
     check(&rtc(folder, &["check", "out/scene.rts", "--root", "in"]), 2, &["it lies outside"]);

@@ -91,7 +91,10 @@ fn every_dependency_is_watched_and_what_did_not_change_is_reused() {
     let pack = || std::fs::read(at("a.pack")).expect("the pack is there");
     let watching = Watching::start(folder.path());
     let log = watching.round();
-    assert!(log.contains("a.pack: ") && log.ends_with("watching 3 files; Ctrl-C ends\n"), "{log}");
+    assert!(
+        log.contains("a.pack: ") && log.ends_with("watching 3 files; press Ctrl-C to stop\n"),
+        "{log}"
+    );
     assert!(!log.contains("reused"), "{log}");
     let first = pack();
 

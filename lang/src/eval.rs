@@ -247,7 +247,7 @@ impl<'p> Evaluator<'p> {
         if value.is_sound() {
             return value;
         }
-        let text = "this number is too large or not a number at all";
+        let text = "the value is infinite or not a number";
         let error = Diagnostic::error(Code("E0402"), text)
             .at(span, "here")
             .with_note(format!("numbers go up to {:e} in SI units", crate::schema::MAX_MAGNITUDE));

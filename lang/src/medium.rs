@@ -88,7 +88,7 @@ fn lacks(name: Span, fields: &Fields, text: &str, help: &str) -> Diagnostic {
 fn check_fog(ev: &mut Evaluator<'_>, name: Span, fields: &Fields) {
     one_of(ev, fields, &["visibility", "density"], "how thick the fog is");
     if !fields.has("visibility") && !fields.has("density") {
-        let text = "this fog says neither `visibility` nor `density`";
+        let text = "this fog has neither `visibility` nor `density`";
         ev.fault(lacks(name, fields, text, "for example `visibility = 500m`"));
     }
 }
@@ -110,7 +110,7 @@ fn check_homogeneous(ev: &mut Evaluator<'_>, name: Span, fields: &Fields) {
             "for example `mean_free_path = (0.9, 2.1, 2.6)m`",
         )),
         (false, false) if !fields.has("sigma_a") && !fields.has("sigma_s") => ev.fault(lacks(
-            "this medium says nothing about light",
+            "this medium has no coefficients",
             "for example `sigma_a = (0.35, 0.06, 0.025)/m`",
         )),
         _ => Value::None,
@@ -147,7 +147,7 @@ fn homogeneous(fields: &Fields) -> Option<MediumModel> {
 /// Reports fog in a place where only a homogeneous medium can be.
 pub(crate) fn refuse_fog(ev: &mut Evaluator<'_>, id: ItemId, at: Span) {
     if ev.models.get(&id).is_some_and(|model| MediumType::of(model.schema) == MediumType::Fog) {
-        let error = Diagnostic::error(Code("E0532"), "fog cannot fill a thing")
+        let error = Diagnostic::error(Code("E0532"), "fog cannot be an interior")
             .at(at, "fog is everywhere")
             .because(ev.program.name_span(id), "declared here")
             .with_help("declare a `homogeneous` medium, or write `atmosphere` of the render");

@@ -155,7 +155,7 @@ impl Reader<'_> {
 
     fn misplaced_edition(&mut self, token: Token, again: bool) {
         let message =
-            if again { "the edition is said twice" } else { "the edition must come first" };
+            if again { "the edition is given twice" } else { "the edition must come first" };
         let diagnostic = Diagnostic::error(Code("E0110"), message);
         self.fault(diagnostic.at(self.token_span(token), "not here"));
     }
@@ -164,7 +164,7 @@ impl Reader<'_> {
         let first = chunks.first().map(|chunk| self.token_span(self.tokens[chunk.tokens.start]));
         let top = self.text.len() - self.text.trim_start_matches('\u{feff}').len();
         let top = self.bytes(top..top);
-        let diagnostic = Diagnostic::error(Code("E0103"), "this file does not say its edition")
+        let diagnostic = Diagnostic::error(Code("E0103"), "missing edition")
             .at(first.unwrap_or(top), "expected `rts 1` before anything else")
             .with_note("the edition fixes what every default means, for ever")
             .with_fix(Fix::sure("start with the edition", top, "rts 1\n"));

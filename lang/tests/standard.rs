@@ -43,7 +43,7 @@ fn the_modules_are_written_as_the_formatter_writes_them() {
 fn a_module_that_there_is_not_gets_an_answer() {
     let analysis = check_text("rts 1\nimport \"std:material\" { glass }\n");
     let text = common::describe(&analysis);
-    assert!(text.contains("there is no module `std:material`"), "{text}");
+    assert!(text.contains("unknown module `std:material`"), "{text}");
     assert!(analysis.diagnostics[0].fixes[0].message.contains("std:materials"), "{text}");
     let analysis = check_text("rts 1\nimport \"std:lights\" { sun }\n");
     assert!(analysis.diagnostics[0].notes[0].contains("`std:materials`"));

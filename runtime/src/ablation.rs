@@ -260,7 +260,7 @@ fn adapter(choice: &DeviceChoice) -> Result<Option<Adapter>, AblationError> {
     match (found, choice) {
         (Some(i), _) => Ok(Some(all.swap_remove(i))),
         (None, DeviceChoice::Named(name)) => {
-            let text = format!("no adapter is called `{name}`; rtr --list-devices shows them");
+            let text = format!("no adapter named `{name}`; rtr --list-devices shows them");
             Err(RenderError::NoDevice(text).into())
         }
         (None, _) => Err(RenderError::NoDevice("no GPU was found".to_owned()).into()),

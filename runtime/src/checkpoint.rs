@@ -69,7 +69,7 @@ pub enum CheckpointError {
         path: PathBuf,
     },
     /// The bytes are not those that were written.
-    #[error("{} is damaged: {what}; without --resume the picture is rendered anew", path.shown())]
+    #[error("{} is damaged: {what}; omit --resume to start afresh", path.shown())]
     Damaged {
         /// The file.
         path: PathBuf,
@@ -78,7 +78,7 @@ pub enum CheckpointError {
     },
     /// It belongs to another run.
     #[error(
-        "{} is of another run: {what} is {found} there and {expected} here; without --resume the picture is rendered anew",
+        "{} belongs to another run: {what} is {found} there and {expected} here; omit --resume to start afresh",
         path.shown()
     )]
     Foreign {

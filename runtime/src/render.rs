@@ -55,7 +55,7 @@ pub enum RenderError {
     #[error(transparent)]
     NoMemory(#[from] NoMemory),
     /// `Control::salvage` has taken what was complete.
-    #[error("the run was ended from outside")]
+    #[error("the run was cancelled")]
     Salvaged,
     /// No adapter is what was asked for.
     #[error("{0}")]
@@ -109,7 +109,7 @@ pub fn render_session(
             if let Err(error) = thread.spawn_scoped(scope, work) {
                 control
                     .signals()
-                    .note(&format!("warning: no checkpoints while it renders: {error}"));
+                    .note(&format!("warning: no checkpoints during this run: {error}"));
             }
         }
         let backends = Backends {
@@ -166,7 +166,7 @@ impl Backends<'_> {
                     run.abort();
                     return Some(error.to_string());
                 }
-                run.note(&format!("{error}; the CPU goes on"));
+                run.note(&format!("{error}; continuing on the CPU"));
             }
         }
         begin(cpu::name(self.job), run);
@@ -192,7 +192,7 @@ fn select(choice: &DeviceChoice, _job: &Job) -> Result<Selected, RenderError> {
     match choice {
         DeviceChoice::Auto | DeviceChoice::Cpu => Ok(Selected::Cpu),
         DeviceChoice::Gpu | DeviceChoice::Named(_) => Err(RenderError::NoDevice(
-            "this rtr was built without GPUs: use --device cpu".to_owned(),
+            "this rtr was built without GPU support: use --device cpu".to_owned(),
         )),
     }
 }
@@ -217,7 +217,7 @@ fn select(choice: &DeviceChoice, job: &Job) -> Result<Selected, RenderError> {
         (Some(i), _) => Ok(Selected::Gpu(Box::new(adapters.swap_remove(i)))),
         (None, DeviceChoice::Auto) => Ok(Selected::Cpu),
         (None, DeviceChoice::Named(name)) => {
-            Err(RenderError::NoDevice(format!("no adapter is called `{name}`{}", list(&adapters))))
+            Err(RenderError::NoDevice(format!("no adapter named `{name}`{}", list(&adapters))))
         }
         (None, _) => Err(RenderError::NoDevice(format!("no GPU was found{}", list(&adapters)))),
     }
@@ -229,5 +229,5 @@ fn list(adapters: &[gpu::Adapter]) -> String {
         return "; this machine has no adapter, use --device cpu".to_owned();
     }
     let names: Vec<String> = adapters.iter().map(gpu::Adapter::describe).collect();
-    format!("; there are: {}", names.join("; "))
+    format!("; available: {}", names.join("; "))
 }

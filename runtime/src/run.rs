@@ -338,7 +338,7 @@ impl Shared {
         state.scheduler.stop(why);
         drop(state);
         let finished = self.take()?;
-        let error = "the kernel or the driver did not come back in time";
+        let error = "the kernel or the driver did not respond in time";
         let error = (!cancelled).then(|| error.to_owned());
         Some(self.outcome(finished, error, signals))
     }

@@ -202,7 +202,7 @@ impl Saver {
             Ok(Some(aside)) => {
                 let (path, aside) = (path.shown(), aside.shown());
                 signals.note(&format!(
-                    "{path} is of another run and is {aside} now; to go on with that one: --resume={aside}"
+                    "{path} belongs to another run and was renamed to {aside}; to resume that one: --resume={aside}"
                 ));
             }
             Err(error) => return self.warn(&error, signals),
@@ -219,7 +219,9 @@ impl Saver {
     fn warn(&self, error: &dyn Error, signals: &Signals) {
         if !std::mem::replace(&mut self.lock().failed, true) {
             let path = self.keep.path.shown();
-            signals.note(&format!("warning: no checkpoint in {path}: {error}; rendering goes on"));
+            signals.note(&format!(
+                "warning: cannot write the checkpoint {path}: {error}; rendering continues"
+            ));
         }
     }
 }

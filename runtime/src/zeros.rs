@@ -4,7 +4,7 @@ use thiserror::Error;
 
 /// The system gives no memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("the system gives no {} of memory: render less at once with --crop or --size", amount(*bytes))]
+#[error("cannot allocate {} of memory: render less with --crop or --size", amount(*bytes))]
 pub struct NoMemory {
     /// Bytes that were asked for.
     pub bytes: u64,

@@ -231,7 +231,7 @@ fn kernels_are_not_compared_where_that_makes_no_sense() {
     }
     let (exit, log) = code(&["--ablate", "marbles.pack", "--device", "no such thing"]);
     assert_eq!(exit, Some(3), "{log}");
-    assert!(log.contains("no adapter is called `no such thing`"), "{log}");
+    assert!(log.contains("no adapter named `no such thing`"), "{log}");
     let (exit, log) = code(&["--ablate", "none.pack"]);
     assert_eq!(exit, Some(3), "{log}");
     // A kernel that is not ours cannot be taken apart.

@@ -152,7 +152,7 @@ fn an_unknown_name_lists_what_there_is() {
     let choice = DeviceChoice::Named("no such adapter".to_owned());
     let error = render(&scene, &Job::of_scene(&scene), &choice, &Control::default());
     let text = error.expect_err("there is none").to_string();
-    assert!(text.starts_with("no adapter is called `no such adapter`; "), "{text}");
+    assert!(text.starts_with("no adapter named `no such adapter`; "), "{text}");
 }
 
 #[test]

@@ -128,7 +128,7 @@ fn replicates_are_no_parts_and_cannot_be_resumed() {
     merge.current_dir(folder).args(["merge", "a.exr", "-o", "b.exr"]);
     let output = merge.output().expect("rtr starts");
     assert_eq!(output.status.code(), Some(3));
-    assert!(text(&output.stderr).contains("the mean of replicates"));
+    assert!(text(&output.stderr).contains("the mean of the replicates"));
     for other in [&["--resume"][..], &["--samples", "0..4"], &["--watch"]] {
         let output = rtr(folder, &[&["marbles.pack", "--report", "a.csv"], other].concat());
         assert_eq!(output.status.code(), Some(2), "{other:?}");

@@ -125,7 +125,7 @@ fn files_of_strangers_are_refused_with_one_line() {
     exr::prelude::write_rgb_file(at("b.exr"), 4, 4, |_, _| (0.0_f32, 0.0_f32, 0.0_f32))
         .expect("it can be written");
     let error = read_exr(&at("b.exr")).expect_err("it has no attributes").to_string();
-    assert!(error.contains("is not a picture of rtr: attribute `render_id` is missing"), "{error}");
+    assert!(error.contains("was not written by rtr: attribute `render_id` is missing"), "{error}");
     let error = write(&at("a.tiff"), &picture(range(0, 1), None), false);
     assert!(matches!(error, Err(OutputError::Format { .. })));
     // A failed write leaves nothing behind.

@@ -73,7 +73,7 @@ fn a_killed_run_goes_on_to_the_same_picture() {
     let resumed = ["--spp", SPP, "-o", "a.exr", "-o", "a.png", "--resume"];
     let (code, log) = rtr(folder.path(), &resumed);
     assert_eq!(code, Some(0), "{log}");
-    let line = format!("going on from a.exr.checkpoint: {done} of 320 spp are there");
+    let line = format!("resuming from a.exr.checkpoint: {done} of 320 spp done");
     assert!(log.contains(&line), "{log}");
     assert_same(&film(folder.path(), "a.exr"), &film(folder.path(), "whole.exr"));
     assert_eq!(at("a.png"), at("whole.png"));
@@ -81,7 +81,7 @@ fn a_killed_run_goes_on_to_the_same_picture() {
     // Whoever restarts it once more gets the picture anew.
     let (code, log) = rtr(folder.path(), &resumed);
     assert_eq!(code, Some(0), "{log}");
-    assert!(log.contains("there is no a.exr.checkpoint, so this run begins"), "{log}");
+    assert!(log.contains("there is no a.exr.checkpoint; starting afresh"), "{log}");
     assert_eq!(at("a.png"), at("whole.png"));
 }
 
@@ -95,7 +95,7 @@ fn a_checkpoint_of_another_run_is_refused_in_one_line() {
         let (code, log) = rtr(folder.path(), &args);
         assert_eq!(code, Some(3), "{args:?} {log}");
         assert_eq!(log.lines().count(), 1, "{log}");
-        let line = format!("error: a.exr.checkpoint is of another run: {message}; ");
+        let line = format!("error: a.exr.checkpoint belongs to another run: {message}; ");
         assert!(log.starts_with(&line), "{args:?} {log}");
     };
     refused(&["--spp", SPP, "--seed", "8"], "seed is 7 there and 8 here");
@@ -108,7 +108,7 @@ fn a_checkpoint_of_another_run_is_refused_in_one_line() {
     let other = common::pack_with_kernel(&kernel);
     std::fs::write(folder.path().join("marbles.pack"), other).expect("it can be written");
     let (code, log) = rtr(folder.path(), &["--spp", SPP, "-o", "a.exr", "--resume"]);
-    assert!(code == Some(3) && log.contains("of another run: render_id is "), "{log}");
+    assert!(code == Some(3) && log.contains("another run: render_id is "), "{log}");
     assert_eq!(std::fs::read(&checkpoint).expect("it is there"), before, "it is left alone");
 }
 
@@ -135,7 +135,7 @@ fn a_damaged_checkpoint_is_refused_in_one_line() {
     // Without --resume the run says that it is there, and begins.
     let (code, log) = rtr(folder.path(), &["--spp", "4", "-o", "a.exr"]);
     assert_eq!(code, Some(0), "{log}");
-    assert!(log.contains("a.exr.checkpoint is of an unfinished run"), "{log}");
+    assert!(log.contains("a.exr.checkpoint belongs to an unfinished run"), "{log}");
     assert!(checkpoint.is_file(), "it is not this run's");
 }
 
@@ -239,8 +239,8 @@ fn a_checkpoint_of_another_run_is_kept_aside_and_can_be_gone_on_from() {
     // A third one comes to its end, with checkpoints, and says what it keeps.
     let (code, log) = rtr(folder.path(), &args);
     assert_eq!(code, Some(0), "{log}");
-    let line = "a.exr.checkpoint is of another run and is a.exr.checkpoint.2 now; \
-                to go on with that one: --resume=a.exr.checkpoint.2";
+    let line = "a.exr.checkpoint belongs to another run and was renamed to a.exr.checkpoint.2; \
+                to resume that one: --resume=a.exr.checkpoint.2";
     assert!(log.contains(line), "{log}");
     let left = ["a.exr.checkpoint", "a.exr.checkpoint.1", "a.exr.checkpoint.2"].map(read);
     assert_eq!(left, [None, Some(first), Some(second)], "only its own is removed");
@@ -249,7 +249,7 @@ fn a_checkpoint_of_another_run_is_kept_aside_and_can_be_gone_on_from() {
         let resume = format!("--resume={name}");
         let (code, log) = rtr(folder.path(), &["--spp", SPP, "-o", "a.exr", &resume]);
         assert_eq!(code, Some(0), "{log}");
-        assert!(log.contains(&format!("going on from {name}: ")), "{log}");
+        assert!(log.contains(&format!("resuming from {name}: ")), "{log}");
         assert_same(&film(folder.path(), "a.exr"), &film(folder.path(), "whole.exr"));
         assert!(!at(name).exists());
         let (code, log) = rtr(folder.path(), &["--spp", SPP, "-o", "a.exr", &resume]);
@@ -281,7 +281,7 @@ fn an_interrupt_leaves_a_checkpoint_unless_none_is_wanted() {
         assert_eq!(child.wait().expect("it ends").code(), Some(130), "{log}");
         let checkpoint = folder.path().join("b.png.checkpoint");
         assert_eq!(checkpoint.is_file(), expected, "{log}");
-        let hint = "to go on, run the same with --resume (b.png.checkpoint)";
+        let hint = "to resume, run the same command with --resume (b.png.checkpoint)";
         assert_eq!(log.contains(hint), expected, "{log}");
         if expected {
             let read = Checkpoint::read(&checkpoint).expect("it is sound").expect("it is there");
@@ -307,6 +307,7 @@ fn a_run_that_cannot_be_saved_goes_on() {
     let outcome = render_session(&scene, &job, &DeviceChoice::Cpu, &control, session);
     let outcome = outcome.expect("the CPU renders");
     assert_eq!((outcome.stop, outcome.saved), (Stop::Complete, false));
-    let warned = |text: &&String| text.starts_with("warning: no checkpoint in no such folder");
+    let warned =
+        |text: &&String| text.starts_with("warning: cannot write the checkpoint no such folder");
     assert_eq!(notes.lock().expect("no panic").iter().filter(warned).count(), 1);
 }

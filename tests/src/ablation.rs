@@ -37,7 +37,7 @@ const SOFTWARE: &str = "ABLATION_SOFTWARE";
 const LLVMPIPE: &str = "llvmpipe";
 
 /// What there is to know of the times of [`LLVMPIPE`]. Seen with `MESA_SHADER_CACHE_DISABLE=true`.
-const COMPILED_AGAIN: &str = "\nllvmpipe as Mesa 22.3.6 has it compiles a kernel anew for every submission, or takes it from its cache on disk: \
+const COMPILED_AGAIN: &str = "\nllvmpipe as Mesa 22.3.6 has it recompiles a kernel for every submission, or takes it from its cache on disk: \
     it puts numbers of the frame into the code. Its times have that in them, those of long kernels most of \
     all, and so single rows differ several-fold from run to run of this program.\n";
 

@@ -46,7 +46,7 @@ pub const TABLES: [Table; 9] = [
     Table { name: "edits", about: "compiling again after edits", write: compiling::edits },
     Table { name: "open", about: "mapping and checking packs", write: open::table },
     Table { name: "first", about: "process start to first pixel", write: first::table },
-    Table { name: "ablation", about: "what leaving out features is worth", write: ablated },
+    Table { name: "ablation", about: "gain from kernel specialisation", write: ablated },
 ];
 
 /// Scenes that tables are about.

@@ -99,7 +99,7 @@ fn pixels_whose_loops_a_driver_cuts_short_are_rendered_by_the_cpu() {
     assert_eq!((pixels(own.film(), &film), &own.film().counters), (None, &film.counters));
     // Or the test would see nothing.
     let notes: Vec<String> = heard.try_iter().collect();
-    let told = "the driver cut loops short in 1 of 1 tiles; the CPU kernel rendered these";
+    let told = "the driver cut loops short in 1 of 1 tiles; the CPU rendered them";
     assert!(notes.iter().any(|note| note == told), "{notes:?}");
 }
 

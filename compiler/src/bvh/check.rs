@@ -32,10 +32,10 @@ pub enum TreeFault {
     #[error("tree too deep")]
     Depth,
     /// A split of what is not there, is not a triangle, or does not cross the plane.
-    #[error("a split of nothing")]
+    #[error("a split of an empty node")]
     Split,
     /// A box of a wide node that is smaller than what is in it.
-    #[error("a box became smaller on its grid")]
+    #[error("a quantised box does not contain the original box")]
     Grid,
     /// A reference to spheres or to nothing where triangles are expected.
     #[error("unexpected kind of child reference")]

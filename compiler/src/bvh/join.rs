@@ -68,13 +68,13 @@ pub fn join(groups: &[Group]) -> Result<Joined, BvhError> {
 
 /// The joined tree; and where some groups overlap in more places than could be separated, what they were taken apart
 /// into.
-type Tangled = (Joined, Option<Vec<Piece>>);
+type Overlapping = (Joined, Option<Vec<Piece>>);
 
 /// Joins groups and instances.
 pub(super) fn join_groups(
     groups: &[Group],
     instances: &[InstanceLeaf],
-) -> Result<Tangled, BvhError> {
+) -> Result<Overlapping, BvhError> {
     let count = |kind| {
         let of_kind = groups.iter().filter(|g| g.kind == kind);
         of_kind.map(|g| g.tree.order.len()).sum::<usize>()
@@ -84,7 +84,7 @@ pub(super) fn join_groups(
         return Err(BvhError::TooMany { count });
     }
     let trees: Vec<&Tree> = groups.iter().map(|g| &g.tree).collect();
-    let (mut pieces, tangled) = top::pieces(&trees, instances);
+    let (mut pieces, overlapping) = top::pieces(&trees, instances);
     let n_nodes: usize = trees.iter().map(|t| t.nodes.len()).sum();
     let mut out = Joined {
         nodes: Vec::with_capacity(n_nodes + groups.len()),
@@ -104,7 +104,7 @@ pub(super) fn join_groups(
     out.root = write(&top::build(&mut pieces, MAX_TOP_LEVELS), groups, &members, &mut out);
     out.stack_need = pack::bvh::stack_need(&out.nodes, &[], out.root);
     debug_assert_eq!([out.triangle_order.len(), out.sphere_order.len()], counts);
-    Ok((out, tangled.then_some(pieces)))
+    Ok((out, overlapping.then_some(pieces)))
 }
 
 impl Joined {

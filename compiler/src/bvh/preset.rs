@@ -29,7 +29,7 @@ pub enum Preset {
 
 /// What is not the name of a preset.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[error("there is no tree builder `{0}`; it is one of {list}", list = Preset::list())]
+#[error("unknown BVH builder `{0}`; expected one of {list}", list = Preset::list())]
 pub struct UnknownPreset(String);
 
 /// How many planes spatial splits are looked for among.

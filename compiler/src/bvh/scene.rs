@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use super::join::{Group, GroupKind, Joined, join_groups};
 use super::plan::{SMALL_MESH, plan};
 use super::probe::visits;
-use super::top::{InstanceLeaf, Piece, knots};
+use super::top::{InstanceLeaf, Piece, clusters};
 use super::{Bounds, BvhError, Fragment, Input, MAX_PRIMITIVES, Preset};
 use crate::cache::{Cache, CacheWarning, Cached, Source};
 
@@ -53,7 +53,7 @@ pub struct BuildReport {
     pub groups: usize,
     /// Triangles in leaves; those that were split count once for each piece.
     pub references: usize,
-    /// Whether some meshes were so tangled that one tree over all of their triangles was taken.
+    /// Whether some meshes were so overlapping that one tree over all of their triangles was taken.
     pub merged: bool,
     /// Groups whose trees are large enough for the cache and were built and stored.
     pub stored: usize,
@@ -69,7 +69,7 @@ pub struct BuildReport {
 
 /// Builds the tree of a scene.
 ///
-/// Meshes that fill the same space all over (leaves and twigs, halves of one shell) remain tangled
+/// Meshes that fill the same space all over (leaves and twigs, halves of one shell) remain overlapping
 /// after joining: every ray visits both trees. Where joining could not separate meshes, one tree
 /// over the triangles of these is made as well, and what takes fewer visits is used. Meshes elsewhere keep their
 /// trees: moving one of them builds no tree but its own.
@@ -101,10 +101,11 @@ pub fn build_instanced(
     let mut report = BuildReport { preset, ..BuildReport::default() };
     let by_mesh = plan(primitives.triangles, primitives.mesh_sizes);
     let groups = build_groups(primitives, by_mesh, preset, cache, &mut report)?;
-    let (mut joined, tangled) = join_groups(&groups, &instances)?;
-    let knots = tangled.map_or_else(Vec::new, |pieces| knots_of_triangles(&groups, pieces));
-    if !knots.is_empty() {
-        let groups = untie(primitives, groups, &knots, preset, cache, &mut report)?;
+    let (mut joined, overlapping) = join_groups(&groups, &instances)?;
+    let clusters =
+        overlapping.map_or_else(Vec::new, |pieces| clusters_of_triangles(&groups, pieces));
+    if !clusters.is_empty() {
+        let groups = merge_clusters(primitives, groups, &clusters, preset, cache, &mut report)?;
         let (merged, _) = join_groups(&groups, &instances)?;
         let [one, many] = [&merged, &joined].map(|tree| visits(tree, primitives.triangles));
         if one < many {
@@ -124,38 +125,38 @@ pub fn build_instanced(
     Ok((joined, report))
 }
 
-/// The large meshes that fill the same space, as indices of their groups, see [`knots`]. Small ones share trees with
-/// what is near them anyway, and a knot with some would be another one whenever one of them moved.
-fn knots_of_triangles(groups: &[Group], mut pieces: Vec<Piece>) -> Vec<Vec<usize>> {
+/// The large meshes that fill the same space, as indices of their groups, see [`clusters`]. Small ones share trees with
+/// what is near them anyway, and a cluster with some would be another one whenever one of them moved.
+fn clusters_of_triangles(groups: &[Group], mut pieces: Vec<Piece>) -> Vec<Vec<usize>> {
     let is_large = |group: &Group| {
         let is_mesh = group.kind == GroupKind::Triangles && group.members.len() == 1;
         is_mesh && group.tree.n_primitives() >= SMALL_MESH
     };
     pieces.retain(|piece| groups.get(piece.group).is_some_and(is_large));
-    knots(groups.len(), &pieces)
+    clusters(groups.len(), &pieces)
 }
 
-/// The same groups with one for each knot, which has a tree of its own.
-fn untie(
+/// The same groups with one for each cluster, which has a tree of its own.
+fn merge_clusters(
     primitives: &Primitives,
     mut groups: Vec<Group>,
-    knots: &[Vec<usize>],
+    clusters: &[Vec<usize>],
     preset: Preset,
     cache: &Cache,
     report: &mut BuildReport,
 ) -> Result<Vec<Group>, BvhError> {
-    let members = |knot: &Vec<usize>| {
+    let members = |cluster: &Vec<usize>| {
         let mut ranges: Vec<Range<u32>> =
-            knot.iter().flat_map(|group| groups[*group].members.clone()).collect();
+            cluster.iter().flat_map(|group| groups[*group].members.clone()).collect();
         ranges.sort_by_key(|range| range.start);
         (GroupKind::Triangles, ranges)
     };
-    let merged = knots.iter().map(members).collect();
+    let merged = clusters.iter().map(members).collect();
     let mut merged = build_all(primitives, merged, preset, cache, report)?;
     let mut index = 0;
     groups.retain(|_| {
         index += 1;
-        !knots.iter().flatten().any(|group| group + 1 == index)
+        !clusters.iter().flatten().any(|group| group + 1 == index)
     });
     groups.append(&mut merged);
     Ok(groups)

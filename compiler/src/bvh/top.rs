@@ -120,7 +120,7 @@ pub(super) fn children(node: &Node) -> [(Bounds, u32); 2] {
 }
 
 /// Whole groups and instances first, then opened while that separates them. Empty groups give no piece. Also
-/// tells whether the budget ended that, so that groups are still tangled.
+/// tells whether the budget ended that, so that groups are still overlapping.
 pub(super) fn pieces(trees: &[&Tree], instances: &[InstanceLeaf]) -> (Vec<Piece>, bool) {
     let roots = (0..trees.len()).filter(|group| trees[*group].root != NONE);
     let mut pieces: Vec<Piece> = roots.map(|group| Piece::whole(trees, group)).collect();
@@ -150,14 +150,14 @@ pub(super) fn pieces(trees: &[&Tree], instances: &[InstanceLeaf]) -> (Vec<Piece>
         pieces[at] = left;
         pieces.push(right);
     }
-    let tangled = n_groups > 1 && !queue.is_empty();
-    (pieces, tangled)
+    let overlapping = n_groups > 1 && !queue.is_empty();
+    (pieces, overlapping)
 }
 
 /// Sets of groups, each of two or more in ascending order, that fill the same space: groups that are tied to each
 /// other, and to which others are tied. Two are tied where of each of them a share of [`TANGLED`] or more of the
 /// primitives is in pieces that meet pieces of the other. All groups are below `n_groups`.
-pub(super) fn knots(n_groups: usize, pieces: &[Piece]) -> Vec<Vec<usize>> {
+pub(super) fn clusters(n_groups: usize, pieces: &[Piece]) -> Vec<Vec<usize>> {
     let mut weights = vec![0.0_f32; n_groups];
     let mut shared = BTreeMap::<(usize, usize), f32>::new();
     for a in pieces {
@@ -168,20 +168,23 @@ pub(super) fn knots(n_groups: usize, pieces: &[Piece]) -> Vec<Vec<usize>> {
             *shared.entry((a.group, other)).or_default() += a.weight;
         }
     }
-    let mut knot_of: Vec<usize> = (0..n_groups).collect();
+    let mut cluster_of: Vec<usize> = (0..n_groups).collect();
     let share = |a: usize, b: usize| shared.get(&(a, b)).map_or(0.0, |weight| weight / weights[a]);
     for &(a, b) in shared.keys() {
         if share(a, b).min(share(b, a)) >= TANGLED {
-            let (from, to) = (knot_of[a].max(knot_of[b]), knot_of[a].min(knot_of[b]));
-            knot_of.iter_mut().filter(|knot| **knot == from).for_each(|knot| *knot = to);
+            let (from, to) = (cluster_of[a].max(cluster_of[b]), cluster_of[a].min(cluster_of[b]));
+            cluster_of
+                .iter_mut()
+                .filter(|cluster| **cluster == from)
+                .for_each(|cluster| *cluster = to);
         }
     }
-    let members = |knot| (0..n_groups).filter(|group| knot_of[*group] == knot).collect();
+    let members = |cluster| (0..n_groups).filter(|group| cluster_of[*group] == cluster).collect();
     let all = (0..n_groups).map(members);
     all.filter(|members: &Vec<usize>| members.len() > 1).collect()
 }
 
-/// Share of a group's primitives in the space of another from which on both are one knot: leaves among twigs, not
+/// Share of a group's primitives in the space of another from which on both are one cluster: leaves among twigs, not
 /// a bridge over a pond.
 const TANGLED: f32 = 0.25;
 

@@ -26,7 +26,7 @@ pub enum Layout {
 
 /// What is not the name of a layout.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[error("there is no layout of nodes `{0}`; it is `wide` or `binary`")]
+#[error("unknown node layout `{0}`; expected `wide` or `binary`")]
 pub struct UnknownLayout(String);
 
 impl Layout {

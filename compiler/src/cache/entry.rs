@@ -52,7 +52,7 @@ pub enum EntryFault {
     #[error("version {0}")]
     Version(u32),
     /// An entry for other primitives.
-    #[error("it is another tree's")]
+    #[error("it belongs to another tree")]
     Key,
     /// The bytes are not those that were written.
     #[error("wrong checksum")]

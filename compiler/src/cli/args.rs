@@ -23,13 +23,13 @@ pub const BUG: u8 = 70;
 /// How to report; the same for every command that reads scenes.
 #[derive(Debug, Clone, Args)]
 pub(super) struct ReportArgs {
-    /// How errors look.
+    /// Format of diagnostics.
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     pub(super) error_format: ErrorFormat,
-    /// Colours on the terminal.
+    /// When to colour the output.
     #[arg(long, value_enum, default_value_t, value_name = "WHEN")]
     pub(super) color: Color,
-    /// Errors shown, and as many warnings; 0 shows all.
+    /// Errors to print, and as many warnings; 0 prints all.
     #[arg(long, default_value_t = 50, value_name = "N")]
     pub(super) max_errors: usize,
 }
@@ -51,14 +51,14 @@ impl ReportArgs {
 pub(super) struct SceneArgs {
     /// The scene text (`.rts`).
     pub(super) scene: PathBuf,
-    /// Override a `param`, as in `-D hour=7h`; may be given several times.
+    /// Override a `param`, as in `-D hour=7h`; repeatable.
     #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = parse_define)]
     pub(super) define: Vec<(String, String)>,
-    /// Refuse files of the scene that lie outside of this folder once all links are resolved; absolute paths may
-    /// lead into it [default: any file].
+    /// Refuse scene files outside this folder, links resolved; absolute paths may lead into it [default: any
+    /// file].
     #[arg(long, value_name = "DIR")]
     root: Option<PathBuf>,
-    /// Memory that meshes and images may take together, as in `8GB` [default: three quarters of what is free].
+    /// Memory limit for meshes and images, such as `8GB` [default: three quarters of free memory].
     #[arg(long, value_name = "SIZE", value_parser = parse_bytes)]
     memory: Option<u64>,
 }

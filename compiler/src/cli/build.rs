@@ -28,40 +28,38 @@ use crate::stage::{Results, Stages};
 pub(super) struct BuildArgs {
     #[command(flatten)]
     scene: SceneArgs,
-    /// Where the pack goes; `-` is standard output [default: the scene's name with `.pack`, in the working
-    /// directory].
+    /// Output pack; `-` is standard output [default: the scene's name with `.pack`, in the working folder].
     #[arg(short, long, value_name = "PACK")]
     output: Option<PathBuf>,
-    /// Also write the linked kernel, for reading.
+    /// Also write the linked kernel as WGSL.
     #[arg(long, value_name = "FILE")]
     emit_wgsl: Option<PathBuf>,
-    /// Compile again whenever a file that the scene depends on changes, until Ctrl-C.
+    /// Recompile whenever a file of the scene changes, until Ctrl-C.
     #[arg(long)]
     watch: bool,
-    /// Also write every file that the pack depends on, as a rule for make or ninja.
+    /// Also write the dependencies of the pack as a rule for make or ninja.
     #[arg(long, value_name = "FILE")]
     depfile: Option<PathBuf>,
     /// Print what each phase cost, what was reused, and what the cache saved.
     #[arg(long)]
     timings: bool,
-    /// How trees over the geometry are built: `fast` takes least time; `default` splits long triangles
-    /// between leaves; `extreme` tries harder. For comparison only: `object-median`,
-    /// `spatial-median`. All show the same surfaces.
+    /// BVH builder: `fast` builds fastest; `default` uses spatial splits; `extreme` tries harder. For
+    /// comparison only: `object-median`, `spatial-median`. Pictures are the same with each.
     #[arg(long, default_value_t, value_name = "BUILDER")]
     bvh: Preset,
-    /// Which meshes are stored once for all their places: `auto`, those for which it pays; `never`, none, for
-    /// comparison. Both show the same surfaces.
+    /// Instancing: `auto` stores a mesh once where that pays; `never` stores every copy, for comparison. The
+    /// picture is the same.
     #[arg(long, default_value_t, value_name = "WHEN")]
     instances: Instancing,
-    /// How inner nodes are stored: `wide` with up to four children, their boxes rounded outwards to 8
-    /// bits; `binary`, which is larger, for comparison. Both show the same picture.
+    /// BVH node layout: `wide` has up to four children with 8-bit quantised boxes; `binary` is larger, for
+    /// comparison. The picture is the same.
     #[arg(long, default_value_t, value_name = "LAYOUT")]
     nodes: Layout,
-    /// Print the sections, and every feature of the kernel: which declaration needs it, or why it was left out;
-    /// and how large the kernel is against one with all features. `rtc inspect` prints the same of any pack.
+    /// Print the sections of the pack and every kernel feature: the declaration that needs it, or why it was
+    /// left out. `rtc inspect` prints the same for any pack.
     #[arg(long)]
     explain_features: bool,
-    /// Build every tree anew and store none.
+    /// Compile everything; neither read nor write caches.
     #[arg(long)]
     no_cache: bool,
     /// Threads to use [default: all].

@@ -12,7 +12,7 @@ pub(super) struct CacheArgs {
     /// Delete every cached tree.
     #[arg(long, conflicts_with = "stats")]
     clear: bool,
-    /// Say where the cache is and how much it holds; the default.
+    /// Print where the cache is and how much it holds; the default.
     #[arg(long)]
     stats: bool,
 }

@@ -36,7 +36,7 @@ fn analyze_reading(
     let text = read_scene(&scene.scene, root).map_err(|error| {
         reporter.failure(&format!("cannot read {}: {error}", scene.scene.shown()));
         if scene.scene.extension().is_some_and(|e| e == "pack") {
-            reporter.status("help: this is a pack already; render it with `rtr`");
+            reporter.status("help: this is already a pack; render it with `rtr`");
         }
         match error {
             TextError::Input(InputError::Outside(_)) => USAGE,

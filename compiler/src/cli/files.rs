@@ -45,7 +45,7 @@ pub(crate) enum TextError {
     #[error("this file is not UTF-8 text: wrong byte at offset {0}")]
     NotText(u64),
     /// Nothing says that it is a scene.
-    #[error("this is not a scene text: it does not begin with `rts 1`")]
+    #[error("not a scene text: it does not begin with `rts 1`")]
     NotScene,
 }
 

@@ -15,11 +15,11 @@ use crate::report::Reporter;
 
 #[derive(Debug, Args)]
 pub(super) struct FmtArgs {
-    /// Scene texts; folders, for every `.rts` file below them, links left out; or `-`, which tidies standard
+    /// Scene texts, folders (every `.rts` file below, without following links), or `-` to format standard
     /// input to standard output.
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
-    /// Change nothing; exit with 1 if a text is not tidy.
+    /// Change nothing; exit with 1 if a text is not formatted.
     #[arg(long)]
     check: bool,
     #[command(flatten)]
@@ -119,7 +119,7 @@ fn file(path: &Path, check: bool, reporter: &Reporter) -> u8 {
         return OK;
     }
     if check {
-        reporter.status(&format!("{shown} is not tidy; `rtc fmt {shown}` would change it"));
+        reporter.status(&format!("{shown} is not formatted; `rtc fmt {shown}` would change it"));
         return SCENE;
     }
     match files::write(path, |file| file.write_all(tidy.as_bytes())) {

@@ -22,7 +22,7 @@ use crate::report::{Color, ErrorFormat, Reporter};
 pub(super) struct InspectArgs {
     /// A pack that `rtc` wrote.
     pack: PathBuf,
-    /// Also compare every section with its hash.
+    /// Also verify the hash of every section.
     #[arg(long)]
     verify: bool,
 }

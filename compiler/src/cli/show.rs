@@ -9,7 +9,7 @@ use super::compile::analyze;
 pub(super) struct ShowArgs {
     #[command(flatten)]
     scene: SceneArgs,
-    /// Every value in its unit, defaults included, expressions evaluated.
+    /// Print every value with its unit, defaults included, expressions evaluated.
     #[arg(long)]
     resolved: bool,
     #[command(flatten)]

@@ -42,7 +42,7 @@ pub(super) fn watch(reporter: &Reporter, build: impl Fn(&Session) -> bool) -> u8
             add_folders(&mut stamps);
         }
         let plural = if n == 1 { "" } else { "s" };
-        reporter.status(&format!("watching {n} file{plural}; Ctrl-C ends"));
+        reporter.status(&format!("watching {n} file{plural}; press Ctrl-C to stop"));
         match changed(&stamps, &interrupts) {
             Some(names) => reporter.status(&format!("\nchanged: {names}")),
             None => return OK,

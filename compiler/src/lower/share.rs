@@ -44,7 +44,7 @@ pub enum Instancing {
 
 /// What is not a way of instancing.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[error("`{0}` is neither `auto` nor `never`")]
+#[error("expected `auto` or `never`, found `{0}`")]
 pub struct UnknownInstancing(String);
 
 impl fmt::Display for Instancing {

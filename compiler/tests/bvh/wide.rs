@@ -211,8 +211,5 @@ fn names_of_layouts_are_read_back() {
         assert_eq!(layout.to_string().parse(), Ok(layout));
     }
     let unknown = "broad".parse::<Layout>().unwrap_err();
-    assert_eq!(
-        unknown.to_string(),
-        "there is no layout of nodes `broad`; it is `wide` or `binary`"
-    );
+    assert_eq!(unknown.to_string(), "unknown node layout `broad`; expected `wide` or `binary`");
 }

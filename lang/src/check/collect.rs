@@ -218,7 +218,7 @@ impl<'p> Evaluator<'p> {
         }
         let names: Vec<String> = missing.iter().map(|field| field.name.to_owned()).collect();
         let name = &decl.name;
-        let text = format!("`{}` lacks {}", name.text, quoted_list(&names));
+        let text = format!("`{}` is missing {}", name.text, quoted_list(&names));
         let mut error = Diagnostic::error(Code("E0207"), text)
             .at(name.span, format!("{} needs more", fields.schema.described()));
         for field in missing {
@@ -317,13 +317,13 @@ fn missing_arguments(
 ) -> Diagnostic {
     let unit = missing.iter().find(|field| matches!(field.ty, FieldType::LengthUnit));
     if let (Some(_), Some(first), 1) = (unit, args.first(), missing.len()) {
-        return Diagnostic::error(Code("E0502"), "an OBJ file does not say its unit")
+        return Diagnostic::error(Code("E0502"), "OBJ file without a unit")
             .at(name.span, "one unit of this file is how long?")
             .with_note("scans and CAD files are often in `mm` or `cm`, exports from Blender in `m`")
             .with_fix(Fix::guess("state it", first.value.span.after(), ", unit: m"));
     }
     let names: Vec<String> = missing.iter().map(|field| field.name.to_owned()).collect();
-    let text = format!("`{}(...)` lacks {}", schema.name, quoted_list(&names));
+    let text = format!("`{}(...)` is missing {}", schema.name, quoted_list(&names));
     let mut error = Diagnostic::error(Code("E0207"), text).at(name.span, "needs more");
     for field in missing {
         error = error.with_note(format!("`{}`: {}", field.name, sentence(field.doc)));

@@ -397,7 +397,7 @@ impl Evaluator<'_> {
             return self.fault(Diagnostic::error(Code("E0501"), message).at(slot.span(), "empty"));
         }
         if is_path && text.contains('\\') {
-            let message = "a path has a `\\` in it, which only Windows understands";
+            let message = "a path has a `\\` in it, which only works on Windows";
             let error = Diagnostic::error(Code("E0501"), message).at(slot.span(), "use `/`");
             let literal = matches!(slot.expr.kind, ExprKind::Text(_));
             return self.fault(if literal {

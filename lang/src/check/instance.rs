@@ -120,7 +120,7 @@ impl World {
             (Some(Value::Shape(shape)), None) => shape,
             (_, Some((object, at))) => Rc::new(ShapeValue::Object(object, at)),
             (_, None) => {
-                let text = format!("`{}` lacks `shape`", ev.program.name(id));
+                let text = format!("`{}` is missing `shape`", ev.program.name(id));
                 let error = Diagnostic::error(Code("E0207"), text)
                     .at(name_span, "an instance needs a shape or an object")
                     .with_help("write `shape = sphere(radius: 1m)`, or `instance name: object`");
@@ -231,7 +231,7 @@ fn has_required(ev: &mut Evaluator<'_>, id: ItemId, givens: &Givens<'_>) -> bool
     let Some(model) = ev.models.get(&id) else { return false };
     let partial = model.chain.iter().filter_map(|m| ev.program.decl(*m)).any(|decl| decl.partial);
     partial || givens.contains_key("shape") || model.object.is_some() || {
-        let text = format!("`{}` lacks `shape`", ev.program.name(id));
+        let text = format!("`{}` is missing `shape`", ev.program.name(id));
         let span = ev.program.name_span(id);
         let error = Diagnostic::error(Code("E0207"), text)
             .at(span, "an instance needs a shape or an object");

@@ -41,7 +41,7 @@ pub(super) fn check_light(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
         ev.fault(error);
     }
     if let Some(lacks) = lacking(fields) {
-        let text = format!("`{}` lacks `{lacks}`", ev.program.name(id));
+        let text = format!("`{}` is missing `{lacks}`", ev.program.name(id));
         let error = Diagnostic::error(Code("E0207"), text)
             .at(ev.program.name_span(id), "where is it, and how large?")
             .with_note("a light has `center` and `radius`, or `direction`, `distance` and `angular_radius`")

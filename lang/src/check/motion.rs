@@ -24,8 +24,7 @@ pub(super) fn check(ev: &mut Evaluator<'_>, scene: &Scene) {
         }
     }
     if let (Some((name, _)), true) = (moving.first(), close <= open) {
-        let text =
-            "things move, but the shutter opens and closes at the same moment: nothing blurs";
+        let text = "the shutter opens and closes at the same moment: motion does not blur";
         let warning = Diagnostic::warning(Code("W0805"), "closed_shutter", text)
             .at(scene.camera.name.span, "this camera sees one moment")
             .because(name.span, "this moves")

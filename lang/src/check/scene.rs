@@ -167,7 +167,7 @@ fn index(order: &[(Name, ItemId)]) -> BTreeMap<ItemId, usize> {
 /// Reports an atmosphere with nothing in it: a picture of the sky alone has no distances.
 fn nothing_in_the_air(ev: &mut Evaluator<'_>, scene: &Scene) {
     if scene.render.atmosphere.is_some() && scene.instances.is_empty() && scene.lights.is_empty() {
-        let error = Diagnostic::error(Code("E0533"), "an atmosphere needs something in it")
+        let error = Diagnostic::error(Code("E0533"), "an atmosphere needs an instance or a light")
             .at(scene.render.name.span, "this scene has no instance")
             .with_help("add an instance, or leave `atmosphere` out");
         ev.fault(error);
@@ -184,7 +184,7 @@ fn no_light(ev: &mut Evaluator<'_>, scene: &Scene) {
                 .is_none_or(|material| material::emits(&scene.materials[material].model))
         });
     if !lit {
-        let text = "nothing in this scene gives off light: the picture would be black";
+        let text = "no light in this scene: the picture would be black";
         let error = Diagnostic::error(Code("E0710"), text)
             .at(scene.render.name.span, "this render")
             .with_help("declare a `light`, a `sky`, or an instance with an `emissive` material");

@@ -88,7 +88,7 @@ fn file_call(ev: &mut Evaluator<'_>, id: ItemId, kind: Kind, expr: &Expr) -> Opt
 }
 
 fn unknown_call(ev: &mut Evaluator<'_>, kind: Kind, name: &Ident) {
-    let text = format!("there is no {} `{}(...)`", kind.name(), name.text);
+    let text = format!("unknown {} `{}(...)`", kind.name(), name.text);
     let error = Diagnostic::error(Code("E0202"), text);
     let foreign = schema::types_of(kind).iter().find_map(|schema| {
         schema.foreign.iter().find(|f| f.0 == name.text).map(|f| (schema.name, f.1))

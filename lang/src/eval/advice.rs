@@ -117,7 +117,7 @@ pub(crate) fn with_unit_fix(error: Diagnostic, expr: &Expr, dim: Dim, unit: &str
     if unit.is_empty() {
         return error;
     }
-    let message = "say which unit you mean";
+    let message = "add the unit";
     if takes_unit(expr) {
         error.with_fix(Fix::sure(message, expr.span.after(), unit))
     } else if matches!(expr.kind, ExprKind::Path(_) | ExprKind::Call { .. }) {

@@ -26,7 +26,7 @@ impl Evaluator<'_> {
             Ok(known) => return Some(known),
             Err(atom) => atom,
         };
-        let error = Diagnostic::error(Code("E0303"), format!("there is no unit `{atom}`"));
+        let error = Diagnostic::error(Code("E0303"), format!("unknown unit `{atom}`"));
         let names = &self.program.modules;
         let is_name = |name: &str| names.iter().any(|module| module.names.contains_key(name));
         let close = suggest(atom, units::UNITS.iter().map(|unit| unit.symbol));

@@ -143,15 +143,15 @@ impl Evaluator<'_> {
         let found = value.described();
         let error =
             Diagnostic::error(Code("E0304"), format!("{what} needs a colour, found {found}"))
-                .at(span, "in which space?");
+                .at(span, "which colour space?");
         let text = self.sources.slice(span);
         let tuple = text.starts_with('(') && text.ends_with(')');
         let error = match value {
             Value::Hex(_) => {
-                error.with_fix(Fix::sure("say the space", span, format!("srgb({text})")))
+                error.with_fix(Fix::sure("add the colour space", span, format!("srgb({text})")))
             }
             Value::Number(..) => {
-                error.with_fix(Fix::guess("say the space", span, format!("linear({text})")))
+                error.with_fix(Fix::guess("add the colour space", span, format!("linear({text})")))
             }
             Value::Vector(..) if tuple => error
                 .with_fix(Fix::guess("for physical values", span, format!("linear{text}")))

@@ -307,7 +307,7 @@ fn binding_kind(keyword: &str, binding: Binding) -> ItemKind {
 
 /// The complaint about a word that starts no declaration.
 pub(super) fn unknown_word(word: &str, span: Span, near: &[&str]) -> Diagnostic {
-    let message = format!("there is no declaration `{word}`");
+    let message = format!("unknown declaration `{word}`");
     let diagnostic = Diagnostic::error(Code("E0104"), message);
     match near {
         [] => {

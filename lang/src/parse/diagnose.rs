@@ -73,7 +73,7 @@ impl Reader<'_> {
     }
 
     pub(super) fn nothing_to_close(&self, token: Token) -> Diagnostic {
-        let message = format!("there is nothing open that this {} could close", self.quoted(token));
+        let message = format!("unmatched {}", self.quoted(token));
         let span = self.token_span(token);
         Diagnostic::error(Code("E0105"), message).at(span, "unmatched").with_fix(Fix::guess(
             "remove it",
@@ -93,8 +93,7 @@ impl Reader<'_> {
         let rest = self.text.get(last.end as usize..).unwrap_or("");
         let line_end = last.end as usize + rest.find(['\n', '\r']).unwrap_or(rest.len());
         let line = self.line_of(line_end);
-        let mut error =
-            Diagnostic::error(Code("E0102"), "this block is never closed").at(brace, "opened here");
+        let mut error = Diagnostic::error(Code("E0102"), "unclosed block").at(brace, "opened here");
         if let Some(token) = next {
             error =
                 error.because(self.token_span(token), "a new declaration starts here, in column 1");

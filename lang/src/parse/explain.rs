@@ -80,7 +80,7 @@ impl Reader<'_> {
             let span = self.token_span(token);
             let import = tokens.first().is_some_and(|t| t.text(self.text) == "import");
             let end = token.start() + string_end(token.text(self.text), import);
-            let error = Diagnostic::error(Code("E0106"), "this string is never closed")
+            let error = Diagnostic::error(Code("E0106"), "unterminated string")
                 .at(span, "a string ends on the line where it starts")
                 .with_fix(Fix::guess("close it", self.bytes(end..end), "\""));
             return Some(error);
@@ -103,7 +103,7 @@ impl Reader<'_> {
         if token.kind == Kind::Close {
             return Some(self.nothing_to_close(token));
         }
-        let message = format!("this {} is never closed", self.quoted(token));
+        let message = format!("unclosed {}", self.quoted(token));
         Some(Diagnostic::error(Code("E0105"), message).at(self.token_span(token), "opened here"))
     }
 

@@ -244,7 +244,7 @@ fn no_standard(import: &Import, module: &str) -> Option<Diagnostic> {
         return None;
     }
     let span = import.path.span;
-    let error = Diagnostic::error(Code("E0209"), format!("there is no module `std:{module}`"));
+    let error = Diagnostic::error(Code("E0209"), format!("unknown module `std:{module}`"));
     let error = error.at(span, "not known");
     if let Some(name) = suggest(module, standard::names()).first() {
         let fix = format!("did you mean `std:{name}`?");

@@ -120,7 +120,7 @@ impl Bases<'_> {
             self.diagnostics.push(error);
             return;
         }
-        let error = Diagnostic::error(code, format!("there is no {word} type `{name}`"));
+        let error = Diagnostic::error(code, format!("unknown {word} type `{name}`"));
         let foreign = schema::types_of(kind)
             .iter()
             .find_map(|t| t.foreign.iter().find(|f| f.0 == name).map(|f| (t.name, f.1)));

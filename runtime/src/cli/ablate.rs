@@ -7,7 +7,7 @@ use super::exit::Exit;
 #[cfg(not(feature = "gpu"))]
 pub(super) fn command(args: &RenderArgs) -> Exit {
     Console::new(args.quiet).warn(
-        "error: this rtr was built without GPUs; its CPU kernel has all features, so there is nothing to compare",
+        "error: this rtr was built without GPU support, and the CPU kernel always has all features: nothing to compare",
     );
     Exit::World
 }
@@ -46,7 +46,7 @@ mod with_gpu {
         };
         if let Some(report) = args.error.report.iter().find(|path| !is_json(path)) {
             let report = report.shown();
-            console.warn(&format!("error: cannot write {report}: --ablate reports as .json"));
+            console.warn(&format!("error: cannot write {report}: --ablate writes .json"));
             return Exit::Usage;
         }
         let scene = match open(path, How::of(args.no_mmap)) {

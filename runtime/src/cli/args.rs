@@ -9,23 +9,23 @@ use std::time::Duration;
 
 const EXAMPLES: &str = "\
 Examples:
-  rtr scene.pack                          render as the scene says: scene.exr and scene.png
-  rtr scene.pack --spp 16 --size 320x180  a quick look
-  rtr scene.pack --time 60s -o a.png      what a minute gives
-  rtr scene.pack --samples 0..32 -o a.exr one half here ...
+  rtr scene.pack                          render as the scene says, to scene.exr and scene.png
+  rtr scene.pack --spp 16 --size 320x180  a quick preview
+  rtr scene.pack --time 60s -o a.png      render for one minute
+  rtr scene.pack --samples 0..32 -o a.exr one half of the samples here ...
   rtr scene.pack --samples 32..64 -o b.exr   ... the other half there,
-  rtr merge a.exr b.exr -o c.exr -o c.png    and both together
-  rtr scene.pack -o a.png --resume        go on after Ctrl-C, a crash or a power cut
-  rtr scene.pack -o a.png --resume=a.png.checkpoint.1   ... from a checkpoint that was kept aside
-  rtr scene.pack --until-error 0.01 --plot error.svg   until the error is 1 %, with its curve
-  rtr scene.pack --until-error p95:0.05 --time 5m      until all but 5 % of the pixels are good
-  rtr scene.pack --report error.csv --reference ref.exr   measured against a converged picture
-  rtr bench old.pack new.pack --time 30s  which has less error in equal time
+  rtr merge a.exr b.exr -o c.exr -o c.png    merged
+  rtr scene.pack -o a.png --resume        resume after Ctrl-C, a crash or a power cut
+  rtr scene.pack -o a.png --resume=a.png.checkpoint.1   ... from a checkpoint of an earlier run
+  rtr scene.pack --until-error 0.01 --plot error.svg   until the error is 1 %, with a plot
+  rtr scene.pack --until-error p95:0.05 --time 5m      until 95 % of the pixels are within 5 %
+  rtr scene.pack --report error.csv --reference ref.exr   error against a converged picture
+  rtr bench old.pack new.pack --time 30s  compare their errors at equal time
   rtr scene.pack --watch --time 10s       render again whenever the pack changes
-  rtr check scene.pack                    is single precision enough for it?
-  rtr --ablate scene.pack                 what leaving out features is worth on this device
+  rtr check scene.pack                    is single precision enough?
+  rtr --ablate scene.pack                 gain from kernel specialisation on this device
   rtr --ablate=full scene.pack --device llvmpipe --size 160x90 --spp 4 --report ablation.json
-  rtr --list-devices                      what --device can choose from
+  rtr --list-devices                      list the choices of --device
 
 Exit codes: 0 done; 1 too many samples were not finite; 2 usage; 3 input, output or device;
 70 a bug in rtr; 130 interrupted (what was complete is written).";
@@ -35,15 +35,15 @@ const MEASURING: [&str; 4] = ["report", "plot", "until_error", "reference"];
 const CHECK_EXAMPLES: &str = "\
 Examples:
   rtr check scene.pack                      is single precision enough for this scene?
-  rtr check scene.pack --size 160x90 --spp 4   a quick look
-  rtr check scene.pack --heat parts.png     a picture of where it is not
+  rtr check scene.pack --size 160x90 --spp 4   a quick check
+  rtr check scene.pack --heat map.png       a heat map of the differences
   rtr check scene.pack --strict             fail at a single pixel, a leak or an overflow
   rtr check scene.pack --pixel 31,7 --sample 5 --trace
-                                            the path of one sample, ray by ray, in both
+                                            print the path of one sample in both precisions
 
 Exit codes: 0 stable, or replayed; 1 not stable; 2 usage; 3 input or output.";
 
-/// Renders a pack that `rtc` made, on the GPU or on the CPU.
+/// Render a pack made by `rtc`, on a GPU or on the CPU.
 #[derive(Debug, Parser)]
 #[command(name = "rtr", version, after_help = EXAMPLES)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
@@ -56,11 +56,11 @@ pub(super) struct Args {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
-    /// Adds parts of one picture that were rendered with --samples.
+    /// Merge parts of one picture that were rendered with --samples.
     Merge(MergeArgs),
-    /// Compares the errors that two packs have after equal time.
+    /// Compare the errors of two packs at equal time.
     Bench(BenchArgs),
-    /// Traces the same samples in single and in double precision and says where they part.
+    /// Trace the same samples in single and double precision and report where they diverge.
     #[command(after_help = CHECK_EXAMPLES)]
     Check(CheckArgs),
 }
@@ -70,10 +70,10 @@ pub(super) struct MergeArgs {
     /// EXR files of the same pack, size, crop and seed, with different samples.
     #[arg(required = true, value_name = "PART.exr")]
     pub(super) parts: Vec<PathBuf>,
-    /// Where to write; .exr and .png may both be given; `-` is standard output.
+    /// Output file, .exr or .png; may be given several times; `-` is standard output.
     #[arg(short, long, required = true, value_name = "FILE")]
     pub(super) output: Vec<PathBuf>,
-    /// Format of outputs whose names do not say it [default: png for standard output, pipes and devices].
+    /// Format of outputs without a known extension [default: png for standard output, pipes and devices].
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub(super) format: Option<Format>,
     /// Print errors only.
@@ -87,29 +87,29 @@ Examples:
   rtr bench a.pack b.pack --time 10s --runs 8 --device cpu --size 320x180
   rtr bench a.pack b.pack --report bench.json          every run, for other programs
 
-The figure of merit (fom) is 1 / (rel^2 * seconds): twice as large is half the time to the same error.
-Runs alternate, each pair has a seed of its own. The test is an exact permutation test on log fom; it
-takes four runs of each pack to be significant at 5 %.";
+The figure of merit (fom) is 1 / (rel^2 * seconds): twice the fom means half the time to equal error.
+Runs alternate, and each pair has its own seed. Significance comes from an exact permutation test on
+log fom; it takes four runs of each pack to reach 5 %.";
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = BENCH_EXAMPLES)]
 pub(super) struct BenchArgs {
-    /// What is compared with.
+    /// The baseline.
     #[arg(value_name = "A.pack")]
     pub(super) first: PathBuf,
-    /// What is compared.
+    /// The pack to compare with it.
     #[arg(value_name = "B.pack")]
     pub(super) second: PathBuf,
-    /// Time of rendering of each run, without loading and compiling.
+    /// Render time of each run, without loading and compiling.
     #[arg(long, default_value = "30s", value_name = "TIME", value_parser = parse_duration)]
     pub(super) time: Duration,
     /// Runs of each pack.
     #[arg(long, default_value = "5", value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10))]
     pub(super) runs: u32,
-    /// Where to render, as without `bench`.
+    /// Device to render on, as for rendering.
     #[arg(long, default_value = "auto", value_name = "DEVICE")]
     pub(super) device: String,
-    /// Image size in pixels, instead of the scenes'.
+    /// Image size in pixels [default: those of the scenes].
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(super) size: Option<[u32; 2]>,
     /// Seed of the first pair of runs.
@@ -133,18 +133,18 @@ pub(super) struct BenchArgs {
     next_help_heading = "Error against time (renders four replicates in turns; docs/error.md)"
 )]
 pub(super) struct ErrorArgs {
-    /// Write the error at every checkpoint, as .json (everything) or .csv (one line each).
+    /// Write the error at every checkpoint, as .json (complete) or .csv (one line each).
     #[arg(long, value_name = "FILE")]
     pub(super) report: Vec<PathBuf>,
-    /// Draw the error against time, as .svg or .png.
+    /// Plot the error against time, as .svg or .png.
     #[arg(long, value_name = "FILE")]
     pub(super) plot: Vec<PathBuf>,
     /// Stop when the relative error is this small: 0.01, or p95:0.05 for all but 5 % of the pixels.
-    /// Samples are limited by --spp only, time by --time; what is reached first ends the run.
+    /// --spp and --time still apply; whichever is reached first ends the run.
     #[arg(long, value_name = "[p95:]X")]
     pub(super) until_error: Option<Goal>,
-    /// A converged EXR picture of the same pixels to compare with; best one made with --report, which
-    /// knows its variance.
+    /// Converged EXR picture of the same pixels to compare with, preferably made with --report, which
+    /// stores its variance.
     #[arg(long, value_name = "REF.exr")]
     pub(super) reference: Option<PathBuf>,
 }
@@ -168,22 +168,22 @@ pub(super) struct CheckArgs {
     /// Samples per pixel.
     #[arg(long, default_value = "16", value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) spp: u32,
-    /// Image size in pixels, instead of the scene's.
+    /// Image size in pixels [default: that of the scene].
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(super) size: Option<[u32; 2]>,
-    /// Seed of the image, instead of the scene's.
+    /// Seed of the image [default: that of the scene].
     #[arg(long, value_name = "N")]
     pub(super) seed: Option<u32>,
-    /// Write a picture of the differences: black none, blue 1e-6, orange 1e-3, white all.
+    /// Write a heat map of the differences: black none, blue 1e-6, orange 1e-3, white all.
     #[arg(long, value_name = "FILE.png")]
     pub(super) heat: Option<PathBuf>,
-    /// Fail also at a single pixel that differs by 1e-3, at leaks and at overflows of media.
+    /// Also fail if a single pixel differs by 1e-3, or if a medium stack leaks or overflows.
     #[arg(long)]
     pub(super) strict: bool,
     /// Replay one sample of this pixel instead.
     #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
     pub(super) pixel: Option<[u32; 2]>,
-    /// Which sample of the pixel.
+    /// Index of the sample.
     #[arg(long, default_value = "0", value_name = "N", requires = "pixel")]
     pub(super) sample: u32,
     /// Print every ray of the replayed path.
@@ -192,7 +192,7 @@ pub(super) struct CheckArgs {
     /// Threads [default: one for each logical CPU].
     #[arg(long, value_name = "N", value_parser = parse_threads)]
     pub(super) threads: Option<usize>,
-    /// Read the pack instead of mapping it: for network file systems.
+    /// Read the pack instead of memory-mapping it, for network file systems.
     #[arg(long)]
     pub(super) no_mmap: bool,
     /// Print errors only.
@@ -215,62 +215,61 @@ pub(super) struct RenderArgs {
     /// The pack to render; - reads it from standard input.
     #[arg(value_name = "SCENE.pack", required_unless_present = "list_devices")]
     pub(super) pack: Option<PathBuf>,
-    /// Where to render: auto (best real GPU, else CPU), cpu, gpu, or a part of an adapter's name.
+    /// Device: auto (best hardware GPU, else CPU), cpu, gpu, or part of an adapter's name.
     #[arg(long, default_value = "auto", value_name = "DEVICE")]
     pub(super) device: String,
-    /// Samples per pixel, instead of the scene's.
+    /// Samples per pixel [default: those of the scene].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) spp: Option<u32>,
-    /// Image size in pixels; another aspect keeps the horizontal field of view.
+    /// Image size in pixels; a different aspect ratio keeps the horizontal field of view.
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(super) size: Option<[u32; 2]>,
-    /// Render a part of the image only.
+    /// Render only part of the image.
     #[arg(long, value_name = "X,Y,W,H", value_parser = parse_rect)]
     pub(super) crop: Option<Rect>,
-    /// Render these sample indices only, to merge them later.
+    /// Render only these sample indices, to merge them later.
     #[arg(long, value_name = "A..B", value_parser = parse_samples, conflicts_with = "spp")]
     #[arg(conflicts_with_all = MEASURING)]
     pub(super) samples: Option<SampleRange>,
-    /// Seed of the image, instead of the scene's.
+    /// Seed of the image [default: that of the scene].
     #[arg(long, value_name = "N")]
     pub(super) seed: Option<u32>,
-    /// Stop after this time of rendering, such as 60s, 1m30s or 500ms, give or take 10 % or a second; the
-    /// picture is evenly sampled, unless that is too short for one sample of every pixel.
+    /// Stop after this render time, such as 60s, 1m30s or 500ms, within 10 % or a second. The picture is
+    /// evenly sampled, unless the time is too short for one sample of every pixel.
     #[arg(long, value_name = "TIME", value_parser = parse_duration)]
     pub(super) time: Option<Duration>,
-    /// Where to write; .exr and .png may both be given; `-` is standard output [default: the pack's name in the
-    /// working folder, as .exr and .png].
+    /// Output file, .exr or .png; may be given several times; `-` is standard output [default: the pack's
+    /// name in the working folder, as .exr and .png].
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Vec<PathBuf>,
-    /// Format of outputs whose names do not say it [default: png for standard output, pipes and devices].
+    /// Format of outputs without a known extension [default: png for standard output, pipes and devices].
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub(super) format: Option<Format>,
-    /// Use the name that the scene gives its picture even if that replaces a file.
+    /// Use the file name given by the scene even if that replaces a file.
     #[arg(long, conflicts_with = "output")]
     pub(super) scene_output: bool,
-    /// Go on from the checkpoint of an earlier run with the same arguments; without one, begin. The
-    /// picture is the same, bit for bit, as if nothing had happened. With FILE, go on from that one, such
-    /// as NAME.checkpoint.1.
+    /// Resume from a checkpoint of the same run, or start afresh if there is none. The picture is
+    /// bit-identical to an uninterrupted one. FILE names another checkpoint, such as NAME.checkpoint.1.
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
     #[arg(conflicts_with_all = MEASURING)]
     #[expect(clippy::option_option, reason = "what clap calls a flag with an optional value")]
     pub(super) resume: Option<Option<PathBuf>>,
-    /// Render again whenever the pack changes, until Ctrl-C: an unfinished picture is dropped, a
-    /// broken pack is reported and waited out.
+    /// Render again whenever the pack changes, until Ctrl-C. Unfinished pictures are dropped, broken packs
+    /// reported.
     #[arg(long, conflicts_with = "resume", conflicts_with_all = MEASURING)]
     pub(super) watch: bool,
-    /// Time between two checkpoints, such as 60s or 5m, or `never`. They lie beside the first
-    /// output, as NAME.checkpoint, also after Ctrl-C, and are removed when the picture is complete. One
-    /// that another run left there is kept as NAME.checkpoint.1.
+    /// Time between checkpoints, such as 60s or 5m, or `never`. They are written beside the first output as
+    /// NAME.checkpoint, also on Ctrl-C, and removed when the picture is complete. One of another run is
+    /// kept as NAME.checkpoint.1.
     #[arg(long, default_value = "60s", value_name = "TIME", value_parser = parse_every)]
     pub(super) checkpoint_every: Every,
     /// Threads of the CPU kernel [default: one for each logical CPU].
     #[arg(long, value_name = "N", value_parser = parse_threads)]
     pub(super) threads: Option<usize>,
-    /// Read the pack instead of mapping it: for network file systems.
+    /// Read the pack instead of memory-mapping it, for network file systems.
     #[arg(long)]
     pub(super) no_mmap: bool,
-    /// When the bytes of the pack are compared with the hashes in it.
+    /// When to verify the hashes of the pack.
     #[arg(long, default_value = "background", value_name = "WHEN")]
     pub(super) verify: Verify,
     /// Stop at the first sample that is not finite.
@@ -279,17 +278,17 @@ pub(super) struct RenderArgs {
     /// Print errors only.
     #[arg(long)]
     pub(super) quiet: bool,
-    /// Compare kernels instead of writing a picture: the pack's own, the one with all features, and with `each`
-    /// (the default) the own one with every single feature that it lacks; lines, SPIR-V words, time to build,
-    /// time a sample, and whether the pictures are the same. `auto` also takes a software adapter; the CPU has
-    /// one kernel, with all features. 3 rounds of 16 samples, or of --spp; --report writes JSON.
+    /// Measure kernel specialisation instead of writing a picture: compare the pack's kernel with the full
+    /// one and, with `each` (the default), with every single absent feature added: lines, SPIR-V words,
+    /// build time, time per sample, equality of pictures. `auto` includes software adapters. 3 rounds of 16
+    /// samples, or of --spp; --report writes JSON.
     #[arg(long, value_name = "WHAT", num_args = 0..=1, require_equals = true, default_missing_value = "each")]
     #[arg(conflicts_with_all = ["samples", "time", "output", "resume", "watch", "plot", "until_error", "reference"])]
     pub(super) ablate: Option<AblateArg>,
-    /// List what --device can choose from.
+    /// List the choices of --device.
     #[arg(long)]
     pub(super) list_devices: bool,
-    /// Wanted duration of one GPU submission, at most 1s.
+    /// Target duration of one GPU submission, at most 1s.
     #[arg(long, default_value = "100ms", value_name = "TIME", value_parser = parse_duration)]
     pub(super) submission: Duration,
     /// Estimator, for tests.

@@ -178,14 +178,14 @@ fn conclude(args: &BenchArgs, console: &Console, sides: &[Side<'_>]) -> Exit {
 /// `b.pack is better: 1.52 times the fom (p = 0.008, significant; ...)`.
 fn verdict(a: &Path, b: &Path, comparison: Option<Comparison>) -> String {
     let Some(found) = comparison else {
-        return "no comparison: a picture has no error".to_owned();
+        return "no comparison: one picture has no error".to_owned();
     };
     let (better, ratio) =
         if found.ratio >= 1.0 { (b, found.ratio) } else { (a, 1.0 / found.ratio) };
     let significance = if found.is_significant() {
         "significant"
     } else if found.least_p > 0.05 {
-        "so few runs cannot be significant"
+        "too few runs to be significant"
     } else {
         "not significant"
     };
@@ -207,7 +207,7 @@ fn other_picture(a: &Side<'_>, b: &Side<'_>) -> Option<String> {
     let far = (a.median - b.median).abs() > 0.01 * a.median.max(b.median);
     (apart && far).then(|| {
         format!(
-            "warning: the pictures have mean luminances of {:.4} and {:.4}: they do not show the same",
+            "warning: the pictures have mean luminances of {:.4} and {:.4}: the packs show different scenes",
             a.median, b.median
         )
     })

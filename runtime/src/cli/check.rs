@@ -90,7 +90,7 @@ fn tell(console: &Console, report: &Report) {
     ));
     console.result(&format!("image: the mean differs by {:.1e}", report.brightness()));
     let paths = 100.0 * report.share_of_paths();
-    console.result(&format!("paths: {paths:.3} % part: other rays, or other hits"));
+    console.result(&format!("paths: {paths:.3} % diverge: other rays, or other hits"));
     for (name, (counters, bad)) in
         ["f32", "f64"].into_iter().zip(report.counters.iter().zip(report.bad))
     {
@@ -138,7 +138,7 @@ fn replayed(
         for i in 0..n {
             let pair = [single, double].map(|sample| sample.steps.get(i));
             let parts = pair[0].map(|step| step.hit) != pair[1].map(|step| step.hit);
-            console.result(&format!("ray {i}{}", if parts { ": here they part" } else { "" }));
+            console.result(&format!("ray {i}{}", if parts { ": they diverge here" } else { "" }));
             for (name, step) in ["f32", "f64"].into_iter().zip(pair) {
                 let text = step.map_or("has ended".to_owned(), |step| names.step(step));
                 console.result(&format!("  {name} {text}"));

@@ -111,7 +111,7 @@ impl Console {
         let mut interrupt = Interrupt::default();
         while !over.load(Ordering::Relaxed) {
             if interrupt.pass_on(control) {
-                self.note("interrupted: telling what is complete (again to quit at once)");
+                self.note("interrupted: reporting what is complete (press again to quit at once)");
             }
             if interrupt.is_ignored() {
                 self.give_up();
@@ -124,7 +124,7 @@ impl Console {
     /// Ends the process although something hangs.
     pub(super) fn give_up(&self) -> ! {
         self.bar.finish_and_clear();
-        self.warn("warning: the kernel or the driver does not come back");
+        self.warn("warning: the kernel or the driver hangs");
         quit(Exit::Interrupted)
     }
 
@@ -142,7 +142,7 @@ impl Console {
         let mut last_line = started;
         while !over.load(Ordering::Relaxed) {
             if interrupt.pass_on(control) {
-                self.note("interrupted: writing what is complete (again to quit at once)");
+                self.note("interrupted: writing what is complete (press again to quit at once)");
             }
             if interrupt.is_ignored() || control.is_overdue() {
                 rescue();

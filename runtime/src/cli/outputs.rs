@@ -113,7 +113,7 @@ pub(super) fn outputs(
     match wanted.iter().find(|output| taken(output)) {
         Some(output) if wanted != own && !args.scene_output => {
             console.note(&format!(
-                "the scene names its picture {}, which is there already; --scene-output replaces it",
+                "the scene names its picture {}, which exists already; --scene-output replaces it",
                 output.path.shown()
             ));
             Ok(own)

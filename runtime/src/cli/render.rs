@@ -97,7 +97,7 @@ pub(super) fn command(
     if let Some(from) = &from {
         let done = from.film.samples().1;
         console.note(&format!(
-            "going on from {}: {done} of {} spp are there",
+            "resuming from {}: {done} of {} spp done",
             checkpoint.shown(),
             job.samples.count()
         ));
@@ -267,8 +267,7 @@ fn rescue(plan: &Plan<'_>, control: &Control) {
     }
     if let Some(outcome) = control.salvage() {
         if outcome.stop == Stop::Cancelled {
-            let text =
-                "warning: the kernel or the driver does not come back; what is complete is written";
+            let text = "warning: the kernel or the driver hangs; what is complete is written";
             plan.console.warn(text);
         }
         quit(plan.guard.settle().err().unwrap_or_else(|| conclude(plan, &outcome)));
@@ -289,7 +288,7 @@ fn conclude(plan: &Plan<'_>, outcome: &Outcome) -> Exit {
     report(console, outcome, job);
     if outcome.film().samples().1 == 0 {
         if outcome.device_error.is_none() {
-            console.warn("error: no sample was complete, nothing is written");
+            console.warn("error: no sample was completed, nothing is written");
         }
         return exit(outcome).unwrap_or(Exit::World);
     }
@@ -328,7 +327,7 @@ fn settle(plan: &Plan<'_>, outcome: &Outcome, exit: Exit) {
         } else {
             ("--resume".to_owned(), format!(" ({path})"))
         };
-        console.note(&format!("to go on, run the same with {flag}{of}"));
+        console.note(&format!("to resume, run the same command with {flag}{of}"));
     }
 }
 
@@ -353,7 +352,7 @@ fn earlier(
         if path.is_file() && !args.watch {
             let path = path.shown();
             console.note(&format!(
-                "{path} is of an unfinished run; --resume would go on with it, this run keeps it as it is"
+                "{path} belongs to an unfinished run; --resume would continue it, this run leaves it alone"
             ));
         }
         return Ok(None);
@@ -366,7 +365,7 @@ fn earlier(
             let source = std::io::ErrorKind::NotFound.into();
             return Err(files::FileError::Io { action, path, source }.into());
         }
-        None => console.note(&format!("there is no {}, so this run begins", path.shown())),
+        None => console.note(&format!("there is no {}; starting afresh", path.shown())),
     }
     Ok(from)
 }
@@ -434,7 +433,7 @@ fn report(console: &Console, outcome: &Outcome, job: &Job) {
     }
     if let Some(error) = &outcome.device_error {
         let kept =
-            if most > 0 { "what was complete before that is kept" } else { "nothing is written" };
+            if most > 0 { "samples completed before are kept" } else { "nothing is written" };
         console.warn(&format!("error: {error}; {kept}"));
     }
     for failure in &outcome.failures {

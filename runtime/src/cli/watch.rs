@@ -32,7 +32,7 @@ pub(super) fn command(args: &RenderArgs, observer: &'static Observer) -> Exit {
             return exit;
         }
         if !change.has_come() {
-            console.note(&format!("watching {}; Ctrl-C ends", path.shown()));
+            console.note(&format!("watching {}; press Ctrl-C to stop", path.shown()));
         }
         while !change.has_come() {
             if is_interrupted() {

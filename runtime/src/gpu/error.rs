@@ -6,7 +6,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum GpuError {
     /// The adapter gives no device.
-    #[error("the adapter gives no device: {0}")]
+    #[error("cannot open the adapter: {0}")]
     Device(String),
     /// The scene needs more than the adapter offers.
     #[error("the scene needs {needed} {what}, the adapter has {available}")]

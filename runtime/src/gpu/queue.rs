@@ -40,7 +40,7 @@ impl Tally {
     fn cut_text(&self) -> Option<String> {
         let Self { tiles, cut, .. } = self;
         (*cut > 0).then(|| {
-            format!("the driver cut loops short in {cut} of {tiles} tiles; the CPU kernel rendered these")
+            format!("the driver cut loops short in {cut} of {tiles} tiles; the CPU rendered them")
         })
     }
 }

@@ -37,7 +37,9 @@ pub enum MergeError {
         expected: String,
     },
     /// A picture whose error was measured.
-    #[error("part {part}: it is the mean of replicates, made by measuring its error, and no part")]
+    #[error(
+        "part {part}: it is the mean of the replicates of a measured run, which cannot be merged"
+    )]
     Replicates {
         /// Number of the part, from 1.
         part: usize,

@@ -62,7 +62,7 @@ pub enum OutputError {
         message: String,
     },
     /// An EXR image that `rtr` did not write, or that lacks what is needed here.
-    #[error("{} is not a picture of rtr: {message}", path.shown())]
+    #[error("{} was not written by rtr: {message}", path.shown())]
     Foreign {
         /// The file.
         path: PathBuf,

@@ -108,7 +108,7 @@ pub enum HeaderFault {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SectionFault {
     /// A name that must be understood and is not.
-    #[error("unknown section that must be understood: the pack needs a newer program")]
+    #[error("unknown mandatory section: the pack needs a newer program")]
     Unknown,
     /// A name that this format does not have.
     #[error("unknown section in format {major}.{minor}")]
@@ -128,7 +128,7 @@ pub enum SectionFault {
         after: Kind,
     },
     /// Twice.
-    #[error("the section is there twice")]
+    #[error("the section is duplicated")]
     Twice,
     /// Elements of another version.
     #[error(
@@ -297,13 +297,13 @@ pub enum ElementFault {
         count: usize,
     },
     /// Bit 31 of a primitive whose object stands still.
-    #[error("says that it moves, but object {object} does not")]
+    #[error("is marked as moving, but object {object} is not")]
     Marked {
         /// The object.
         object: u32,
     },
     /// No bit 31 of a primitive whose object moves.
-    #[error("says that it does not move, but object {object} does")]
+    #[error("is marked as static, but object {object} moves")]
     NotMarked {
         /// The object.
         object: u32,
@@ -336,7 +336,7 @@ pub enum ElementFault {
     #[error("leads to nodes in another order than first child, second child")]
     LightOrder,
     /// The tree of lights is deeper than a trail is long.
-    #[error("leads deeper than {} turns", abi::MAX_LIGHT_DEPTH)]
+    #[error("leads deeper than {} levels", abi::MAX_LIGHT_DEPTH)]
     LightDepth,
     /// A leaf names no light of a surface, or one that another leaf has.
     #[error("is a leaf with light {0}, which is no surface or has a leaf already")]
@@ -350,7 +350,7 @@ pub enum ElementFault {
         expected: u32,
     },
     /// No leaf holds a light.
-    #[error("leads nowhere: no leaf of the tree of lights holds this light")]
+    #[error("leads nowhere: no leaf of the light tree holds this light")]
     LightLost,
     /// A light of kind sky that is not the sky's own.
     #[error("is sky, but the light of SKY is {}", index_or_none(*.0))]
@@ -493,7 +493,7 @@ pub enum BvhFault {
     #[error("no leaf holds this primitive")]
     Lost,
     /// A box whose lower corner is above its upper one.
-    #[error("the {side} box is inside out on axis {}", axis(*axis_index))]
+    #[error("the {side} box is inverted on axis {}", axis(*axis_index))]
     Inverted {
         /// `left`, `right` or `child0` to `child3`.
         side: &'static str,
@@ -501,7 +501,7 @@ pub enum BvhFault {
         axis_index: usize,
     },
     /// A child's boxes reach out of the parent's box for that child.
-    #[error("the boxes of node {child} reach out of the {side} box on axis {}", axis(*axis_index))]
+    #[error("the boxes of node {child} exceed the {side} box on axis {}", axis(*axis_index))]
     NotNested {
         /// `left`, `right` or `child0` to `child3`.
         side: &'static str,

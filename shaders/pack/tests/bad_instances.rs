@@ -73,13 +73,13 @@ fn cases() -> Vec<Change> {
             instances,
             field(0, OBJECT),
             MOVES,
-            "INSTANCE[0] at byte 0x2c: object says that it moves, but object 0 does not",
+            "INSTANCE[0] at byte 0x2c: object is marked as moving, but object 0 is not",
         ),
         (
             instances,
             field(1, OBJECT),
             1,
-            "INSTANCE[1] at byte 0x9c: object says that it does not move, but object 1 does",
+            "INSTANCE[1] at byte 0x9c: object is marked as static, but object 1 moves",
         ),
         (
             instances,
@@ -170,7 +170,7 @@ fn cases() -> Vec<Change> {
             Kind::TRIANGLE,
             48 * 4 + 12,
             MOVES,
-            "TRIANGLE[4] at byte 0xcc: id0 says that it moves, but object 2147483647 does not",
+            "TRIANGLE[4] at byte 0xcc: id0 is marked as moving, but object 2147483647 is not",
         ),
         (Kind::RENDER, 36, 5, "RENDER[0] at byte 0x0: stack_need is 5, but the tree needs 6"),
     ]

@@ -62,7 +62,7 @@ fn lights_without_a_leaf_and_trees_deeper_than_a_trail_are_refused() {
     let error = scene.writer().to_bytes().unwrap_err().to_string();
     assert_eq!(
         error,
-        "LIGHT[2] at byte 0xbc: trail leads nowhere: no leaf of the tree of lights holds this light"
+        "LIGHT[2] at byte 0xbc: trail leads nowhere: no leaf of the light tree holds this light"
     );
     // A chain: each node has a leaf first, then the next node.
     let mut scene = Scene::with_light_tree();
@@ -86,5 +86,5 @@ fn lights_without_a_leaf_and_trees_deeper_than_a_trail_are_refused() {
     scene.sky.as_mut().unwrap().light = pack::abi::NONE;
     scene.sky_table.clear();
     let error = scene.writer().to_bytes().unwrap_err().to_string();
-    assert_eq!(error, "LIGHTNOD[64] at byte 0xc28: child leads deeper than 32 turns");
+    assert_eq!(error, "LIGHTNOD[64] at byte 0xc28: child leads deeper than 32 levels");
 }

@@ -164,7 +164,7 @@ fn name_cases() -> Vec<Case> {
     vec![
         (
             Table(|b| put(b, entry(SKY), *b"FOG     ")),
-            "section FOG (entry 2): unknown section that must be understood: the pack needs a \
+            "section FOG (entry 2): unknown mandatory section: the pack needs a \
              newer program",
         ),
         (
@@ -184,7 +184,7 @@ fn name_cases() -> Vec<Case> {
                 let again = d.sections[1].clone();
                 d.sections.insert(2, again);
             }),
-            "section CAMERA (entry 2): the section is there twice",
+            "section CAMERA (entry 2): the section is duplicated",
         ),
         (
             Table(|b| put32(b, entry(NODE) + 8, 2)),
@@ -282,11 +282,11 @@ fn unknown_sections_are_skipped_only_when_they_add_up() {
         ),
         (
             |d| d.add(3, Kind(*b"FANCY   "), 0, b"again"),
-            "section FANCY (entry 4): the section is there twice",
+            "section FANCY (entry 4): the section is duplicated",
         ),
         (
             |d| put32(d.entry(Kind(*b"FANCY   ")), 12, 1),
-            "section FANCY (entry 3): unknown section that must be understood: the pack needs a \
+            "section FANCY (entry 3): unknown mandatory section: the pack needs a \
              newer program",
         ),
     ];

@@ -265,7 +265,7 @@ fn a_bad_pack_is_never_written() {
     let scene = Scene::full();
     let mut writer = scene.writer();
     let text = writer.record(&scene.camera).to_bytes().unwrap_err().to_string();
-    assert_eq!(text, "section CAMERA (entry 2): the section is there twice");
+    assert_eq!(text, "section CAMERA (entry 2): the section is duplicated");
     let mut writer = scene.writer();
     let text = writer.bytes(Kind(*b"FANCY   "), b"x").to_bytes().unwrap_err().to_string();
     assert_eq!(text, "section FANCY (entry 16): unknown section in format 2.0");

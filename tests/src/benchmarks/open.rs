@@ -18,7 +18,7 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
     let _ = writeln!(
         text,
         "\n## Opening a pack: map and check every rule\n\n\
-        The file is in the system's cache, and mapped anew each time; medians of {ROUNDS}.\n\n\
+        The file is in the system's cache, and re-mapped each time; medians of {ROUNDS}.\n\n\
         | scene | MB | threads | wall ms | CPU ms | GB/s |\n|---|---|---|---|---|---|"
     );
     let all = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
