@@ -9,6 +9,7 @@ mod media;
 mod motion;
 mod path;
 mod principled;
+mod receiver;
 mod records;
 mod sampler;
 mod sky;
@@ -54,6 +55,7 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/place.wgsl", path::place(features)),
         ("scene/placed.wgsl", traversal::placed(features)),
         ("scene/principled.wgsl", principled::outer(features)),
+        ("scene/receiver.wgsl", receiver::text(features)),
         ("scene/records.wgsl", records::text()),
         ("scene/sampler.wgsl", sampler::text(features)),
         ("scene/segment.wgsl", media::segment(features)),

@@ -11,8 +11,8 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use pack::abi::{self, LIGHT_LEAF, LightKind, MAX_LIGHT_DEPTH};
 
-/// Lights from which a tree is used: below, a table is as good and costs nothing.
-pub(super) const FROM: usize = 16;
+/// Lights from which a tree is used.
+pub(super) const FROM: usize = 2;
 /// Most lights of a tree: 48 MiB of nodes, which share a binding with other small tables.
 pub(super) const UP_TO: usize = 1 << 19;
 

@@ -17,9 +17,9 @@ pub(crate) fn text(features: &FeatureSet) -> String {
 
 /// One light: its entry of the table says 1, and needs not be read.
 fn only(text: &mut String) {
-    *text += &imports(["light/light_choice.wgsl", "sampler/key.wgsl"]);
-    let number = "0.0";
-    let choose = "    return LightChoice(0u, 1.0);\n";
+    *text += &imports(["light/light_choice.wgsl", "sampler/key.wgsl", "scene/receiver.wgsl"]);
+    let number = "point";
+    let choose = "    return LightChoice(0u, 1.0, u);\n";
     let pmf = "    return 1.0;\n";
     functions(text, number, choose, [pmf, pmf]);
 }
@@ -30,6 +30,7 @@ fn chosen(features: &FeatureSet, text: &mut String) {
         "light/light_choice.wgsl",
         "sampler/key.wgsl",
         "scene/constants.wgsl",
+        "scene/receiver.wgsl",
         "scene/records.wgsl",
         "scene/sampler.wgsl",
     ];
@@ -40,30 +41,30 @@ fn chosen(features: &FeatureSet, text: &mut String) {
         pmf += "    if (load_frame_light_tree_at() != NONE) {\n        return ";
         // The sky keeps its share of the table; the tree has the rest.
         choose += "        let sky = tree_sky();\n        \
-                   if (u < sky.pmf) {\n            return sky;\n        }\n        \
+                   if (u < sky.pmf) {\n            return LightChoice(sky.index, sky.pmf, light_choice_unit(u / sky.pmf));\n        }\n        \
                    let rest = 1.0 - sky.pmf;\n        \
-                   let choice = tree_choose(p, min((u - sky.pmf) / rest, 0.99999994));\n        \
-                   return LightChoice(choice.index, choice.pmf * rest);\n    }\n";
-        pmf += "(1.0 - tree_sky().pmf) * tree_pmf(index, p);\n    }\n";
+                   let choice = tree_choose(p, receiver, light_choice_unit((u - sky.pmf) / rest));\n        \
+                   return LightChoice(choice.index, choice.pmf * rest, choice.rest);\n    }\n";
+        pmf += "(1.0 - tree_sky().pmf) * tree_pmf(index, p, receiver);\n    }\n";
     }
-    choose += "    let index = choose_light(n_lights, u);\n    \
-               return LightChoice(index, load_light_pmf(index));\n";
+    choose += "    return choose_from_table(n_lights, u);\n";
     let table = "    return load_light_pmf(index);\n";
     pmf += table;
     *text += &imports(modules);
-    functions(text, "sample_1d(key, PURPOSE_LIGHT_CHOICE)", &choose, [&pmf, table]);
+    functions(text, "light_choice_point(choice, point, key)", &choose, [&pmf, table]);
 }
 
 /// The functions with these bodies; `pmfs`: of a surface, and of the sky.
 fn functions(text: &mut String, number: &str, choose: &str, [surface, sky]: [&str; 2]) {
     let _ = write!(
         text,
-        "\n// The number with which a light is chosen, in [0, 1 - 2^-24].\n\
-         fn dispatch_choice_number(key: SampleKey) -> f32 {{\n    return {number};\n}}\n\
-         \n// One of `n_lights` lights for the point `p`; `u` in [0, 1 - 2^-24].\n\
-         fn dispatch_choose(n_lights: u32, p: vec3f, u: f32) -> LightChoice {{\n{choose}}}\n\
+        "\n// The pair for a point of the light that the first number of `point` chose.\n\
+         fn dispatch_light_point(choice: LightChoice, point: vec2f, key: SampleKey) -> vec2f {{\n    \
+         return {number};\n}}\n\
+         \n// One of `n_lights` lights for the point `p` of a `receiver`; `u` in [0, 1 - 2^-24].\n\
+         fn dispatch_choose(n_lights: u32, p: vec3f, receiver: Receiver, u: f32) -> LightChoice {{\n{choose}}}\n\
          \n// Probability with which `dispatch_choose` finds light `index`, a surface, from `p`.\n\
-         fn dispatch_choose_pmf(index: u32, p: vec3f) -> f32 {{\n{surface}}}\n\
+         fn dispatch_choose_pmf(index: u32, p: vec3f, receiver: Receiver) -> f32 {{\n{surface}}}\n\
          \n// Probability with which `dispatch_choose` finds the sky, light `index`.\n\
          fn dispatch_sky_pmf(index: u32) -> f32 {{\n{sky}}}\n"
     );

@@ -106,7 +106,12 @@ pub(crate) fn before(features: &FeatureSet) -> String {
 /// Surfaces between media.
 pub(crate) fn crossing(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: whether things of this scene have an inside.\n\n");
-    text += &imports(["bsdf/scatter.wgsl", "kernel/state.wgsl", "surface/surface.wgsl"]);
+    text += &imports([
+        "bsdf/scatter.wgsl",
+        "kernel/state.wgsl",
+        "scene/receiver.wgsl",
+        "surface/surface.wgsl",
+    ]);
     if features.media {
         text += &imports(["kernel/crossing.wgsl"]);
     }
@@ -231,6 +236,13 @@ fn depart(text: &mut String, features: &FeatureSet) {
         "Density against which lights are weighted that the path finds beyond `p`, which it leaves as `next` says.",
         "dispatch_depart(path: ptr<function, Path>, p: vec3f, flags: u32, next: Scattered) -> f32",
         &format!("{sheet}{mark}    return next.pdf;\n"),
+    );
+    let passes = if features.sheets { "sheet_passes(path, flags, next)" } else { "false" };
+    function(
+        text,
+        "Whether `next` goes straight through a sheet with these flags.",
+        "dispatch_passes(path: ptr<function, Path>, flags: u32, next: Scattered) -> bool",
+        &format!("    return {passes};\n"),
     );
     let is_sheet = if features.sheets { "sheet_is(flags)" } else { "false" };
     function(

@@ -173,16 +173,19 @@ fn direct(features: &FeatureSet) -> String {
     let sample = if features.lights.is_empty() {
         ""
     } else {
-        "    direct_sample(path, p, ray_offset, scatter, wo);\n"
+        "    direct_sample(path, p, ray_offset, receiver, scatter, wo);\n"
     };
-    let weight =
-        if features.surface_lights() { "direct_weight(origin, dir, pdf, s, time)" } else { "1.0" };
+    let weight = if features.surface_lights() {
+        "direct_weight(origin, receiver, dir, pdf, s, time)"
+    } else {
+        "1.0"
+    };
     format!(
         "\n// Leaves a shadow ray in `path` if light may reach the vertex at `p` directly; rays start off it\n\
          // by `ray_offset` on either side.\n\
-         fn dispatch_direct(path: ptr<function, Path>, p: vec3f, ray_offset: vec3f, scatter: Scatter, wo: vec3f) {{\n{sample}}}\n\
+         fn dispatch_direct(path: ptr<function, Path>, p: vec3f, ray_offset: vec3f, receiver: Receiver, scatter: Scatter, wo: vec3f) {{\n{sample}}}\n\
          \n// Weight of emission that a direction sampled with density `pdf` has found at `time`.\n\
-         fn dispatch_emission_weight(origin: vec3f, dir: vec3f, pdf: f32, s: Surface, time: f32) -> f32 {{\n    \
+         fn dispatch_emission_weight(origin: vec3f, receiver: Receiver, dir: vec3f, pdf: f32, s: Surface, time: f32) -> f32 {{\n    \
          return {weight};\n}}\n"
     )
 }

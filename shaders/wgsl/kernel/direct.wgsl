@@ -15,6 +15,7 @@
 #import "scene/dispatch_bsdf.wgsl"
 #import "scene/dispatch_choice.wgsl"
 #import "scene/dispatch_radiance.wgsl"
+#import "scene/receiver.wgsl"
 #import "scene/records.wgsl"
 #import "scene/sampler.wgsl"
 #import "surface/surface.wgsl"
@@ -26,20 +27,23 @@ const DIRECT_POWER: u32 = 3u;
 
 // Leaves a shadow ray in `path` if a light was sampled that may light the vertex at `p`, off which rays start
 // by `ray_offset` on either side.
-fn direct_sample(path: ptr<function, Path>, p: vec3f, ray_offset: vec3f, scatter: Scatter, wo: vec3f) {
+fn direct_sample(
+    path: ptr<function, Path>, p: vec3f, ray_offset: vec3f, receiver: Receiver, scatter: Scatter, wo: vec3f,
+) {
     let n_lights = load_frame_n_lights();
     if (n_lights == 0u || load_frame_estimator() == DIRECT_BSDF_ONLY) {
         return;
     }
     let key = (*path).key;
-    let choice = dispatch_choose(n_lights, p, dispatch_choice_number(key));
+    let point = sample_2d(key, PURPOSE_LIGHT_POINT);
+    let choice = dispatch_choose(n_lights, p, receiver, point.x);
     if (choice.pmf <= 0.0) {
         return;
     }
     let light = load_light(choice.index);
     // The light stands still, and the vertex is moved back instead.
     let rest = p - dispatch_light_shift(light, (*path).time);
-    let to = dispatch_light_sample(light, rest, sample_2d(key, PURPOSE_LIGHT_POINT));
+    let to = dispatch_light_sample(light, rest, dispatch_light_point(choice, point, key));
     if (to.pdf <= 0.0) {
         return;
     }
@@ -76,13 +80,14 @@ fn direct_aim(ray_offset: vec3f, to: LightSample) -> vec4f {
 
 // Weight of emission found at `time` by a direction that a BSDF sampled with density `pb` at `from`: 1 if
 // the light could not have been sampled from there.
-fn direct_weight(from_point: vec3f, dir: vec3f, pb: f32, s: Surface, time: f32) -> f32 {
+fn direct_weight(from_point: vec3f, receiver: Receiver, dir: vec3f, pb: f32, s: Surface, time: f32) -> f32 {
     if (pb <= 0.0 || s.light == NONE || load_frame_n_lights() == 0u || load_frame_estimator() == DIRECT_BSDF_ONLY) {
         return 1.0;
     }
     let light = load_light(s.light);
     let rest = from_point - dispatch_light_shift(light, time);
-    let pl = dispatch_choose_pmf(s.light, from_point) * dispatch_light_pdf(light, rest, s.rest, dot(s.ng, dir));
+    let pmf = dispatch_choose_pmf(s.light, from_point, receiver);
+    let pl = pmf * dispatch_light_pdf(light, rest, s.rest, dot(s.ng, dir));
     if (pl <= 0.0) {
         return 1.0;
     }

@@ -5,6 +5,7 @@
 #import "scene/constants.wgsl"
 #import "scene/inside.wgsl"
 #import "scene/motion.wgsl"
+#import "scene/receiver.wgsl"
 
 struct Path {
     // Which random numbers; `bounce` counts the vertices so far.
@@ -40,6 +41,8 @@ struct Path {
     inside: Inside,
     // The path's next ray while its shadow ray is traced, if shadow rays pass through surfaces.
     pending: Pending,
+    // Of the last vertex at which the path was scattered, if lights are chosen by it.
+    receiver: Receiver,
     // When all of it sees the scene: 0 where the shutter opens, 1 where it closes.
     time: f32,
 }
@@ -50,6 +53,6 @@ fn state_at_camera(key: SampleKey, ray: CameraRay) -> Path {
         key, vec3f(0.0), 0u, vec3f(1.0), 1.0,
         ray.origin, 0.0, ray.dir, vec2u(NONE), vec3f(0.0), true,
         ray.dir, 0.0, vec3f(0.0), NONE,
-        inside_begin(), pending_begin(ray.origin), dispatch_time(key),
+        inside_begin(), pending_begin(ray.origin), receiver_none(), dispatch_time(key),
     );
 }

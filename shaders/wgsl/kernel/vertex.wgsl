@@ -13,6 +13,7 @@
 #import "scene/dispatch_bsdf.wgsl"
 #import "scene/dispatch_pattern.wgsl"
 #import "scene/dispatch_tint.wgsl"
+#import "scene/receiver.wgsl"
 #import "scene/records.wgsl"
 #import "scene/sampler.wgsl"
 #import "surface/surface.wgsl"
@@ -74,11 +75,15 @@ fn vertex_scatter(path: ptr<function, Path>, v: Vertex) {
     let wo = -(*path).dir;
     let key = (*path).key;
     let ray_offset = v.s.ng * v.s.ray_offset;
+    let receiver = receiver_at(v.scatter);
     if (!vertex_is_last(path)) {
-        dispatch_direct(path, v.s.p, ray_offset, v.scatter, wo);
+        dispatch_direct(path, v.s.p, ray_offset, receiver, v.scatter, wo);
     }
     let next = dispatch_sample(v.scatter, wo, key);
     dispatch_cross(path, v.s, v.flags, next.wi);
+    if (!dispatch_passes(path, v.flags, next)) {
+        (*path).receiver = receiver;
+    }
     let pdf = dispatch_depart(path, v.s.p, v.flags, next);
     (*path).point = v.s.p;
     (*path).ray_offset = ray_offset;
@@ -104,7 +109,9 @@ fn vertex_emit(path: ptr<function, Path>, s: Surface, m: Material) {
     let radiance = emission_radiance(m.emission, m.flags, m.emission_texture, s.uv, s.front);
     if (vector_max(radiance) > 0.0) {
         let seen = dispatch_tint(radiance, s.material, m.flags, s.light, (*path).dir);
-        let weight = dispatch_emission_weight(dispatch_vertex(path), (*path).dir, (*path).pdf, s, (*path).time);
+        let from_point = dispatch_vertex(path);
+        let receiver = (*path).receiver;
+        let weight = dispatch_emission_weight(from_point, receiver, (*path).dir, (*path).pdf, s, (*path).time);
         (*path).radiance += (*path).throughput * seen * weight;
     }
 }

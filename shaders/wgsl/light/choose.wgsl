@@ -1,5 +1,6 @@
 // One light out of the selection table, by its share of the power.
 
+#import "light/light_choice.wgsl"
 #import "scene/records.wgsl"
 
 // Index of the light whose stretch of the cumulative table holds `u` in [0, 1 - 2^-24]: the first with
@@ -17,4 +18,11 @@ fn choose_light(n_lights: u32, u: f32) -> u32 {
         }
     }
     return first;
+}
+
+// The light whose stretch holds `u`, and where in the stretch.
+fn choose_from_table(n_lights: u32, u: f32) -> LightChoice {
+    let index = choose_light(n_lights, u);
+    let pmf = load_light_pmf(index);
+    return LightChoice(index, pmf, light_choice_unit(1.0 - (load_light_cdf(index) - u) / pmf));
 }

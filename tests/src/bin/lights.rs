@@ -1,4 +1,4 @@
-//! `cargo run -p tests --bin lights`: measures how lights are chosen and rewrites `docs/lights.md`.
+//! `cargo run --release -p tests --bin lights`: measures how lights are chosen and rewrites `docs/lights.md`.
 //!
 //! Noise is the variance of a pixel's samples over the square of the picture's mean, averaged over pixels;
 //! cost is CPU seconds for a sample of every pixel. Their product says how long a given error takes, whatever
@@ -7,6 +7,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use compiler::pipeline::Compiled;
 use cpu_time::ProcessTime;
 use pack::Pack;
 use runtime::{Control, DeviceChoice, Job, SampleRange, Scene, render};
@@ -22,6 +23,7 @@ const SAMPLES: u32 = 16;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut text = String::from(HEADER);
     skies(&mut text)?;
+    few(&mut text)?;
     many(&mut text)?;
     let target = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/lights.md");
     std::fs::write(&target, &text)?;
@@ -30,12 +32,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 const HEADER: &str = "# How lights are chosen\n\n\
-    Made by `cargo run -p tests --bin lights`; edit the program, not this page.\n\n\
+    Made by `cargo run --release -p tests --bin lights`; edit the program, not this page.\n\n\
     At each vertex one light is sampled and one direction by the material; both are weighted by the balance \
     heuristic. The light is taken from a table by its power, as far as it comes into the ball around everything \
-    that is not a light itself; the sky counts with its flux through that ball. From 16 lights on a tree of \
-    lights chooses by the distance and the direction that lights face, too. Samples are independent here, so that \
-    noise does not depend on how many there are.\n\n\
+    that is not a light itself; the sky counts with its flux through that ball. From two lights on a tree of \
+    lights chooses by distance, by the directions that lights face and by the normal of the surface that is lit; of \
+    up to eight lights each is weighed by itself. The number that chooses a light also chooses the point on it. \
+    Samples are independent here, so that noise does not depend on how many there are, unless a row says otherwise.\n\n\
     Noise is the variance of a pixel's samples over the square of the mean of the picture, averaged over pixels. \
     Cost is CPU microseconds for a sample of a pixel. Their product says how long a given error takes; lower is \
     better.\n";
@@ -133,6 +136,92 @@ render main: path {{ camera = eye, film = f, samples = 16, depth = 4, sampler = 
     Ok(())
 }
 
+/// A row of one scene, by the table of powers and by the tree.
+fn row(
+    text: &mut String,
+    name: &str,
+    mut compiled: Compiled,
+) -> Result<(), Box<dyn std::error::Error>> {
+    let tree = measure(&scene::bytes(&compiled), 0)?;
+    compiled.lowered.light_nodes.clear();
+    for light in &mut compiled.lowered.lights {
+        light.trail = 0;
+    }
+    let table = measure(&scene::bytes(&compiled), 0)?;
+    let _ = writeln!(
+        text,
+        "| {name} | {:.3} | {:.2} | {:.3} | {:.2} | {:.2}x |",
+        table.noise,
+        table.cost,
+        tree.noise,
+        tree.cost,
+        table.product() / tree.product(),
+    );
+    Ok(())
+}
+
+/// A scene of a few lights, and what it is called.
+fn few_scenes() -> Vec<(&'static str, String)> {
+    // Cameras look down: lamps that are seen would be most of the noise.
+    let down =
+        "camera eye: perspective { from = (0, 1.2, 3)m, to = (0, 0, 0)m, fov.vertical = 35deg }\n";
+    let far = "camera eye: perspective { from = (0, 2, 5)m, to = (0, 0.3, -0.6)m, fov.vertical = 14deg }\n";
+    let lamp = |name: usize, [x, y, z]: [f64; 3], radius: f64, strength: f64| {
+        format!(
+            "light lamp{name}: sphere {{ center = ({x}, {y}, {z})m, radius = {radius}m, strength = {strength} }}\n"
+        )
+    };
+    let corridor: String = (0_u8..15)
+        .map(|i| lamp(i.into(), [f64::from(i) * 4.0 - 28.0, 1.5, 0.0], 0.05, 50.0))
+        .collect();
+    let cellar: String = (0_u8..8)
+        .map(|i| {
+            let y = if i % 2 == 0 { 1.5 } else { -1.5 };
+            lamp(i.into(), [f64::from(i) - 3.5, y, 0.0], 0.05, 50.0)
+        })
+        .collect();
+    let two = lamp(0, [-2.0, 2.0, 0.0], 0.3, 4.0) + &lamp(1, [2.0, 2.0, 0.0], 0.1, 60.0);
+    let plates: String = [(0.06, 75.0), (0.12, 25.0), (0.2, 9.0), (0.3, 5.0)]
+        .into_iter()
+        .enumerate()
+        .map(|(i, (radius, strength))| lamp(i, [i as f64 * 0.8 - 1.2, 2.2, -1.6], radius, strength))
+        .collect::<String>()
+        + "material plate: conductor { color = linear(0.9), roughness = 0.25 }
+instance tilted { shape = box(size: (3.4, 0.04, 0.8)m), material = plate, at = (0, 0.6, -0.6)m, rotate = (25, 0, 0)deg }
+instance wall { shape = rectangle(size: (12, 8)m), material = grey, at = (0, 0, -3)m, rotate = (90, 0, 0)deg }
+";
+    vec![
+        ("corridor of 15 equal lamps", corridor + down),
+        ("eight lamps, half of them below the floor", cellar + down),
+        ("two lamps of unequal power", two + down),
+        ("four lamps of unequal size and power over a metal plate, after Veach", plates + far),
+    ]
+}
+
+/// Few lights over a floor, independent samples and Sobol's.
+fn few(text: &mut String) -> Result<(), Box<dyn std::error::Error>> {
+    text.push_str(
+        "\n## Few lamps\n\n\
+         | scene | table: noise | cost | tree: noise | cost | product, table over tree |\n\
+         |---|---|---|---|---|---|\n",
+    );
+    for (name, lights) in few_scenes() {
+        for (sampler, suffix) in [("pcg", ""), ("sobol", ", Sobol's samples, 16 a pixel")] {
+            let scene_text = format!(
+                "rts 1
+material grey: diffuse {{ color = linear(0.5) }}
+instance floor {{ shape = rectangle(size: (80, 12)m), material = grey }}
+{lights}
+film f {{ size = (64, 48)px }}
+render main: path {{ camera = eye, film = f, samples = 16, depth = 2, sampler = {sampler} }}
+"
+            );
+            row(text, &format!("{name}{suffix}"), scene::compile(&scene_text))?;
+        }
+    }
+    Ok(())
+}
+
 /// Triangles over the hall; those of the ball are 2 (rows - 1) columns.
 const LIGHTS: usize = 10_000;
 
@@ -210,22 +299,7 @@ film f {{ size = (64, 48)px }}
 render main: path {{ camera = eye, film = f, samples = 16, depth = 4, sampler = pcg }}
 "
         );
-        let mut compiled = scene::compile_in(dir.path(), &scene_text);
-        let tree = measure(&scene::bytes(&compiled), 0)?;
-        compiled.lowered.light_nodes.clear();
-        for light in &mut compiled.lowered.lights {
-            light.trail = 0;
-        }
-        let table = measure(&scene::bytes(&compiled), 0)?;
-        let _ = writeln!(
-            text,
-            "| {name} | {:.3} | {:.2} | {:.3} | {:.2} | {:.2}x |",
-            table.noise,
-            table.cost,
-            tree.noise,
-            tree.cost,
-            table.product() / tree.product(),
-        );
+        row(text, name, scene::compile_in(dir.path(), &scene_text))?;
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 use pack::abi::{Light, LightNode};
 use runtime::kernel::f32 as single;
 use tests::kernel::Bench;
@@ -16,8 +16,18 @@ use crate::{N, check, key};
 const POINTS: [DVec3; 3] =
     [DVec3::new(0.02, -0.01, 0.03), DVec3::new(0.3, -0.2, 0.1), DVec3::new(-5.0, 2.0, 9.0)];
 
-/// Chi-square tests here: lights that shine to both sides, and to one.
-pub(crate) const CHECKS: usize = 2 * POINTS.len();
+/// Triangles, the sides on which they glow, and the receiver, as `receiver_at` of the kernel gives it: none, an opaque
+/// surface, one that transmits. The last two have so few lights that each is weighed by itself.
+const SETS: [(usize, &str, DVec4); 5] = [
+    (300, "both", DVec4::ZERO),
+    (300, "front", DVec4::ZERO),
+    (300, "both", DVec4::new(0.6, 0.8, 0.0, 1.0)),
+    (5, "both", DVec4::new(0.6, 0.8, 0.0, 1.0)),
+    (5, "front", DVec4::new(0.0, -0.6, 0.8, 0.0)),
+];
+
+/// Chi-square tests here.
+pub(crate) const CHECKS: usize = SETS.len() * POINTS.len();
 
 /// Triangles that glow on `sides`, scattered and turned at random, and some spheres.
 fn scattered(n: usize, sides: &str) -> (Vec<Light>, Vec<LightNode>) {
@@ -53,13 +63,13 @@ render r: path {{ camera = c }}
 /// choice, which is an outcome like any other.
 #[test]
 fn lights_are_chosen_by_the_tree_with_the_probability_it_says() {
-    for (set, sides) in ["both", "front"].into_iter().enumerate() {
-        let (lights, nodes) = scattered(300, sides);
+    for (set, (triangles, sides, receiver)) in SETS.into_iter().enumerate() {
+        let (lights, nodes) = scattered(triangles, sides);
         let bench = Bench::new().lights(&lights).light_tree(&nodes);
         let (mut single, mut double) = (bench.single(), bench.double());
         let n = u32::try_from(lights.len()).expect("few");
         for (i, p) in POINTS.into_iter().enumerate() {
-            let pmf = |index| double.dispatch_choose_pmf(index, p);
+            let pmf = |index| double.dispatch_choose_pmf(index, p, receiver);
             let shares: Vec<f64> = (0..n).map(pmf).collect();
             let sum: f64 = shares.iter().sum();
             assert!(
@@ -71,17 +81,18 @@ fn lights_are_chosen_by_the_tree_with_the_probability_it_says() {
             for k in 0..N {
                 let test = 1500 + POINTS.len() * set + i;
                 let u = single.sample_1d(key(test, k), single::PURPOSE_LIGHT_CHOICE);
-                let choice = single.dispatch_choose(n, p.as_vec3(), u);
+                let choice = single.dispatch_choose(n, p.as_vec3(), receiver.as_vec4(), u);
                 let none = choice.pmf == 0.0;
                 counts.add(if none { lights.len() } else { choice.index as usize });
                 if k < 10_000 && !none {
-                    let back = single.dispatch_choose_pmf(choice.index, p.as_vec3());
+                    let back =
+                        single.dispatch_choose_pmf(choice.index, p.as_vec3(), receiver.as_vec4());
                     assert_eq!(choice.pmf, back, "light {}", choice.index);
                     let truth = shares[choice.index as usize];
                     assert!((f64::from(choice.pmf) / truth - 1.0).abs() < 1e-3, "{p} {truth}");
                 }
             }
-            check(&format!("tree of lights, {sides}, from {p}"), &counts);
+            check(&format!("tree of {n} lights, {sides}, for {receiver}, from {p}"), &counts);
         }
     }
 }
@@ -97,7 +108,7 @@ fn lights_that_face_the_point_have_a_probability() {
     for _ in 0..200 {
         let p = stream.direction() * 3.0 * stream.unit();
         for (index, light) in (0..).zip(&lights) {
-            let pmf = kernel.dispatch_choose_pmf(index, p);
+            let pmf = kernel.dispatch_choose_pmf(index, p, glam::DVec4::ZERO);
             let v = |x: [f32; 3]| DVec3::from(x.map(f64::from));
             let normal = v(light.edge1).cross(v(light.edge2));
             let sphere = light.area == 0.0;

@@ -82,6 +82,8 @@ pub struct Traits {
     pub refracts: bool,
     /// Things made of it have an inside that light enters.
     pub inside: bool,
+    /// Some light may leave on the other side.
+    pub transmits: bool,
 }
 
 impl Traits {
@@ -94,9 +96,10 @@ impl Traits {
         straight: None,
         refracts: false,
         inside: false,
+        transmits: false,
     };
     const PATTERN: Self = Self { pattern: true, ..Self::ROUGH };
-    const GLASS: Self = Self { refracts: true, inside: true, ..Self::ROUGH };
+    const GLASS: Self = Self { refracts: true, inside: true, transmits: true, ..Self::ROUGH };
     const SMOOTH_GLASS: Self =
         Self { lobes: Lobes::Delta, numbers: &[Number::Lobe], ..Self::GLASS };
 }
@@ -114,19 +117,23 @@ impl MaterialKind {
                 generated: true,
                 straight: Some("dispatch_principled_straight"),
                 refracts: true,
+                transmits: true,
                 ..Traits::ROUGH
             },
-            Self::Conductor | Self::Leaf => Traits::ROUGH,
+            Self::Conductor => Traits::ROUGH,
+            Self::Leaf => Traits { transmits: true, ..Traits::ROUGH },
             Self::Dielectric | Self::Water => Traits::SMOOTH_GLASS,
             Self::RoughDielectric => Traits::GLASS,
             Self::Clearcoat => {
                 Traits { numbers: &[Direction, Radius, Lobe], refracts: true, ..Traits::ROUGH }
             }
-            Self::Stone | Self::Wood | Self::Fabric => Traits::PATTERN,
+            Self::Stone | Self::Wood => Traits::PATTERN,
+            Self::Fabric => Traits { transmits: true, ..Traits::PATTERN },
             Self::Petal => Traits {
                 numbers: &[Direction, Lobe, Radius],
                 straight: Some("petal_through"),
                 refracts: true,
+                transmits: true,
                 ..Traits::ROUGH
             },
         }
