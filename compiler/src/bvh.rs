@@ -179,7 +179,7 @@ pub(crate) struct Shape {
     pub(crate) splits: Vec<Split>,
 }
 
-/// The tree of this shape over `input`. The boxes are computed anew, so that a shape which passes the
+/// The tree of this shape over `input`. The boxes are recomputed, so that a shape which passes the
 /// checks is a correct tree, if not a good one.
 pub(crate) fn from_shape(shape: Shape, input: &Input<'_>) -> Result<Tree, TreeFault> {
     let Shape { root, children, order, splits } = shape;

@@ -2,7 +2,7 @@
 //!
 //! Turns fragments into trees, from a file when this very tree was built before. A file holds the
 //! *shape* of a tree (child references, the order of primitives, where triangles were split), never
-//! boxes: those are computed anew from the fragments, so that no file, however damaged or forged, can make a ray miss. A file
+//! boxes: those are recomputed from the fragments, so that no file, however damaged or forged, can make a ray miss. A file
 //! that fails any check is rebuilt and reported as a warning. With or without the cache the result
 //! has the same bytes; only the time differs.
 //!

@@ -62,7 +62,7 @@ pub struct Compiled {
 /// How much of a pack earlier compilations had made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Reused {
-    /// Texts, all of which are read anew.
+    /// Texts, all of which are read again.
     pub texts: usize,
     /// Mesh files, and what they hold.
     pub meshes: Share,

@@ -77,6 +77,12 @@ impl From<[u8; 32]> for Key {
     }
 }
 
+impl From<Key> for blake3::Hash {
+    fn from(key: Key) -> Self {
+        key.0.into()
+    }
+}
+
 /// A small result, as it is kept.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Bytes(#[serde(with = "plain")] Vec<u8>);

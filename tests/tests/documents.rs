@@ -25,6 +25,7 @@ fn pages() -> Vec<String> {
             }
         }
     }
+    assert!(pages.len() > 10, "{pages:?}");
     pages
 }
 

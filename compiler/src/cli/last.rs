@@ -52,18 +52,12 @@ impl Job<'_> {
         let data = std::fs::metadata(&program).ok()?;
         let built = data.modified().ok()?.duration_since(SystemTime::UNIX_EPOCH).ok()?;
         let folder = std::env::current_dir().ok()?;
-        let mut hasher = blake3::Hasher::new();
-        let mut field = |bytes: &[u8]| {
-            // The length first: no two lists of fields hash the same bytes.
-            hasher.update(&(bytes.len() as u64).to_le_bytes()).update(bytes);
-        };
-        field(b"last 1");
+        let mut key = KeyOf::stage("last 1");
         for path in [&program, &folder, self.scene, self.output] {
-            field(path.as_os_str().as_encoded_bytes());
+            key.bytes(path.as_os_str().as_encoded_bytes());
         }
-        field(&data.len().to_le_bytes());
-        field(&built.as_nanos().to_le_bytes());
-        Some(hasher.finalize())
+        key.number(data.len()).bytes(&built.as_nanos().to_le_bytes());
+        Some(key.end().into())
     }
 
     /// All that is asked for besides what files say.

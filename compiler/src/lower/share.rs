@@ -1,4 +1,4 @@
-//! Which meshes are stored once and shown by instances, and which are stored anew for each of their places.
+//! Which meshes are stored once and shown by instances, and which are copied to each of their places.
 //!
 //! A mesh that is stored once takes less memory and its tree need not be built again when it is moved; but every
 //! ray that comes near pays for the way into its frame and back, and trees that overlap cannot be taken apart as

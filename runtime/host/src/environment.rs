@@ -1,4 +1,4 @@
-//! Variables that libraries read before `main` → this program, started anew with them where they matter.
+//! Variables that libraries read before `main` → this program, restarted with them where they matter.
 //!
 //! They must be set before the Vulkan loader and `malloc` look at them; Rust has no safe way to set one in a process
 //! that runs.
@@ -12,7 +12,7 @@ pub enum Uses {
     Drivers,
 }
 
-/// Starts this program anew where a variable is missing that it needs; else does nothing. To be called before
+/// Restarts this program where a variable that it needs is missing; else does nothing. To be called before
 /// anything else; it does not come back if the program starts.
 ///
 /// - Mesa's device-select layer asks the window system for its GPU whenever somebody lists the Vulkan adapters, and

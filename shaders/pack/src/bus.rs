@@ -11,7 +11,7 @@
 //!   `raise` only. POSIX lists the latter two as safe to call there; `mmap` is a plain system call on every system
 //!   with SIGBUS, and is used in handlers in this way by others (systemd's `sigbus.c`). It changes `errno` only when
 //!   it fails, and then the process ends.
-//! - Only addresses inside of a registered range are mapped anew, and a range is registered by [`Guarded::new`] alone,
+//! - Only addresses inside of a registered range are remapped, and a range is registered by [`Guarded::new`] alone,
 //!   which asks its caller that nothing but the mapping lies there until it is dropped.
 //! - A slot is written by who has taken it, and read by handlers at any time. `version` is odd while it is written,
 //!   and a handler takes start and end only if the same even version was there before and after. The slot of the
@@ -69,7 +69,7 @@ mod handler {
 
     use super::{SLOTS, io};
 
-    /// A range of addresses that a handler may map anew.
+    /// A range of addresses that a handler may remap.
     struct Slot {
         taken: AtomicBool,
         /// Odd while the rest is written.

@@ -70,7 +70,11 @@ fn tree_pmf(index: u32, p: vec3f, receiver: vec4f) -> f32 {
 
 // Nodes of a tree of few lights; 0 of a larger one.
 fn tree_few() -> u32 {
-    let n = load_frame_n_lights() - select(0u, 1u, tree_sky().pmf > 0.0);
+    let n_lights = load_frame_n_lights();
+    if (n_lights > TREE_FEW + 1u) {
+        return 0u;
+    }
+    let n = n_lights - select(0u, 1u, tree_sky().pmf > 0.0);
     return select(0u, 2u * n - 1u, n <= TREE_FEW);
 }
 
