@@ -13,6 +13,7 @@ mod receiver;
 mod records;
 mod sampler;
 mod sky;
+mod start;
 mod texture;
 mod traversal;
 mod wgsl;
@@ -36,7 +37,7 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/constants.wgsl", constants::text(features)),
         ("scene/crossing.wgsl", media::crossing(features)),
         ("scene/dispatch.wgsl", path::dispatch(features)),
-        ("scene/dispatch_bsdf.wgsl", bsdf::dispatch(features)),
+        ("scene/dispatch_bsdf.wgsl", bsdf::dispatch()),
         ("scene/dispatch_choice.wgsl", choice::text(features)),
         ("scene/dispatch_light.wgsl", light::dispatch(features)),
         ("scene/dispatch_pattern.wgsl", bsdf::pattern(features)),
@@ -50,16 +51,19 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/dispatch_tint.wgsl", choice::tint(features)),
         ("scene/layers.wgsl", principled::layers(features)),
         ("scene/leaf.wgsl", traversal::leaf(features)),
+        ("scene/model.wgsl", bsdf::model(features)),
         ("scene/motion.wgsl", motion::text(features)),
         ("scene/nodes.wgsl", traversal::nodes(features)),
         ("scene/place.wgsl", path::place(features)),
         ("scene/placed.wgsl", traversal::placed(features)),
+        ("scene/probe.wgsl", start::probe(features)),
         ("scene/principled.wgsl", principled::outer(features)),
         ("scene/receiver.wgsl", receiver::text(features)),
         ("scene/records.wgsl", records::text()),
         ("scene/sampler.wgsl", sampler::text(features)),
         ("scene/segment.wgsl", media::segment(features)),
         ("scene/shadow.wgsl", media::shadow(features)),
+        ("scene/start.wgsl", start::start(features)),
         ("scene/straight.wgsl", bsdf::straight(features)),
         ("scene/texel.wgsl", texture::texel(features)),
         ("scene/texture.wgsl", texture::texture(features)),

@@ -119,6 +119,9 @@ fn names_in(text: &str) -> Vec<&'static str> {
 /// Its number is the pack's, so no table holds it.
 const STACK: &str = "STACK_SIZE";
 
+/// Words of the texts for triangles that interpolate normals, where there is another text for those that do not.
+const SMOOTH: [&str; 4] = ["triangle_surface(", "SmoothStart", "smooth_start_", "smooth_probe_"];
+
 /// How one text is chosen for a name.
 struct Choice<'a> {
     own: &'a BTreeMap<&'a str, &'a str>,
@@ -139,7 +142,7 @@ impl Choice<'_> {
             .filter(|known| known.condition.holds(features, self.sections))
             .map(|known| known.text)
             .collect();
-        let interpolates = |text: &&&str| text.contains("triangle_surface(") == smooth;
+        let interpolates = |text: &&&str| SMOOTH.iter().any(|word| text.contains(word)) == smooth;
         let chosen = match fitting.len() {
             0 => None,
             1 => fitting.first(),

@@ -1,5 +1,5 @@
-//! `scene/dispatch_bsdf.wgsl`, `scene/dispatch_pattern.wgsl`, `scene/straight.wgsl`: from the kind of a material to the
-//! functions of its model.
+//! `scene/model.wgsl`, `scene/dispatch_bsdf.wgsl`, `scene/dispatch_pattern.wgsl`, `scene/straight.wgsl`: from the kind of
+//! a material to the functions of its model.
 //!
 //! The case of a kind reads the same in every kernel, so that a kernel with fewer kinds computes the same bits.
 
@@ -102,8 +102,15 @@ fn module_of(stem: &str) -> String {
     }
 }
 
-/// The three functions of a scattering model.
-pub(crate) fn dispatch(features: &FeatureSet) -> String {
+/// The three functions of a scattering model: name, parameters, result, what there is without a model, comment.
+const FUNCTIONS: [[&str; 5]; 3] = [
+    ["sample", "wo: vec3f, key: SampleKey", "Scattered", "scatter_absorb()", "Samples `wi`."],
+    ["eval", "wo: vec3f, wi: vec3f", "vec3f", "vec3f(0.0)", "f |cos|, delta lobes left out."],
+    ["pdf", "wo: vec3f, wi: vec3f", "f32", "0.0", "Density of `model_sample`, per steradian."],
+];
+
+/// The models, as they are without regard to the sides of the surface.
+pub(crate) fn model(features: &FeatureSet) -> String {
     let mut rows: Vec<Row> = features.materials.iter().map(|kind| row(*kind)).collect();
     if features.scattering {
         rows.push(phase_row());
@@ -117,26 +124,31 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
         "scene/sampler.wgsl",
     ]);
     text += &imports(files.iter().map(String::as_str));
-    let functions = [
-        ("sample", "wo: vec3f, key: SampleKey", "Scattered", "scatter_absorb()", "Samples `wi`."),
-        ("eval", "wo: vec3f, wi: vec3f", "vec3f", "vec3f(0.0)", "f |cos|, delta lobes left out."),
-        (
-            "pdf",
-            "wo: vec3f, wi: vec3f",
-            "f32",
-            "0.0",
-            "Density of `dispatch_sample`, per steradian.",
-        ),
-    ];
-    for (i, (name, parameters, result, absent, comment)) in functions.into_iter().enumerate() {
+    for (i, [name, parameters, result, absent, comment]) in FUNCTIONS.into_iter().enumerate() {
         let cases: Vec<(&str, String)> = rows
             .iter()
             .map(|row| (row.tag.as_str(), format!("{}_{name}({})", row.stem, row.arguments[i])))
             .collect();
         let _ = write!(
             text,
-            "\n// {comment}\nfn dispatch_{name}(s: Scatter, {parameters}) -> {result} {{\n{}}}\n",
+            "\n// {comment}\nfn model_{name}(s: Scatter, {parameters}) -> {result} {{\n{}}}\n",
             switch("s.kind", &cases, absent)
+        );
+    }
+    text
+}
+
+/// The models on the sides of a surface: the same in every kernel.
+pub(crate) fn dispatch() -> String {
+    let mut text = String::from("// Generated: how surfaces and media scatter.\n\n");
+    text += &imports(["bsdf/fold.wgsl", "bsdf/scatter.wgsl", "sampler/key.wgsl"]);
+    for [name, parameters, result, _, comment] in FUNCTIONS {
+        let arguments = parameters.replace(": vec3f", "").replace(": SampleKey", "");
+        let comment = comment.replace("model", "dispatch");
+        let _ = write!(
+            text,
+            "\n// {comment}\nfn dispatch_{name}(s: Scatter, {parameters}) -> {result} {{\n    \
+             return fold_{name}(s, {arguments});\n}}\n"
         );
     }
     text

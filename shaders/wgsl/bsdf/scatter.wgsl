@@ -10,7 +10,7 @@
 
 // World frame; colours linear Rec. 709.
 struct Scatter {
-    // Geometric and shading normal, unit, on the side of `wo`.
+    // Normal of the surface that divides the sides, `Surface::horizon`, and shading normal; unit, on the side of `wo`.
     ng: vec3f,
     ns: vec3f,
     // Reflectance or base colour, textures applied.
@@ -55,7 +55,7 @@ fn scatter_at(m: Material, s: Surface, key: SampleKey) -> Scatter {
     let color = m.color * texture_fetch(m.color_texture, s.uv).xyz;
     let mr = texture_fetch(m.metallic_roughness_texture, s.uv);
     return Scatter(
-        s.ng, s.ns, color, m.kind, s.material,
+        s.horizon, s.ns, color, m.kind, s.material,
         s.tangent, s.handed, s.uv, dispatch_place(s.object, m.flags, s.rest), m.fuzz,
         m.roughness * mr.y, m.metallic * mr.z,
         m.ior, m.ior_minus_1, s.front, key,
@@ -83,8 +83,8 @@ fn scatter_below(s: Scatter, wi: vec3f) -> bool {
     return dot(wi, s.ns) < 0.0 && dot(wi, s.ng) < 0.0;
 }
 
-// `wo` mirrored at the shading normal, or at the geometric normal where the former would go below the
-// surface: so a mirror with smooth normals loses no energy. Unit.
+// `wo` mirrored at the shading normal, or at the surface's where the former would go below the surface, as at a wave of
+// water. Models see no other surface than that of their shading normal (`fold.wgsl`). Unit.
 fn scatter_mirror(s: Scatter, wo: vec3f) -> vec3f {
     let r = s.ns * (2.0 * dot(s.ns, wo)) - wo;
     if (dot(r, s.ng) > 0.0) {

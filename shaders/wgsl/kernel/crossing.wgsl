@@ -4,6 +4,7 @@
 #import "kernel/state.wgsl"
 #import "media/volume.wgsl"
 #import "scene/constants.wgsl"
+#import "scene/start.wgsl"
 #import "surface/surface.wgsl"
 
 // Moves the path straight through the surface `s`, on the primitive `skip`, if it is not there for a path in
@@ -24,6 +25,7 @@ fn crossing_pass(path: ptr<function, Path>, s: Surface, flags: u32, skip: vec2u)
     (*path).point = s.p;
     (*path).ray_offset = s.ng * s.ray_offset;
     (*path).skip = skip;
+    (*path).start = dispatch_start_plain();
     return true;
 }
 

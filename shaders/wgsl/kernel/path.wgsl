@@ -7,11 +7,12 @@
 #import "sampler/key.wgsl"
 #import "scene/constants.wgsl"
 #import "scene/dispatch.wgsl"
+#import "scene/probe.wgsl"
 #import "scene/sampler.wgsl"
 #import "scene/segment.wgsl"
 #import "scene/shadow.wgsl"
+#import "scene/start.wgsl"
 #import "trace/ray.wgsl"
-#import "trace/ray_offset.wgsl"
 
 // The camera path of `key` through `pixel`.
 fn path_begin(key: SampleKey, pixel: vec2u) -> Path {
@@ -24,8 +25,9 @@ fn path_ray(path: Path) -> Ray {
     let shadow = path.shadow_light != NONE;
     let dir = select(path.dir, path.shadow_dir, shadow);
     let t_max = select(RAY_FAR, path.shadow_t, shadow);
-    let origin = ray_offset_origin(path.point, path.ray_offset, dir);
-    return Ray(origin, t_max, dir, path.skip, path.shadow_light, path.time, NONE);
+    let origin = dispatch_origin(path.point, path.ray_offset, path.start, dir);
+    let skip = dispatch_skip(path.skip, path.ray_offset, path.start, dir);
+    return dispatch_probe_ray(path, Ray(origin, t_max, dir, skip, path.shadow_light, path.time, NONE));
 }
 
 // Whether there is no ray left.
@@ -35,6 +37,9 @@ fn path_ended(path: Path) -> bool {
 
 // Moves the path on by what its ray has hit.
 fn path_advance(path: ptr<function, Path>, hit: Hit) {
+    if (dispatch_probe_advance(path, hit)) {
+        return;
+    }
     if ((*path).shadow_light != NONE) {
         dispatch_shadow_transmittance(path, hit.t);
         if (hit.prim == NONE) {

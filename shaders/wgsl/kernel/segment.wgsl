@@ -12,8 +12,8 @@
 #import "scene/fog.wgsl"
 #import "scene/records.wgsl"
 #import "scene/sampler.wgsl"
+#import "scene/start.wgsl"
 #import "trace/ray.wgsl"
-#import "trace/ray_offset.wgsl"
 
 // Takes away what the path's medium absorbs along its segment. Where the segment leaves the scene, the
 // medium's colour takes its place.
@@ -52,7 +52,7 @@ fn segment_scatter(path: ptr<function, Path>, hit: Hit, v: ptr<function, Vertex>
     // Beyond the surface at the end of its segment it would never leave the medium.
     let at = min(from_start, dispatch_before(hit, (*path).dir));
     dispatch_fog(path, at);
-    let origin = ray_offset_origin((*path).point, (*path).ray_offset, (*path).dir);
+    let origin = dispatch_origin((*path).point, (*path).ray_offset, (*path).start, (*path).dir);
     vertex_medium(path, origin + (*path).dir * at, i, v);
     return true;
 }

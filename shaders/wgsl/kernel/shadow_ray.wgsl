@@ -7,14 +7,14 @@
 #import "scene/constants.wgsl"
 #import "scene/dispatch.wgsl"
 #import "scene/records.wgsl"
+#import "scene/start.wgsl"
 #import "scene/through.wgsl"
 #import "trace/ray.wgsl"
-#import "trace/ray_offset.wgsl"
 
 // Moves the shadow ray through the surface it hit; false if that lets no light through. The hit is the nearest
 // one, as no surface of an opaque material was on the way.
 fn shadow_ray_advance(path: ptr<function, Path>, hit: Hit) -> bool {
-    let origin = ray_offset_origin((*path).point, (*path).ray_offset, (*path).shadow_dir);
+    let origin = dispatch_origin((*path).point, (*path).ray_offset, (*path).start, (*path).shadow_dir);
     let s = dispatch_surface(hit, origin, (*path).shadow_dir, (*path).time);
     let flags = load_material_flags(s.material);
     if ((flags & FLAG_THROUGH) == 0u) {
@@ -30,6 +30,7 @@ fn shadow_ray_advance(path: ptr<function, Path>, hit: Hit) -> bool {
     (*path).point = s.p;
     (*path).ray_offset = s.ng * s.ray_offset;
     (*path).skip = ray_skip(hit);
+    (*path).start = dispatch_start_held((*path).start);
     (*path).shadow_t -= hit.t;
     return true;
 }
@@ -41,5 +42,6 @@ fn shadow_ray_end(path: ptr<function, Path>) {
         (*path).ray_offset = (*path).pending.ray_offset;
         (*path).skip = (*path).pending.skip;
         (*path).pending.used = false;
+        (*path).start = dispatch_start_resumed((*path).start);
     }
 }

@@ -6,6 +6,7 @@
 #import "scene/inside.wgsl"
 #import "scene/motion.wgsl"
 #import "scene/receiver.wgsl"
+#import "scene/start.wgsl"
 
 struct Path {
     // Which random numbers; `bounce` counts the vertices so far.
@@ -29,6 +30,8 @@ struct Path {
     skip: vec2u,
     // Ray offset: from `point` to a ray's start, on one side of the surface; the other side is its negative.
     ray_offset: vec3f,
+    // Where rays start that leave a smooth surface below its triangle's plane.
+    start: Start,
     // There is a next segment.
     open: bool,
     // The shadow ray to trace before it: unit direction, length, light (`NONE`: no shadow ray), and the
@@ -51,7 +54,7 @@ struct Path {
 fn state_at_camera(key: SampleKey, ray: CameraRay) -> Path {
     return Path(
         key, vec3f(0.0), 0u, vec3f(1.0), 1.0,
-        ray.origin, 0.0, ray.dir, vec2u(NONE), vec3f(0.0), true,
+        ray.origin, 0.0, ray.dir, vec2u(NONE), vec3f(0.0), dispatch_start_plain(), true,
         ray.dir, 0.0, vec3f(0.0), NONE,
         inside_begin(), pending_begin(ray.origin), receiver_none(), dispatch_time(key),
     );

@@ -15,10 +15,11 @@
 #import "scene/dispatch_tint.wgsl"
 #import "scene/receiver.wgsl"
 #import "scene/records.wgsl"
+#import "scene/probe.wgsl"
 #import "scene/sampler.wgsl"
+#import "scene/start.wgsl"
 #import "surface/surface.wgsl"
 #import "trace/ray.wgsl"
-#import "trace/ray_offset.wgsl"
 
 // Where light is scattered: a surface, or a point in a medium.
 struct Vertex {
@@ -33,13 +34,14 @@ struct Vertex {
 
 // The vertex at `hit`: false if the path goes straight on there, or ends.
 fn vertex_surface(path: ptr<function, Path>, hit: Hit, v: ptr<function, Vertex>) -> bool {
-    let origin = ray_offset_origin((*path).point, (*path).ray_offset, (*path).dir);
+    let origin = dispatch_origin((*path).point, (*path).ray_offset, (*path).start, (*path).dir);
     var s = dispatch_surface(hit, origin, (*path).dir, (*path).time);
     let m = load_material(s.material);
     if (dispatch_pass(path, s, m.flags, ray_skip(hit))) {
         return false;
     }
     dispatch_tangent(&s, hit, m.flags);
+    dispatch_horizon(&s, m.kind, m.flags);
     dispatch_shading_normal(&s, m, (*path).dir);
     vertex_emit(path, s, m);
     // The longest path has come to its end, unless it goes straight through.
@@ -90,6 +92,7 @@ fn vertex_scatter(path: ptr<function, Path>, v: Vertex) {
     (*path).skip = v.skip;
     vertex_leave(path, next, pdf);
     (*path).open = (*path).open && !vertex_is_last(path);
+    dispatch_probe_begin(path, v.s);
 }
 
 // The path goes on as `next` says; lights that it finds are weighted with the density `pdf`.

@@ -42,9 +42,25 @@ fn instance_surface(hit: Hit, dir: vec3f, time: f32) -> Surface {
     if ((load_tri_shade_object(hit.prim) & TRI_SMOOTH) != 0u) {
         let n = instance_smooth_normal(hit.instance, load_tri_shade_normals(hit.prim), b, s.ng);
         s.ns = surface_shading_normal(s.ng, n, dir);
+        s.bulge = instance_bulge(hit, q, s);
     }
     dispatch_thing_carry(&s, object, time);
     return s;
+}
+
+// As `triangle_bulge`, in the world. `q`: the point in the instance's frame.
+fn instance_bulge(hit: Hit, q: vec3f, s: Surface) -> vec3f {
+    let tri = load_triangle(hit.prim);
+    let normals = load_tri_shade_normals(hit.prim);
+    let i = hit.instance;
+    let b = hit.b;
+    let n0 = instance_normal(i, octahedral_decode(normals.x));
+    let n1 = instance_normal(i, octahedral_decode(normals.y));
+    let n2 = instance_normal(i, octahedral_decode(normals.z));
+    let l0 = triangle_lift(instance_vector(i, q - tri.v0), n0, s.ng) * (1.0 - b.x - b.y);
+    let l1 = triangle_lift(instance_vector(i, q - tri.v1), n1, s.ng) * b.x;
+    let l2 = triangle_lift(instance_vector(i, q - tri.v2), n2, s.ng) * b.y;
+    return surface_bulge(s, l0 + l1 + l2);
 }
 
 // As `triangle_smooth_normal`. The corners' normals are unit in the world before they are mixed, as those of

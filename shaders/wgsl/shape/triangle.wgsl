@@ -130,8 +130,30 @@ fn triangle_surface(i: u32, b: vec2f, dir: vec3f) -> Surface {
     if ((load_tri_shade_object(i) & TRI_SMOOTH) != 0u) {
         let n = triangle_smooth_normal(load_tri_shade_normals(i), b, s.ng);
         s.ns = surface_shading_normal(s.ng, n, dir);
+        s.bulge = triangle_bulge(i, b, s);
     }
     return s;
+}
+
+// From the surface point `s` at weights `b` of triangle `i` to the smooth surface that the corners' normals span:
+// the point is lifted to the plane through each corner at a right angle to its normal, where that is above it, and
+// the three points are mixed. 0 where the smooth surface is flat or hollow.
+// Hanika 2021, "Hacking the Shadow Terminator", Ray Tracing Gems II, ch. 4.
+fn triangle_bulge(i: u32, b: vec2f, s: Surface) -> vec3f {
+    let tri = load_triangle(i);
+    let normals = load_tri_shade_normals(i);
+    let q = tri.v0 * (1.0 - b.x - b.y) + tri.v1 * b.x + tri.v2 * b.y;
+    let l0 = triangle_lift(q - tri.v0, octahedral_decode(normals.x), s.ng) * (1.0 - b.x - b.y);
+    let l1 = triangle_lift(q - tri.v1, octahedral_decode(normals.y), s.ng) * b.x;
+    let l2 = triangle_lift(q - tri.v2, octahedral_decode(normals.z), s.ng) * b.y;
+    return surface_bulge(s, l0 + l1 + l2);
+}
+
+// From a point of a triangle to the plane with unit normal `n`, on any side, through a corner, where that is above
+// the triangle as `ng` has it; otherwise 0. `v`: from the corner to the point.
+fn triangle_lift(v: vec3f, n: vec3f, ng: vec3f) -> vec3f {
+    let out = select(-n, n, dot(n, ng) >= 0.0);
+    return out * max(-dot(v, out), 0.0);
 }
 
 // The interpolated normal, unit; `fallback` where the corners cancel.

@@ -10,6 +10,11 @@ struct Surface {
     rest: vec3f,
     // Geometric normal, unit, on the side that the ray came from.
     ng: vec3f,
+    // Normal of the plane above which reflected light leaves, unit: `ng`, unless the mesh stands for a smooth
+    // surface that bulges towards the ray; then the normal of that.
+    horizon: vec3f,
+    // From `p` to that smooth surface; 0 where there is none.
+    bulge: vec3f,
     // Shading normal, unit; dot(ns, ng) > 0 and dot(ns, wo) >= 0.
     ns: vec3f,
     uv: vec2f,
@@ -39,13 +44,18 @@ fn surface_new(p: vec3f, out: vec3f, dir: vec3f, reach: f32) -> Surface {
     // 16 ulp of the largest coordinate: measured to lose no neighbour and to hit no own primitive for
     // triangles of any size and distance, down to grazing cosines of 1e-4, where the source is skipped.
     let ray_offset = 9.5367432e-7 * reach; // 16 * 2^-24
-    return Surface(p, p, ng, ng, vec2f(0.0), ray_offset, 0u, NONE, 0u, vec3f(0.0), 1.0, front);
+    return Surface(p, p, ng, ng, vec3f(0.0), ng, vec2f(0.0), ray_offset, 0u, NONE, 0u, vec3f(0.0), 1.0, front);
 }
 
 // How far along a ray that hits a surface at `t` a point can be and still be on this side of it, at least, whatever
 // the surface: 16 ulp of the largest coordinate before it, or half way.
 fn surface_before(t: f32) -> f32 {
     return max(0.5 * t, t - 9.5367432e-7); // 16 * 2^-24
+}
+
+// `bulge` of the surface, if that is above it and rays can be told that leave below it.
+fn surface_bulge(s: Surface, bulge: vec3f) -> vec3f {
+    return select(vec3f(0.0), bulge, s.ray_offset > 0.0 && dot(bulge, s.ng) > 0.0);
 }
 
 // Moves the surface by `shift`, which it has come since the shutter opened.

@@ -159,6 +159,8 @@ fn single_surface(s: &double::Surface) -> single::Surface {
         p: s.p.as_vec3(),
         rest: s.rest.as_vec3(),
         ng: s.ng.as_vec3(),
+        horizon: s.horizon.as_vec3(),
+        bulge: s.bulge.as_vec3(),
         ns: s.ns.as_vec3(),
         uv: s.uv.as_vec2(),
         ray_offset: s.ray_offset as f32,
