@@ -40,13 +40,21 @@ pub(crate) fn inside(features: &FeatureSet) -> String {
 pub(crate) fn fog(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: whether this scene has fog.\n\n");
     text += &imports(["kernel/state.wgsl", "kernel/fog.wgsl"]);
-    let (add, fade) = if features.fog {
-        ("    fog_segment(path, t);\n", "fog_transmittance(path, t)")
-    } else {
-        ("", "vec3f(1.0)")
-    };
-    let comment = "Adds the fog along the path's segment, up to its hit at `t`.";
-    function(&mut text, comment, "dispatch_fog(path: ptr<function, Path>, t: f32)", add);
+    let with =
+        |there: &'static str, absent: &'static str| if features.fog { there } else { absent };
+    function(
+        &mut text,
+        "Takes away what the fog absorbs along the path's segment up to `t`.",
+        "dispatch_fog_absorb(path: ptr<function, Path>, t: f32)",
+        with("    fog_absorb(path, t);\n", ""),
+    );
+    function(
+        &mut text,
+        "Optical depth of the fog and of a medium of depth `tau` along the path's segment up to `t`.",
+        "dispatch_fog_with(path: ptr<function, Path>, t: f32, tau: vec3f) -> vec3f",
+        with("    return tau + fog_depth(path, t);\n", "    return tau;\n"),
+    );
+    let fade = with("fog_transmittance(path, t)", "vec3f(1.0)");
     let comment = "Transmittance of the fog along the path's shadow ray up to its hit at `t`.";
     let body = format!("    return {fade};\n");
     function(
@@ -73,6 +81,13 @@ pub(crate) fn segment(features: &FeatureSet) -> String {
         (true, false) => "    segment_absorb(path, hit.t);\n",
         (false, _) => "",
     };
+    let both = if features.media { "fog + segment_depth(path, hit.t)" } else { "fog" };
+    let glow = if features.fog {
+        text += &imports(["kernel/fog.wgsl"]);
+        format!("    let fog = fog_depth(path, hit.t);\n    fog_segment(path, fog, {both});\n")
+    } else {
+        String::new()
+    };
     let comment =
         "The path's segment up to `hit`: true if the path is scattered on the way, in `v`.";
     let head =
@@ -81,7 +96,7 @@ pub(crate) fn segment(features: &FeatureSet) -> String {
         &mut text,
         comment,
         head,
-        &format!("{medium}    dispatch_fog(path, hit.t);\n    return false;\n"),
+        &format!("{glow}{medium}    dispatch_fog_absorb(path, hit.t);\n    return false;\n"),
     );
     text
 }

@@ -2,9 +2,9 @@
 // it reflects is above that, and may be below the surface, where it would be lost: black rims, dark normal maps. Such
 // a direction is folded back: mirrored at the plane of the surface, as by a second bounce off it.
 //   f'(wi) = f(wi) [wi on its side] + f(m) [m on its side],   m = wi - 2 (wi . ng) ng
-// with a direction on its side where it is on the same side of the surface as of the shading normal, and m where it is
-// on that side of the shading normal on which wi is of the surface. No energy is lost or made: the mirroring keeps solid
-// angles, so f' has the integral of f, and the sum of both densities is that of the sample. Continuous where wi
+// with a direction on its side where it is on the same side of the surface as of the shading normal, and m where it
+// is on that side of the shading normal on which wi is of the surface. No energy is lost or made: the mirroring keeps
+// solid angles, so f' has the integral of f, and the sum of both densities is that of the sample. Continuous where wi
 // meets the surface. Where both normals are the same, nothing is folded.
 
 #import "bsdf/scatter.wgsl"
@@ -29,8 +29,8 @@ fn fold_mirrored(s: Scatter, wi: vec3f) -> vec3f {
     return vector_unit(wi - s.ng * (2.0 * dot(s.ng, wi)));
 }
 
-// Whether `from`, sampled by a model, leaves on the side of `wi`: on that side of the shading normal on which `wi` is of
-// the surface.
+// Whether `from_dir`, sampled by a model, leaves on the side of `wi`: on that side of the shading normal on which `wi`
+// is of the surface.
 fn fold_leads(s: Scatter, from_dir: vec3f, wi: vec3f) -> bool {
     return dot(s.ns, from_dir) * dot(s.ng, wi) > 0.0;
 }

@@ -1,7 +1,7 @@
 // Fog along a segment: L = T L + (1 - T) color, with the transmittance T of Beer and Lambert. No samples, no noise;
-// light of the same colour is neither gained nor lost.
+// light of the same colour is neither gained nor lost. Inside of another medium both take light at once: with optical
+// depths f and m the fog's part of what is lost is f / (f + m), so L = T_f T_m L + (1 - T_f T_m) color f / (f + m).
 
-#import "abi/medium.wgsl"
 #import "kernel/state.wgsl"
 #import "math/beer.wgsl"
 #import "scene/constants.wgsl"
@@ -20,22 +20,39 @@ fn fog_length(path: ptr<function, Path>, dir: vec3f, t: f32, reach: f32) -> f32 
     return select(t + fog_start(path, dir), reach, t > FOG_LEAVES);
 }
 
-// A segment of length `length` of the path in `m`, which scatters no light of the path.
-fn fog_add(path: ptr<function, Path>, m: Medium, length: f32) {
-    let tau = m.sigma_a * length;
-    let left = beer_transmittance(tau);
-    (*path).radiance += (*path).throughput * m.color * beer_absorptance(tau, left);
-    (*path).throughput *= left;
+// Light of colour `color` that takes the place of what is lost at optical depth `tau` along a segment, on which `both`
+// is lost, another medium's share included. Before the throughput has lost any.
+fn fog_glow(path: ptr<function, Path>, color: vec3f, tau: vec3f, both: vec3f) {
+    let lost = beer_absorptance(both, beer_transmittance(both));
+    // Without depth nothing is lost; 1 without another medium.
+    let share = tau / max(both, vec3f(1.1754944e-38));
+    (*path).radiance += (*path).throughput * color * (lost * share);
 }
 
-// The fog along the path's segment up to its hit at `t`.
-fn fog_segment(path: ptr<function, Path>, t: f32) {
+// Optical depth of the fog along the path's segment up to `t`.
+fn fog_depth(path: ptr<function, Path>, t: f32) -> vec3f {
     let i = load_frame_fog();
     if (i == NONE) {
+        return vec3f(0.0);
+    }
+    return load_medium_sigma_a(i) * fog_length(path, (*path).dir, t, load_medium_reach(i));
+}
+
+// Adds the light of the fog along the path's segment, of optical depths as in `fog_glow`. Wherever a medium scatters
+// the path on its way, that is the mean of what the fog sends.
+fn fog_segment(path: ptr<function, Path>, tau: vec3f, both: vec3f) {
+    let i = load_frame_fog();
+    if (i != NONE) {
+        fog_glow(path, load_medium_color(i), tau, both);
+    }
+}
+
+// Takes away what the fog absorbs along the path's segment up to `t`.
+fn fog_absorb(path: ptr<function, Path>, t: f32) {
+    if (load_frame_fog() == NONE) {
         return;
     }
-    let fog = load_medium(i);
-    fog_add(path, fog, fog_length(path, (*path).dir, t, fog.reach));
+    (*path).throughput *= beer_transmittance(fog_depth(path, t));
 }
 
 // Transmittance of the fog along the path's shadow ray up to its hit at `t`.

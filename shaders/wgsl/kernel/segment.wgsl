@@ -24,13 +24,25 @@ fn segment_absorb(path: ptr<function, Path>, t: f32) {
     }
     let m = load_medium(i);
     if (t > FOG_LEAVES) {
-        fog_add(path, m, m.reach);
+        let tau = m.sigma_a * m.reach;
+        fog_glow(path, m.color, tau, dispatch_fog_with(path, t, tau));
+        (*path).throughput *= beer_transmittance(tau);
         return;
     }
     (*path).throughput *= beer_transmittance(m.sigma_a * (t + fog_start(path, (*path).dir)));
 }
 
-// The same for media that may scatter: true if the path is scattered on its way, in `v` unless it has ended.
+// Optical depth of the path's medium along its segment.
+fn segment_depth(path: ptr<function, Path>, t: f32) -> vec3f {
+    let i = (*path).inside.medium;
+    if (i == NONE) {
+        return vec3f(0.0);
+    }
+    let m = load_medium(i);
+    return (m.sigma_a + m.sigma_s) * fog_length(path, (*path).dir, t, m.reach);
+}
+
+// As `segment_absorb` for media that may scatter: true if the path is scattered on its way, in `v` unless it has ended.
 fn segment_scatter(path: ptr<function, Path>, hit: Hit, v: ptr<function, Vertex>) -> bool {
     let i = (*path).inside.medium;
     if (i == NONE) {
@@ -51,7 +63,7 @@ fn segment_scatter(path: ptr<function, Path>, hit: Hit, v: ptr<function, Vertex>
     let from_start = max(step.t - fog_start(path, (*path).dir), 0.0);
     // Beyond the surface at the end of its segment it would never leave the medium.
     let at = min(from_start, dispatch_before(hit, (*path).dir));
-    dispatch_fog(path, at);
+    dispatch_fog_absorb(path, at);
     let origin = dispatch_origin((*path).point, (*path).ray_offset, (*path).start, (*path).dir);
     vertex_medium(path, origin + (*path).dir * at, i, v);
     return true;

@@ -19,7 +19,11 @@ pub fn room(rho: f32, density: f32, n: u64) -> [Mean; 2] {
     let bench = Bench::new();
     let mut kernel = bench.single();
     let naive = |path: &mut Path, length: f32| path.throughput *= (-density * length).exp();
-    let ours = |path: &mut Path, length: f32| kernel.fog_add(path, fog, length);
+    let ours = |path: &mut Path, length: f32| {
+        let tau = fog.sigma_a * length;
+        kernel.fog_glow(path, fog.color, tau, tau);
+        path.throughput *= kernel.beer_transmittance(tau);
+    };
     [bounced(rho, n, naive), bounced(rho, n, ours)]
 }
 

@@ -158,6 +158,11 @@ instance ball { shape = sphere(radius: 1m), material = white }";
         "{white}\nmedium mist: fog {{ density = 0.2/m, color = linear(1), sky_distance = 9m }}"
     );
     lossless("white ball in fog of the sky's colour", &scene(&fog, ", atmosphere = mist"), 256);
+    let milk = format!(
+        "{}\nmedium mist: fog {{ density = 0.2/m, color = linear(1), sky_distance = 9m }}",
+        thing(colored, "ior = 1", cube)
+    );
+    lossless("coloured box in fog of the sky's colour", &scene(&milk, ", atmosphere = mist"), 1024);
     let waves = "material wet: water { sigma_a = 0/m, waves.scale = 3, waves.height = 6 }
 instance pool { shape = box(size: (1.5, 1.5, 1.5)m), material = wet }";
     lossless("clear water with waves", &scene(waves, ""), 256);
@@ -285,5 +290,43 @@ instance ball {{ shape = sphere(radius: 1m), material = clay, at = (0, 0, 9)m }}
     all(&[
         Check::new("lamp in fog", t + (1.0 - t) * 0.5, text).depth(1.6),
         Check::new("sky behind fog", s * 3.0 + (1.0 - s) * 0.2, sky).depth(1.0),
+    ]);
+}
+
+/// A lamp of 3 behind a slab of ink, 1 m deep, all of it in fog: what fog sends inside of the slab is taken away by the
+/// ink only from where it was sent. A medium that scatters straight on alone changes nothing of that.
+#[test]
+fn fog_in_an_absorber_fades_from_where_it_was_sent() {
+    let (fog, color, lamp) = (0.3_f64, 0.2, 3.0);
+    let scene = |ink: &str| {
+        format!(
+            "rts 1
+medium mist: fog {{ density = {fog}/m, color = linear({color}) }}
+medium ink: homogeneous {{ {ink} }}
+material skin: dielectric {{ ior = 1, interior = ink }}
+instance slab {{ shape = box(size: (60, 60, 1)m), material = skin, at = (0, 0, 0.5)m }}
+{}{}",
+            wall(-1.0).replace("linear(1)", &format!("linear({lamp})")),
+            ahead([0.0, 0.0, 3.0]).replace("depth = 1000", "depth = 64, atmosphere = mist")
+        )
+    };
+    let expected = |sigma: f64| {
+        let part = |length: f64, sigma: f64, behind: f64| {
+            let t = (-(fog + sigma) * length).exp();
+            t * behind + (1.0 - t) * color * fog / (fog + sigma)
+        };
+        part(2.0, 0.0, part(1.0, sigma, part(1.0, 0.0, lamp)))
+    };
+    assert!((expected(0.5) - 0.673_74).abs() < 1e-5);
+    all(&[
+        Check::new("fog in ink", expected(0.5), scene("sigma_a = 0.5/m")).depth(1.7),
+        Check::new("fog in thick ink", expected(9.0), scene("sigma_a = 9/m")).depth(10.0),
+        Check::new(
+            "fog in ink that scatters straight on",
+            expected(0.5),
+            scene("sigma_a = 0.5/m, sigma_s = 2/m, g = 1"),
+        )
+        .samples(4096)
+        .depth(1.7),
     ]);
 }
