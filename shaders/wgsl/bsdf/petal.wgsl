@@ -1,14 +1,16 @@
 // A petal: fuzz on the surface, a waxy skin, and a thin slab that scatters light under it.
-//   fuzz   q metal_density(radius fuzz)                     q: share of the fuzz
-//   wax    (1 - q) (F(cos_o) + (1 - F(cos_o)) color back) metal_density(radius roughness)
+//   fuzz   q ball(radius fuzz)                     q: share of the fuzz
+//   wax    (1 - q) (F(cos_o) + (1 - F(cos_o)) color back) ball(radius roughness)
 //   slab   (1 - q) (1 - F(cos_o)) color (through + scattered)
 // `through` and `back` cross the slab unscattered; what its far side mirrors comes back by the same skin as what
 // the near side does, and is as blurred. As a mirror it would be light that no shadow ray finds.
-// Each lobe integrates to its share at most, so a white petal reflects and lets through all it gets, less what
-// the first two lobes lose at the horizon. The slab is found by a random walk (`slab.wgsl`), so `petal_eval` is
-// an unbiased estimate; the density of `petal_sample` is exact. Light that goes through the slab unscattered keeps
-// its direction: a delta lobe, and what a shadow ray finds.
-// Only the slab is reciprocal: the lobes of fuzz and wax are those of `metal.wgsl`.
+// A ball is the lobe of `metal.wgsl`, and what would go below the horizon is mirrored at it: each lobe integrates to
+// its share, and a white petal reflects and lets through all it gets.
+// Light that goes through the slab unscattered keeps its direction: a delta lobe, and what a shadow ray finds.
+// `petal_eval` is an unbiased estimate. `petal_sample` leaves the slab as a random walk does, with a density that
+// nobody knows; `petal_pdf` stands in for it where light samples and directions share their weights, which sum to 1
+// for any function of the direction. The weight of a sample is what the walk brings, not `petal_eval` over that.
+// Only the slab is reciprocal: the lobes of fuzz and wax are not.
 
 #import "bsdf/diffuse.wgsl"
 #import "bsdf/fresnel.wgsl"
@@ -16,6 +18,7 @@
 #import "bsdf/metal.wgsl"
 #import "bsdf/scatter.wgsl"
 #import "bsdf/slab.wgsl"
+#import "bsdf/slab_exit.wgsl"
 #import "math/basis.wgsl"
 #import "math/vector.wgsl"
 #import "scene/records.wgsl"
@@ -69,54 +72,99 @@ fn petal_sample(s: Scatter, wo: vec3f, u: vec2f, v: f32, w: f32) -> Scattered {
     if (v >= skin && v < skin + p.through) {
         return Scattered(-wo, 0.0, petal_through(s, wo) / p.through, 1.0);
     }
-    var wi: vec3f;
-    if (v < skin) {
-        let radius = select(s.roughness, s.fuzz, v < p.fuzz);
-        wi = metal_direction(scatter_mirror(s, wo), petal_radius(radius), u, w);
-    } else if (w < 0.5) {
-        wi = hg_sample(-wo, slab.g, u);
-    } else {
-        let side = select(s.ns, -s.ns, w < 0.75);
-        wi = diffuse_direction(side, u);
+    if (v >= skin) {
+        let first = clamp((v - (skin + p.through)) / max(p.slab, 1e-7), 0.0, 0.99999994);
+        return petal_sample_slab(s, slab, p, wo, u, vec2f(first, w));
     }
+    let fuzzy = v < p.fuzz;
+    let wi = petal_ball_direction(s, wo, petal_radius(select(s.roughness, s.fuzz, fuzzy)), u, w);
     let pdf = petal_pdf(s, wo, wi);
-    if (pdf <= 0.0) {
+    if (pdf <= 0.0 || !scatter_above(s, wi)) {
         return scatter_absorb();
     }
-    return Scattered(wi, pdf, petal_eval(s, wo, wi) / pdf, 1.0);
+    if (fuzzy) {
+        return Scattered(wi, pdf, vec3f(1.0), 1.0);
+    }
+    return Scattered(wi, pdf, petal_wax(s, slab, wo) / p.wax, 1.0);
+}
+
+// The same for the share of the slab. `u`: how light scatters first, `v`: where.
+fn petal_sample_slab(s: Scatter, slab: Slab, p: PetalShares, wo: vec3f, u: vec2f, v: vec2f) -> Scattered {
+    let basis = basis_around(-s.ns);
+    let exit = slab_exit_sample(slab, basis_local_from_world(basis, wo), u, v, s.key);
+    if (vector_max(exit.share) <= 0.0) {
+        return scatter_absorb();
+    }
+    let wi = vector_unit(basis_world_from_local(basis, exit.dir));
+    let pdf = petal_pdf(s, wo, wi);
+    if (pdf <= 0.0 || !(scatter_above(s, wi) || scatter_below(s, wi))) {
+        return scatter_absorb();
+    }
+    let inner = (1.0 - load_material_weight(s.material)) * (1.0 - petal_fresnel(s, wo));
+    // The share is what all others leave; where that is next to nothing, rounding is in it.
+    let least = inner * vector_max(slab_entry(slab, min(dot(s.ns, wo), 1.0)).share);
+    return Scattered(wi, pdf, s.color * exit.share * (inner / max(p.slab, least)), 1.0);
 }
 
 // f |cos|, what goes through unscattered left out; an unbiased estimate.
 fn petal_eval(s: Scatter, wo: vec3f, wi: vec3f) -> vec3f {
     let slab = petal_slab(s);
     let fuzz = load_material_weight(s.material);
-    let f = petal_fresnel(s, wo);
     let above = scatter_above(s, wi);
-    let basis = basis_around(-s.ns);
-    let o = basis_local_from_world(basis, wo);
-    let i = basis_local_from_world(basis, wi);
     var sum = vec3f(0.0);
     if (above) {
-        let r = scatter_mirror(s, wo);
-        let back = s.color * slab_passage(slab, min(dot(s.ns, wo), 1.0)).back;
-        let wax = (vec3f(f) + back * (1.0 - f)) * ((1.0 - fuzz) * metal_density(wi, r, petal_radius(s.roughness)));
-        sum = vec3f(fuzz * metal_density(wi, r, petal_radius(s.fuzz))) + wax;
+        let wax = petal_wax(s, slab, wo) * petal_ball(s, wo, wi, petal_radius(s.roughness));
+        sum = vec3f(fuzz * petal_ball(s, wo, wi, petal_radius(s.fuzz))) + wax;
     }
-    if (above || (i.z > 0.0 && dot(wi, s.ng) < 0.0)) {
-        sum += s.color * slab_scattered(slab, o, i, s.key) * ((1.0 - fuzz) * (1.0 - f));
+    if (above || scatter_below(s, wi)) {
+        let basis = basis_around(-s.ns);
+        let o = basis_local_from_world(basis, wo);
+        let i = basis_local_from_world(basis, wi);
+        let inner = (1.0 - fuzz) * (1.0 - petal_fresnel(s, wo));
+        sum += s.color * slab_scattered(slab, o, i, s.key) * inner;
     }
     return sum;
 }
 
-// Density of `petal_sample`, per steradian of `wi`, the delta left out.
+// Density that stands for that of `petal_sample`, per steradian of `wi`, the delta left out: exact for fuzz and wax;
+// for the slab half of it as even as Lambert's on both sides, and half forward.
 fn petal_pdf(s: Scatter, wo: vec3f, wi: vec3f) -> f32 {
     let slab = petal_slab(s);
     let p = petal_shares(s, slab, wo);
-    let r = scatter_mirror(s, wo);
-    let fuzz = p.fuzz * metal_density(wi, r, petal_radius(s.fuzz));
-    let wax = p.wax * metal_density(wi, r, petal_radius(s.roughness));
+    var skin = 0.0;
+    if (dot(s.ns, wi) > 0.0) {
+        skin = p.fuzz * petal_ball(s, wo, wi, petal_radius(s.fuzz))
+            + p.wax * petal_ball(s, wo, wi, petal_radius(s.roughness));
+    }
     let even = abs(dot(s.ns, wi)) * (0.5 * INV_PI);
-    return fuzz + wax + 0.5 * p.slab * (hg_pdf(-wo, slab.g, wi) + even);
+    return skin + 0.5 * p.slab * (hg_pdf(-wo, slab.g, wi) + even);
+}
+
+// What the skin reflects, and the far side of the slab.
+fn petal_wax(s: Scatter, slab: Slab, wo: vec3f) -> vec3f {
+    let f = petal_fresnel(s, wo);
+    let back = s.color * slab_passage(slab, min(dot(s.ns, wo), 1.0)).back;
+    return (vec3f(f) + back * (1.0 - f)) * (1.0 - load_material_weight(s.material));
+}
+
+// A direction of the lobe of radius `radius`, above the shading normal. `u`, `v`: as in `metal_sample`.
+fn petal_ball_direction(s: Scatter, wo: vec3f, radius: f32, u: vec2f, v: f32) -> vec3f {
+    let d = metal_direction(scatter_mirror(s, wo), radius, u, v);
+    return petal_folded(s, d, dot(s.ns, d) < 0.0);
+}
+
+// Density of `petal_ball_direction` for `wi` above the shading normal: that of `wi` and of its image below.
+fn petal_ball(s: Scatter, wo: vec3f, wi: vec3f, radius: f32) -> f32 {
+    let r = scatter_mirror(s, wo);
+    return metal_density(wi, r, radius) + metal_density(petal_folded(s, wi, true), r, radius);
+}
+
+// `d` mirrored at the plane of the shading normal if `folds`, unit.
+fn petal_folded(s: Scatter, d: vec3f, folds: bool) -> vec3f {
+    if (!folds) {
+        return d;
+    }
+    return vector_unit(d - s.ns * (2.0 * dot(s.ns, d)));
 }
 
 // What a ray keeps that goes straight through, from either side.

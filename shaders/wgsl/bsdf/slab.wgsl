@@ -1,9 +1,10 @@
-// Multiple scattering inside a thin parallel slab, found by a random walk that knows only its depth: where
-// on the slab light comes out does not matter, because the slab is thin.
+// Multiple scattering inside a thin parallel slab, which knows only depth: where on the slab light comes out does not
+// matter, because the slab is thin.
 // Guo, Hasan & Zhao 2018, "Position-Free Monte Carlo Simulation for Arbitrary Layered BSDFs", ACM TOG 37(6).
-// At every point of the walk the light is joined to the wanted direction outside, through both ways in
-// which it can reach it: straight to its side, or off the other side first. What the two sides throw back and
-// forth unscattered is a geometric series, and is summed.
+// What the two sides throw back and forth unscattered is a geometric series, and is summed. So is light that scatters
+// once, a closed form; light that scatters more often is found by a random walk. At every point of the walk but the
+// first the light is joined to the wanted direction outside, through both ways in which it can reach it: straight to
+// its side, or off the other side first. `slab_exit.wgsl` walks until the light has left.
 
 #import "bsdf/fresnel.wgsl"
 #import "bsdf/hg.wgsl"
@@ -50,6 +51,68 @@ fn slab_passage(slab: Slab, c: f32) -> SlabPassage {
     return SlabPassage(left * (1.0 - f) / series, left * left * ((1.0 - f) * f) / series);
 }
 
+// Where light that crosses the slab scatters first.
+struct SlabPoint {
+    // 0 ..= 1.
+    depth: f32,
+    // Inside, before it scatters.
+    dir: vec3f,
+    // 1 for each channel where all scatter alike; the mean of the channels is 1.
+    thr: vec3f,
+}
+
+// What the two sides do to unscattered light on its way in along `o`, the viewer's direction in the frame of the slab.
+struct SlabEntry {
+    // Cosine inside.
+    z: f32,
+    // Optical depth across along it, and the transmittance of that.
+    tau: vec3f,
+    left: vec3f,
+    // What is left after a crossing and the mirror at its end.
+    bounce: vec3f,
+    // Share that scatters, on this crossing or a later one.
+    share: vec3f,
+}
+
+// The way in for a cosine `c` > 0 outside.
+fn slab_entry(slab: Slab, c: f32) -> SlabEntry {
+    let z = max(slab_inside(slab, c), 1e-6);
+    let tau = slab.tau / z;
+    let left = beer_transmittance(tau);
+    let bounce = left * slab_mirror(slab, z);
+    let share = slab_mean(tau, left) * (slab.tau_s / z) / max(vec3f(1.0) - bounce, vec3f(1e-6));
+    return SlabEntry(z, tau, left, bounce, share);
+}
+
+// (1 - e^-tau) / tau, the mean transmittance of depths up to `tau` >= 0; `left`: e^-tau.
+fn slab_mean(tau: vec3f, left: vec3f) -> vec3f {
+    let mean = beer_absorptance(tau, left) / max(tau, vec3f(1e-6));
+    return select(mean, vec3f(1.0), tau < vec3f(1e-6));
+}
+
+// Where light along `o` scatters first, if it does. `v`: the channel that chooses and how often the sides have thrown
+// the light back, and the depth; in [0, 1 - 2^-24].
+fn slab_first(slab: Slab, o: vec3f, entry: SlabEntry, v: vec2f) -> SlabPoint {
+    // In each channel, crossings away from the viewer's side and back to it.
+    let away = entry.share / (vec3f(1.0) + entry.bounce);
+    var rest = v.x * (entry.share.x + entry.share.y + entry.share.z);
+    var c = 0u;
+    if (rest >= entry.share.x) {
+        rest = max(rest - entry.share.x, 0.0);
+        c = select(1u, 2u, rest >= entry.share.y);
+        rest = max(rest - select(0.0, entry.share.y, c == 2u), 0.0);
+    }
+    let back = rest >= away[c];
+    let tau = entry.tau[c];
+    let lost = beer_absorptance(entry.tau, entry.left)[c];
+    let way = min(beer_depth(v.y * lost) / max(tau, 1e-30), 1.0);
+    let density = slab_left(slab, way / entry.z) * select(vec3f(1.0), entry.bounce, vec3<bool>(back))
+        / max(vec3f(1.0) - entry.bounce * entry.bounce, vec3f(1e-6));
+    let thr = density * (3.0 / max(density.x + density.y + density.z, 1e-37));
+    let xy = -o.xy / slab.ior;
+    return SlabPoint(select(way, 1.0 - way, back), vec3f(xy, select(entry.z, -entry.z, back)), thr);
+}
+
 // The light scattered at least once: an estimate of f |cos_i| for unit directions `o` and `i` in the frame of the
 // slab (o.z < 0 is the viewer's side; i.z < 0 reflects, i.z > 0 goes through), the first crossing of the side
 // left out. Unbiased; the walk ends by roulette, never by a count. `key` chooses its random numbers.
@@ -63,40 +126,76 @@ fn slab_scattered(slab: Slab, o: vec3f, i: vec3f, key: SampleKey) -> vec3f {
     let across = beer_transmittance(slab.tau / out_z);
     let bounce = across * f_out;
     // The solid angle shrinks by cos_i / (ior^2 out_z) on the way in.
-    let leave = vec3f(1.0 - f_out) / (vec3f(1.0) - bounce * bounce) * (cos_i / (slab.ior * slab.ior * out_z));
-    var dir = vec3f(-o.xy / slab.ior, slab_inside(slab, -o.z));
-    var depth = 0.0;
-    var thr = vec3f(1.0);
-    var sum = vec3f(0.0);
-    var at = key;
-    var survives = 1.0;
+    let leave = vec3f(1.0 - f_out) / max(vec3f(1.0) - bounce * bounce, vec3f(1e-6))
+        * (cos_i / (slab.ior * slab.ior * out_z));
+    let entry = slab_entry(slab, -o.z);
+    var sum = slab_once(slab, o, entry, towards, slab.tau / out_z, bounce);
+    var at = slab_next(key);
+    let first = slab_first(slab, o, entry, sample_2d(at, PURPOSE_SLAB));
+    var depth = first.depth;
+    var thr = first.thr;
+    var dir = hg_sample(first.dir, slab.g, sample_2d(at, PURPOSE_SLAB_TURN));
+    let share = (entry.share.x + entry.share.y + entry.share.z) / 3.0;
+    var survives = select(0.0, 1.0, share > 0.0);
     loop {
         // The only exit stands first, as Mesa's llvmpipe needs it (see `kernel/render.wgsl`).
         if (survives <= 0.0) { break; }
         thr /= survives;
-        // Another seed: as many independent numbers as the walk needs.
-        at.seed = at.seed * 0x9e3779b1u + 0x7f4a7c15u;
-        let v = sample_2d(at, PURPOSE_SLAB);
-        let step = slab_free_path(slab, thr, v);
+        at = slab_next(at);
+        let step = slab_free_path(slab, thr, sample_2d(at, PURPOSE_SLAB));
         let rest = select(1.0 - depth, depth, dir.z < 0.0) / max(abs(dir.z), 1e-6);
-        if (step >= rest) {
+        let f = slab_mirror(slab, abs(dir.z));
+        if (step >= rest && f < 1.0) {
             // To the side unscattered: what leaves there was counted before.
-            let f = slab_mirror(slab, abs(dir.z));
             thr *= slab_unscattered(slab, thr, rest) * f;
             depth = select(1.0, 0.0, dir.z < 0.0);
             dir.z = -dir.z;
         } else {
             thr *= slab_scatters(slab, thr, step);
-            depth = clamp(depth + dir.z * step, 0.0, 1.0);
+            let reached = slab_fold(depth, dir.z, step);
+            depth = reached.x;
+            dir.z = reached.y;
             let near = beer_transmittance(slab.tau * (select(1.0 - depth, depth, i.z < 0.0) / out_z));
             let far = beer_transmittance(slab.tau * (select(depth, 1.0 - depth, i.z < 0.0) / out_z)) * bounce;
-            sum += thr * (near * hg_pdf(dir, slab.g, towards) + far * hg_pdf(dir, slab.g, against)) * leave;
+            sum += thr * (near * hg_pdf(dir, slab.g, towards) + far * hg_pdf(dir, slab.g, against)) * share;
             dir = hg_sample(dir, slab.g, sample_2d(at, PURPOSE_SLAB_TURN));
         }
         survives = min(vector_max(thr), 1.0);
         survives = select(0.0, survives, sample_1d(at, PURPOSE_SLAB_END) < survives);
     }
-    return sum;
+    return sum * leave;
+}
+
+// The light scattered once towards `towards` inside, what the side does to it on its way out left out. `tau_out`:
+// optical depth across on the way out; `bounce`: what is left after that and a mirror.
+// Beams from both sides, each scattered to either side; a pair whose ways are mirror images has the same phase.
+fn slab_once(slab: Slab, o: vec3f, entry: SlabEntry, towards: vec3f, tau_out: vec3f, bounce: vec3f) -> vec3f {
+    let dir = vec3f(-o.xy / slab.ior, entry.z);
+    let straight = hg_pdf(dir, slab.g, towards);
+    let mirrored = hg_pdf(dir, slab.g, vec3f(towards.xy, -towards.z));
+    // Means over the depth, of ways in and out that grow together, and of ways of which one grows as the other shrinks.
+    let sum = entry.tau + tau_out;
+    let together = slab_mean(sum, beer_transmittance(sum));
+    let apart = abs(entry.tau - tau_out);
+    let opposed = beer_transmittance(min(entry.tau, tau_out)) * slab_mean(apart, beer_transmittance(apart));
+    let reflects = towards.z < 0.0;
+    let same = select(opposed, together, vec3<bool>(reflects));
+    let other = select(together, opposed, vec3<bool>(reflects));
+    let both = same * (vec3f(1.0) + entry.bounce * bounce) * straight + other * (entry.bounce + bounce) * mirrored;
+    return both * (slab.tau_s / entry.z) / max(vec3f(1.0) - entry.bounce * entry.bounce, vec3f(1e-6));
+}
+
+// Another seed: as many independent numbers as a walk needs.
+fn slab_next(key: SampleKey) -> SampleKey {
+    return SampleKey(key.pixel, key.sample, key.bounce, key.seed * 0x9e3779b1u + 0x7f4a7c15u);
+}
+
+// Depth and z of the direction after `step` from `depth` along `z`, thrown back at both sides as often as it takes.
+fn slab_fold(depth: f32, z: f32, step: f32) -> vec2f {
+    let far = depth + z * step;
+    let turn = far - 2.0 * floor(0.5 * far);
+    let back = turn > 1.0;
+    return vec2f(select(turn, 2.0 - turn, back), select(z, -z, back));
 }
 
 // A free path in thicknesses: `v.x` chooses the channel in proportion to `thr`, `v.y` the depth.

@@ -17,12 +17,13 @@ const LEAF: [(f32, f32, f32, f64); 6] = [
     (1.0, 1.0, 0.0, 0.05),
     (0.6, 0.8, -0.7, 0.3),
 ];
-/// Share of fuzz, radius of fuzz, of wax, scattering depth, mean cosine, index, cosine.
-const PETAL: [(f32, f32, f32, f32, f32, f64, f64); 4] = [
-    (0.15, 0.65, 0.2, 0.21, 0.7, 1.4, 0.8),
-    (0.0, 0.5, 0.05, 4.0, 0.0, 1.0, 0.3),
-    (0.5, 1.0, 0.6, 1.5, -0.6, 1.8, 0.95),
-    (0.15, 0.3, 0.2, 20.0, 0.9, 1.4, 0.1),
+/// Share of fuzz, radius of fuzz, of wax, index, cosine. Nothing scatters in the slab: its density is a stand-in.
+const PETAL: [(f32, f32, f32, f64, f64); 5] = [
+    (0.15, 0.65, 0.2, 1.4, 0.8),
+    (0.0, 0.5, 0.05, 1.01, 0.3),
+    (0.5, 1.0, 0.6, 1.8, 0.95),
+    (0.15, 0.3, 0.2, 1.4, 0.1),
+    (0.6, 0.9, 0.5, 2.0, 0.02),
 ];
 
 /// Chi-square tests here.
@@ -70,18 +71,9 @@ fn leaf_directions_have_their_density() {
 
 #[test]
 fn petal_directions_have_their_density() {
-    for (i, (weight, fuzz, roughness, depth, g, ior, mu)) in PETAL.into_iter().enumerate() {
+    for (i, (weight, fuzz, roughness, ior, mu)) in PETAL.into_iter().enumerate() {
         let lobe = Lobe { fuzz, roughness, ior, ..Lobe::new(MaterialKind::Petal) };
-        let (thickness_edge, thickness_middle) = (1.0, 1.0);
-        let record = Material {
-            weight,
-            g,
-            sigma_s: depth,
-            thickness_edge,
-            thickness_middle,
-            ..Material::default()
-        };
-        compare(750 + i, lobe, record, mu);
+        compare(750 + i, lobe, Material { weight, ..Material::default() }, mu);
     }
 }
 
