@@ -17,6 +17,7 @@ mod finish;
 mod fresnel;
 mod geometry;
 mod grain;
+mod hidden;
 mod inside;
 mod light;
 mod light_tree;
@@ -25,6 +26,7 @@ mod material;
 mod medium;
 mod motion;
 mod object;
+mod occlusion;
 mod order;
 mod pieces;
 mod power;
@@ -39,6 +41,7 @@ mod survey;
 mod texture;
 mod thick;
 mod trees;
+mod visibility;
 mod world;
 
 use glam::DVec3;
@@ -63,6 +66,7 @@ pub use rows::{Kept, Rows};
 pub use share::{Instancing, MIN_SAVED, MIN_TRIANGLES, UnknownInstancing};
 pub use texture::srgb_table;
 pub use trees::Trees;
+pub use visibility::{UnknownVisibility, Visibility};
 
 /// Lowers a scene. Faults of single instances are added to `diagnostics`.
 ///
@@ -108,7 +112,14 @@ pub fn lower(
     let mut lights = light::table(&emitters, &choices, &sections.lights);
     let motions = motion::displacements(&bodies.things, &frame);
     let motion = |light: &abi::Light| displacement(light, &sections, &motions);
-    let light_nodes = finish::light_tree(&mut lights, materials.records(), motion, stages);
+    let hidden = if trees.visibility == Visibility::Auto && motions.is_empty() && lights.len() > 1 {
+        let camera = &camera::camera(&scene.camera, &frame);
+        let (materials, lights, world) = (&materials, &lights[..], world.key());
+        hidden::lights(&hidden::Scene { camera, materials, lights, world, stages }, &sections)
+    } else {
+        Vec::new()
+    };
+    let light_nodes = finish::light_tree(&mut lights, &hidden, materials.records(), motion, stages);
     let (sky, sky_table) = finish::sky_records(sky, &lights);
     diagnostics.extend(finish::darkness(scene, &lights, sky.as_ref()));
 

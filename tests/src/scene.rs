@@ -5,7 +5,7 @@ use std::path::Path;
 use compiler::bvh::{Layout, Preset};
 use compiler::cache::Cache;
 use compiler::import::Limits;
-use compiler::lower::{Instancing, Trees};
+use compiler::lower::{Instancing, Trees, Visibility};
 use compiler::pipeline::{self, Compiled, Options};
 use lang::scene::Scene;
 use lang::source::{LoadError, Loader};
@@ -117,6 +117,16 @@ pub fn compile_with(root: &Path, text: &str, cache: &Cache) -> Compiled {
 pub fn compile_built(root: &Path, text: &str, preset: Preset, layout: Layout) -> Compiled {
     let cache = Cache::disabled();
     compile_as(root, text, Trees { preset, layout, ..Trees::usual(&cache) }, |_| {})
+}
+
+/// As `compile_in`, with lights weighed by what can see them, or not.
+///
+/// # Panics
+/// As `compile_in`.
+#[must_use]
+pub fn compile_lit(root: &Path, text: &str, visibility: Visibility) -> Compiled {
+    let cache = Cache::disabled();
+    compile_as(root, text, Trees { visibility, ..Trees::usual(&cache) }, |_| {})
 }
 
 /// As `compile_changed`, with or without meshes that are stored once, and with this layout of nodes.

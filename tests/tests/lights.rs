@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use pack::abi::{Light, LightNode};
+use compiler::lower::Visibility;
+use pack::abi::{LIGHT_LEAF, Light, LightNode};
 use pack::{Checked, Pack};
 use tests::console;
 use tests::picture::{self, Estimate, channel};
@@ -186,4 +187,94 @@ render main: path { camera = eye, film = f, samples = 96, depth = 16, seed = 1 }
             assert!(z.abs() < 4.0, "{a_name} and {b_name}: z = {z:.2}");
         }
     }
+}
+
+/// What a tree takes each light for, over its share of the power: the lamp in the open first, then three lamps
+/// in a room of `walls` around (3, 1, 0). The camera is at `from`.
+fn counted(walls: &str, from: &str, visibility: Visibility) -> Vec<f32> {
+    let dir = tempfile::tempdir().expect("dir");
+    let text = format!(
+        "rts 1
+light a: sphere {{ center = (0, 4, 0)m, radius = 10cm, color = linear(4) }}
+light b: sphere {{ center = (3.4, 1, 0)m, radius = 10cm, color = linear(40) }}
+light c: sphere {{ center = (2.6, 1.2, 0.3)m, radius = 10cm, color = linear(40) }}
+light d: sphere {{ center = (3, 0.6, -0.3)m, radius = 10cm, color = linear(40) }}
+material grey: diffuse {{ color = linear(0.5) }}
+material glass: dielectric {{ ior = 1.5 }}
+material paper: leaf {{ color = linear(0.5) }}
+instance floor {{ shape = rectangle(size: (20, 20)m), material = grey }}
+{walls}
+camera eye: perspective {{ from = {from}m, to = (3, 1, 0)m, fov.vertical = 40deg }}
+film f {{ size = (16, 16)px }}
+render main: path {{ camera = eye, film = f, samples = 16, depth = 6 }}
+"
+    );
+    let lowered = scene::compile_lit(dir.path(), &text, visibility).lowered;
+    let share = |(index, light): (u32, &Light)| {
+        let leaf = |node: &&LightNode| node.child == LIGHT_LEAF | index;
+        let node = lowered.light_nodes.iter().find(leaf).expect("every light has a leaf");
+        node.power / light.pmf
+    };
+    (0..).zip(&lowered.lights).map(share).collect()
+}
+
+/// All shares are powers of two, which are exact.
+fn bits(shares: &[f32]) -> Vec<u32> {
+    shares.iter().map(|share| share.to_bits()).collect()
+}
+
+#[test]
+fn lights_that_no_path_finds_count_less() {
+    let crate_of = |material: &str| {
+        format!(
+            "instance crate {{ shape = box(size: (2, 2, 2)m), material = {material}, at = (3, 1.001, 0)m }}"
+        )
+    };
+    let lid = "instance lid { shape = rectangle(size: (2, 2)m), material = grey, at = (3, 2, 0)m }";
+    let (outside, inside) = ("(0, 2, 6)", "(2.2, 1.6, 0.7)");
+    let (seen, hidden) = (1.0_f32.to_bits(), (1.0_f32 / 128.0).to_bits());
+    for (name, walls, from, expected) in [
+        ("closed crate", crate_of("grey"), outside, [seen, hidden, hidden, hidden]),
+        ("glass crate", crate_of("glass"), outside, [seen; 4]),
+        ("paper crate", crate_of("paper"), outside, [seen; 4]),
+        ("lid alone", lid.to_owned(), outside, [seen; 4]),
+        // What is outside has too little power to matter.
+        ("camera in the crate", crate_of("grey"), inside, [seen; 4]),
+    ] {
+        assert_eq!(bits(&counted(&walls, from, Visibility::Auto)), expected, "{name}");
+        assert_eq!(bits(&counted(&walls, from, Visibility::Never)), [seen; 4], "{name}");
+    }
+}
+
+#[test]
+fn hidden_lights_are_the_same_with_any_number_of_threads() {
+    let walls =
+        "instance crate { shape = box(size: (2, 2, 2)m), material = grey, at = (3, 1.001, 0)m }";
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| bits(&counted(walls, "(0, 2, 6)", Visibility::Auto)))
+    };
+    assert_eq!(with(1), with(3));
+}
+
+/// A floor under a faint lamp, with strong ones in a crate beside it, is as bright as without these.
+#[test]
+fn lights_in_a_closed_crate_change_no_picture() {
+    let dir = tempfile::tempdir().expect("dir");
+    std::fs::write(dir.path().join("square.obj"), square(2)).expect("writable");
+    // The lamp overhead gives `SQUARE`, one behind the camera's back, in a crate, nothing.
+    let text = floor(
+        "asset square = obj(\"square.obj\", unit: m, up: +y)
+material lamp: emissive { color = linear(1), sides = front }
+material glare: emissive { color = linear(100), sides = front }
+material wall: diffuse { color = linear(0.5) }
+instance panel { shape = square, material = lamp }
+instance shut { shape = square, material = glare, at = (0, 1, 20)m }
+instance crate { shape = box(size: (4, 4, 4)m), material = wall, at = (0, 2.01, 20)m }",
+    );
+    let compiled = scene::compile_in(dir.path(), &text);
+    let nodes = &compiled.lowered.light_nodes;
+    assert!(nodes[0].power < 0.02, "{}", nodes[0].power);
+    let pack = Pack::from_bytes(scene::bytes(&compiled)).expect("valid");
+    check("a crate with strong lamps", pack, 512, SQUARE);
 }

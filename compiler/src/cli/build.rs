@@ -17,7 +17,7 @@ use super::{inspect, mapped};
 use crate::bvh::{Layout, Preset};
 use crate::cache::Cache;
 use crate::depfile::depfile;
-use crate::lower::{Instancing, Trees, srgb_table};
+use crate::lower::{Instancing, Trees, Visibility, srgb_table};
 use crate::pipeline::{Compiled, Phase, Session};
 use crate::reads::Reads;
 use crate::report::Reporter;
@@ -51,6 +51,10 @@ pub(super) struct BuildArgs {
     /// picture is the same.
     #[arg(long, default_value_t, value_name = "WHEN")]
     instances: Instancing,
+    /// Learned visibility: `auto` traces rays to find lights that nothing in view receives, and samples them less
+    /// often; `never` leaves that out. The picture converges to the same.
+    #[arg(long, default_value_t, value_name = "WHEN")]
+    visibility: Visibility,
     /// BVH node layout: `wide` has up to four children with 8-bit quantised boxes; `binary` is larger, for
     /// comparison. The picture is the same.
     #[arg(long, default_value_t, value_name = "LAYOUT")]
@@ -106,6 +110,13 @@ fn build_or_watch(args: &BuildArgs, reporter: &Reporter) -> u8 {
     }
 }
 
+impl BuildArgs {
+    fn trees<'a>(&self, cache: &'a Cache) -> Trees<'a> {
+        let &Self { bvh: preset, nodes: layout, instances: instancing, visibility, .. } = self;
+        Trees { preset, layout, instancing, visibility, cache }
+    }
+}
+
 fn build_here(args: &BuildArgs, reporter: &Reporter, session: &Session) -> u8 {
     let start = Instant::now();
     let cache = if args.no_cache { Cache::disabled() } else { Cache::from_env() };
@@ -118,8 +129,7 @@ fn build_here(args: &BuildArgs, reporter: &Reporter, session: &Session) -> u8 {
         Ok(limits) => limits,
         Err(code) => return code,
     };
-    let trees =
-        Trees { preset: args.bvh, layout: args.nodes, instancing: args.instances, cache: &cache };
+    let trees = args.trees(&cache);
     let job = Job {
         scene: &args.scene.scene,
         root: &limits.root,

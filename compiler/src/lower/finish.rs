@@ -5,9 +5,11 @@ use lang::diagnostic::{Code, Diagnostic};
 use lang::scene::{Sampler, Scene, ToneMap};
 use pack::abi::{self, material_flag};
 
+use super::hidden;
 use super::light_tree;
 use super::sky::LoweredSky;
 use super::sky_table::SkyTable;
+
 use crate::normalize::Normalization;
 use crate::stage::{KeyOf, Stages};
 
@@ -17,9 +19,11 @@ pub(super) fn asks_about_objects(materials: &[abi::Material]) -> bool {
 }
 
 /// The tree of lights where there are many; tells each light its trail. `motion`: how far a light comes while the
-/// shutter is open. Where the primitives of lights are is nothing to the tree.
+/// shutter is open; `faint`: lights that count less, see `hidden.rs`, or empty. Where the primitives of lights are is
+/// nothing to the tree.
 pub(super) fn light_tree(
     lights: &mut [abi::Light],
+    faint: &[bool],
     materials: &[abi::Material],
     motion: impl Fn(&abi::Light) -> DVec3,
     stages: &Stages,
@@ -30,7 +34,9 @@ pub(super) fn light_tree(
     let flags = |material: u32| materials[material as usize].flags;
     let both_sides = |material| flags(material) & material_flag::EMIT_BOTH_SIDES != 0;
     let mut key = KeyOf::stage("tree of lights");
-    for light in &*lights {
+    let is_faint = |i: usize| faint.get(i).copied().unwrap_or(false);
+    for (i, light) in lights.iter().enumerate() {
+        key.number(is_faint(i));
         let light = abi::Light { trail: 0, primitive: 0, ..*light };
         key.bytes(bytemuck::bytes_of(&light)).floats(&motion(&light).to_array());
         let is_sky = light.kind == abi::LightKind::Sky as u32;
@@ -43,7 +49,8 @@ pub(super) fn light_tree(
         }
         return pack.records().to_vec();
     }
-    let (nodes, trails) = light_tree::tree(lights, both_sides, motion);
+    let factor = |i: usize| if is_faint(i) { hidden::HIDDEN } else { 1.0 };
+    let (nodes, trails) = light_tree::tree(lights, both_sides, motion, factor);
     for (light, trail) in lights.iter_mut().zip(trails) {
         light.trail = trail;
     }

@@ -6,6 +6,7 @@ use super::geometry::Placement;
 use super::lowered::Counters;
 use super::share::Instancing;
 use super::stored::Placed;
+use super::visibility::Visibility;
 use crate::bvh::{self, BuildReport, BvhError, Joined, Layout, Preset, Primitives, Shared};
 use crate::cache::Cache;
 use crate::normalize::Normalization;
@@ -19,6 +20,8 @@ pub struct Trees<'a> {
     pub layout: Layout,
     /// Which meshes are stored once.
     pub instancing: Instancing,
+    /// Whether lights are weighed by what can see them.
+    pub visibility: Visibility,
     /// Trees of earlier runs.
     pub cache: &'a Cache,
 }
@@ -28,7 +31,8 @@ impl<'a> Trees<'a> {
     #[must_use]
     pub fn usual(cache: &'a Cache) -> Self {
         let (preset, layout) = (Preset::default(), Layout::default());
-        Self { preset, layout, instancing: Instancing::default(), cache }
+        let (instancing, visibility) = (Instancing::default(), Visibility::default());
+        Self { preset, layout, instancing, visibility, cache }
     }
 
     /// All that changes what is made, for keys.

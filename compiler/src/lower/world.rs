@@ -92,7 +92,8 @@ pub(super) struct Placed {
 }
 
 impl<'a> World<'a> {
-    fn key(&self) -> Key {
+    /// Names all geometry.
+    pub(super) fn key(&self) -> Key {
         let mut key = KeyOf::stage("world");
         key.text(&self.trees.recipe()).number(self.inside).number(self.objects);
         self.bodies.read(self.materials, &mut key);

@@ -10,7 +10,7 @@ use super::explain::{Explain, Row};
 use super::files::{FileRead, relative};
 use super::options::Options;
 use crate::bvh::{Layout, Preset};
-use crate::lower::{Instancing, Lowered, Trees};
+use crate::lower::{Instancing, Lowered, Trees, Visibility};
 
 /// What a manifest is made from.
 pub(super) struct Context<'a> {
@@ -69,13 +69,15 @@ impl Context<'_> {
 
     /// What was asked for on the command line, where it is not what everybody gets.
     fn named_options(&self) -> Vec<String> {
-        let Trees { preset, layout, instancing, .. } = self.options.trees;
+        let Trees { preset, layout, instancing, visibility, .. } = self.options.trees;
         let bvh = (preset != Preset::default()).then(|| format!("--bvh {preset}"));
         let defines = self.options.defines.iter().map(|(n, v)| format!("-D {n}={v}"));
         let nodes = (layout != Layout::default()).then(|| format!("--nodes {layout}"));
         let instances =
             (instancing != Instancing::default()).then(|| format!("--instances {instancing}"));
-        defines.chain(bvh).chain(nodes).chain(instances).collect()
+        let visibility =
+            (visibility != Visibility::default()).then(|| format!("--visibility {visibility}"));
+        defines.chain(bvh).chain(nodes).chain(instances).chain(visibility).collect()
     }
 
     /// BLAKE3 over compiler version, tree builder, layout of nodes, overrides, scene texts and files.
@@ -90,6 +92,7 @@ impl Context<'_> {
         field(self.options.trees.preset.recipe().as_bytes());
         field(self.options.trees.layout.recipe().as_bytes());
         field(self.options.trees.instancing.to_string().as_bytes());
+        field(self.options.trees.visibility.to_string().as_bytes());
         for (name, value) in self.options.defines {
             field(name.as_bytes());
             field(value.as_bytes());

@@ -7,6 +7,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use compiler::lower::Visibility;
 use compiler::pipeline::Compiled;
 use cpu_time::ProcessTime;
 use pack::Pack;
@@ -25,6 +26,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     skies(&mut text)?;
     few(&mut text)?;
     many(&mut text)?;
+    hidden(&mut text)?;
     let target = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/lights.md");
     std::fs::write(&target, &text)?;
     tests::console::line(&text);
@@ -37,7 +39,8 @@ const HEADER: &str = "# How lights are chosen\n\n\
     heuristic. The light is taken from a table by its power, as far as it comes into the ball around everything \
     that is not a light itself; the sky counts with its flux through that ball. From two lights on a tree of \
     lights chooses by distance, by the directions that lights face and by the normal of the surface that is lit; of \
-    up to eight lights each is weighed by itself. The number that chooses a light also chooses the point on it. \
+    up to eight lights each is weighed by itself. Lights that none of the paths traced by `rtc` receives count for \
+    1/128 of their power (`--visibility never` leaves that out). The number that chooses a light also chooses the point on it. \
     Samples are independent here, so that noise does not depend on how many there are, unless a row says otherwise.\n\n\
     Noise is the variance of a pixel's samples over the square of the mean of the picture, averaged over pixels. \
     Cost is CPU microseconds for a sample of a pixel. Their product says how long a given error takes; lower is \
@@ -300,6 +303,62 @@ render main: path {{ camera = eye, film = f, samples = 16, depth = 4, sampler = 
 "
         );
         row(text, name, scene::compile_in(dir.path(), &scene_text))?;
+    }
+    Ok(())
+}
+
+/// As OBJ text: `n` small triangles, facing down, in a box around the origin with these half sides.
+fn swarm(n: usize, [x, y, z]: [f64; 3]) -> String {
+    let mut stream = Stream::new(2, 0);
+    let mut obj = String::new();
+    for i in 0..n {
+        let [a, b, c] = [x, y, z].map(|half| stream.between(-half, half));
+        let _ = writeln!(obj, "v {a} {b} {c}\nv {} {b} {c}\nv {a} {b} {}", a + 0.02, c + 0.02);
+        let _ = writeln!(obj, "f {} {} {}", 3 * i + 1, 3 * i + 2, 3 * i + 3);
+    }
+    obj
+}
+
+/// Ten thousand lamps, the strongest tenth of them in a closed crate, with and without learned visibility.
+fn hidden(text: &mut String) -> Result<(), Box<dyn std::error::Error>> {
+    text.push_str(
+        "\n## Ten thousand lamps, a tenth of them a hundred times as strong in a closed crate\n\n\
+         | sampler | all count: noise | cost | visibility learned: noise | cost | product, all over learned |\n\
+         |---|---|---|---|---|---|\n",
+    );
+    let dir = tempfile::tempdir()?;
+    std::fs::write(dir.path().join("open.obj"), swarm(LIGHTS - LIGHTS / 10, [6.0, 0.2, 6.0]))?;
+    std::fs::write(dir.path().join("shut.obj"), swarm(LIGHTS / 10, [0.9, 0.7, 0.9]))?;
+    for (name, sampler) in [("independent", "pcg"), ("Sobol", "sobol")] {
+        let scene_text = format!(
+            "rts 1
+asset open = obj(\"open.obj\", unit: m, up: +y)
+asset shut = obj(\"shut.obj\", unit: m, up: +y)
+material glow: emissive {{ color = linear(1), strength = 20, sides = front }}
+material glare: emissive {{ color = linear(1), strength = 2000, sides = front }}
+material grey: diffuse {{ color = linear(0.6) }}
+instance lamps {{ shape = open, material = glow, at = (0, 3, 0)m }}
+instance strong {{ shape = shut, material = glare, at = (0, 1, 0)m }}
+instance floor {{ shape = rectangle(size: (14, 14)m), material = grey }}
+instance crate {{ shape = box(size: (2, 2, 2)m), material = grey, at = (0, 1.001, 0)m }}
+camera eye: perspective {{ from = (0, 2.6, 6)m, to = (0, 0.4, 0.5)m, fov.vertical = 24deg }}
+film f {{ size = (64, 48)px }}
+render main: path {{ camera = eye, film = f, samples = 16, depth = 4, sampler = {sampler} }}
+"
+        );
+        let of = |visibility| {
+            measure(&scene::bytes(&scene::compile_lit(dir.path(), &scene_text, visibility)), 0)
+        };
+        let (all, learned) = (of(Visibility::Never)?, of(Visibility::Auto)?);
+        let _ = writeln!(
+            text,
+            "| {name} | {:.3} | {:.2} | {:.3} | {:.2} | {:.2}x |",
+            all.noise,
+            all.cost,
+            learned.noise,
+            learned.cost,
+            all.product() / learned.product(),
+        );
     }
     Ok(())
 }
