@@ -163,6 +163,7 @@ impl Row {
                 depth: sample.segments,
                 overflows: u64::from(sample.stack_errors & 0xffff),
                 leaks: u64::from(sample.stack_errors >> 16),
+                removed: 0.0,
             });
         }
     }

@@ -151,7 +151,8 @@ impl Checkpoint {
     }
 
     fn text(&self) -> String {
-        let Counters { rays, bad, first_bad, depth, overflows, leaks } = self.film.counters;
+        let Counters { rays, bad, first_bad, depth, overflows, leaks, removed } =
+            self.film.counters;
         let mut text = format!("rtr {RTR}\n");
         let mut line = |name: &str, value: &str| {
             // Writing to a string cannot fail.
@@ -172,6 +173,9 @@ impl Checkpoint {
             ("leaks", leaks),
         ] {
             line(name, &n.to_string());
+        }
+        if removed > 0.0 {
+            line("removed", &removed.to_string());
         }
         if let Some(first) = first_bad {
             line("first_bad", &first.to_string());
@@ -271,6 +275,7 @@ fn parse(lines: &BTreeMap<&str, &str>, bytes: &[u8]) -> Option<Result<Checkpoint
         depth: small("depth")?,
         overflows: number("overflows")?,
         leaks: number("leaks")?,
+        removed: lines.get("removed").map_or(Some(0.0), |text| text.parse().ok())?,
     };
     let identity = Identity {
         render_id: (*lines.get("render_id")?).to_owned(),
@@ -278,6 +283,7 @@ fn parse(lines: &BTreeMap<&str, &str>, bytes: &[u8]) -> Option<Result<Checkpoint
         crop,
         seed: small("seed")?,
         estimator: small("estimator")?,
+        clamp_indirect: (*lines.get("clamp_indirect").unwrap_or(&"off")).to_owned(),
         precision: (*lines.get("precision")?).to_owned(),
     };
     let device = (*lines.get("device")?).to_owned();
@@ -307,14 +313,22 @@ mod tests {
             *sum = [1.0 / (i as f64 + 3.0), [f64::INFINITY, f64::NAN][i % 2], -0.0];
         }
         let first_bad = Some(BadSample { x: 2, y: 3, sample: 4 });
-        film.counters =
-            Counters { rays: 1 << 40, bad: 2, first_bad, depth: 7, overflows: 1, leaks: 5 };
+        film.counters = Counters {
+            rays: 1 << 40,
+            bad: 2,
+            first_bad,
+            depth: 7,
+            overflows: 1,
+            leaks: 5,
+            removed: 0.1,
+        };
         let identity = Identity {
             render_id: "00ff".to_owned(),
             image_size: [9, 8],
             crop,
             seed: u32::MAX,
             estimator: 1,
+            clamp_indirect: "2.5".to_owned(),
             precision: "f64".to_owned(),
         };
         let samples = SampleRange { start: 3, end: 100 };

@@ -20,5 +20,5 @@ pub use self::goal::{Goal, Measure, Quantity};
 pub use self::plot::{chart_png, chart_svg};
 pub use self::reference::{Reference, Versus};
 pub use self::track::{Convergence, Point, Times};
-pub(crate) use self::track::{Moment, Tracker};
+pub(crate) use self::track::{Decision, Moment, Tracker};
 pub use crate::replicate::{REPLICATES, luminance, moments, replicate_seed};

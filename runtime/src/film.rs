@@ -9,6 +9,7 @@ use crate::replicate::{REPLICATES, REPLICATES_U32, luminance, moments};
 use crate::schedule::WorkItem;
 use crate::zeros::{NoMemory, zeros};
 use pack::abi::FilmPixel;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -30,7 +31,7 @@ impl fmt::Display for BadSample {
 }
 
 /// What was counted beside the radiance.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Counters {
     /// Rays traced: camera, bounce and shadow.
     pub rays: u64,
@@ -44,6 +45,8 @@ pub struct Counters {
     pub overflows: u64,
     /// Times that a path left a thing which it had never entered: a mesh is open or inside out.
     pub leaks: u64,
+    /// Sum of the luminance that `Job::clamp_indirect` has taken away from the samples.
+    pub removed: f64,
 }
 
 impl Counters {
@@ -55,6 +58,7 @@ impl Counters {
         self.depth = self.depth.max(other.depth);
         self.overflows += other.overflows;
         self.leaks += other.leaks;
+        self.removed += other.removed;
     }
 }
 
@@ -148,6 +152,14 @@ impl Film {
         (0..self.sums.len()).map(|i| self.mean(i)).collect()
     }
 
+    /// Share of the light that `Counters::removed` is, from 0 to 1; 0 where there is no light.
+    #[must_use]
+    pub fn removed(&self) -> f64 {
+        let kept = self.sums.iter().map(|sum| luminance(*sum)).sum::<f64>();
+        let removed = self.counters.removed;
+        if removed > 0.0 { removed / (removed + kept) } else { 0.0 }
+    }
+
     /// Fewest and most samples that any pixel has.
     #[must_use]
     pub fn samples(&self) -> (u32, u32) {
@@ -187,9 +199,43 @@ struct Plane {
     sums: Vec<[f32; 3]>,
     /// Tiles that arrived.
     done: Vec<Rect>,
-    /// Pixels that have neither arrived nor failed.
+    /// Pixels of the pass.
+    pixels: u64,
+    /// Those that have neither arrived nor failed.
     left: u64,
     counters: Counters,
+    /// `Counters::removed` in units of `REMOVED`: whole numbers, so that the sum does not depend on the tiles.
+    removed: u128,
+}
+
+/// Luminance of every pixel in every replicate.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lumas<'a> {
+    /// Sums over the samples.
+    pub(crate) sums: &'a [[f64; REPLICATES]],
+    /// Samples of a replicate where a pixel has most.
+    pub(crate) samples: u32,
+    /// Samples of every pixel, all replicates together.
+    pub(crate) counts: &'a [u32],
+}
+
+impl<'a> Lumas<'a> {
+    /// Sums, and what makes means of them.
+    pub(crate) fn means(&self) -> (Cow<'a, [[f64; REPLICATES]]>, f64) {
+        let whole = self.samples * REPLICATES_U32;
+        if self.counts.iter().all(|count| *count == whole) {
+            return (Cow::Borrowed(self.sums), 1.0 / f64::from(self.samples.max(1)));
+        }
+        let mean = |(sums, count): (&[f64; REPLICATES], &u32)| {
+            sums.map(|sum| sum / f64::from((count / REPLICATES_U32).max(1)))
+        };
+        (self.sums.iter().zip(self.counts).map(mean).collect(), 1.0)
+    }
+
+    /// Samples of all pixels together.
+    pub(crate) fn total(&self) -> u64 {
+        self.counts.iter().map(|count| u64::from(*count)).sum()
+    }
 }
 
 /// Collects tiles in any order and adds whole batches to the film in ascending order.
@@ -205,6 +251,16 @@ pub(crate) struct Accumulator {
     per_replicate: u32,
     /// Batches that may be open at once.
     most_open: usize,
+}
+
+/// Luminance that is as good as none: 2^-40.
+const REMOVED: f64 = 1.0 / (1_u64 << 40) as f64;
+
+/// Luminance in units of `REMOVED`. All that `f32` holds fits, but for the largest, which are cut off.
+fn units(luminance: f32) -> u128 {
+    #[expect(clippy::cast_possible_truncation, reason = "saturates on purpose")]
+    let units = (f64::from(luminance) / REMOVED) as u128;
+    units
 }
 
 /// Bytes of open batches, unless a single round of batches takes more: a block that hangs must not make
@@ -255,8 +311,8 @@ impl Accumulator {
     }
 
     /// Sums of luminance of each replicate, and the samples behind each sum.
-    pub(crate) fn lumas(&self) -> (&[[f64; REPLICATES]], u32) {
-        (&self.lumas, self.per_replicate)
+    pub(crate) fn lumas(&self) -> Lumas<'_> {
+        Lumas { sums: &self.lumas, samples: self.per_replicate, counts: &self.film.counts }
     }
 
     fn replicates(&self) -> usize {
@@ -268,12 +324,13 @@ impl Accumulator {
         &self.film
     }
 
-    /// Announces a batch, for which there `has_room`. Batches must be announced in ascending order,
+    /// Announces a batch of so many pixels, for which there `has_room`. Batches must be announced in ascending order,
     /// before their first tile.
-    pub(crate) fn open(&mut self, samples: SampleRange, replicate: u32) {
+    pub(crate) fn open(&mut self, samples: SampleRange, replicate: u32, pixels: u64) {
         let sums = self.spare.pop().expect("whoever opens a batch has asked for room");
-        let left = self.film.region.pixels();
-        let plane = Plane { samples, sums, done: Vec::new(), left, counters: Counters::default() };
+        let left = pixels;
+        let (done, counters) = (Vec::new(), Counters::default());
+        let plane = Plane { samples, sums, done, pixels, left, counters, removed: 0 };
         self.open.insert((samples.start, replicate), plane);
     }
 
@@ -286,13 +343,13 @@ impl Accumulator {
         let plane = plane.expect("tiles belong to open batches");
         for (row, y) in pixels.chunks_exact(tile.w as usize).zip(tile.y..) {
             for (pixel, x) in row.iter().zip(tile.x..) {
-                let bad = BadSample { x, y, sample: pixel.first_bad };
+                let bad = BadSample { x, y, sample: samples.start + pixel.first_bad() };
                 plane.counters.rays += u64::from(pixel.rays);
                 plane.counters.depth = plane.counters.depth.max(pixel.depth);
                 plane.counters.overflows += u64::from(pixel.stack_errors & 0xffff);
                 plane.counters.leaks += u64::from(pixel.stack_errors >> 16);
-                if pixel.bad > 0 {
-                    plane.counters.bad += u64::from(pixel.bad);
+                if pixel.n_bad() > 0 {
+                    plane.counters.bad += u64::from(pixel.n_bad());
                     let first = plane.counters.first_bad;
                     if first.is_none_or(|first| (y, x) < (first.y, first.x)) {
                         plane.counters.first_bad = Some(bad);
@@ -303,6 +360,9 @@ impl Accumulator {
                 *sum = pixel.sum;
             }
             at += region_w;
+        }
+        for pixel in pixels {
+            plane.removed = plane.removed.saturating_add(units(pixel.removed));
         }
         plane.done.push(tile);
         plane.left -= tile.pixels();
@@ -329,12 +389,13 @@ impl Accumulator {
 
     /// A round with a tile that was given up never becomes whole.
     fn add_rounds(&mut self) {
-        let whole = self.film.region.pixels();
-        let arrived = |plane: &Plane| plane.done.iter().map(|tile| tile.pixels()).sum::<u64>();
+        let is_whole = |plane: &Plane| {
+            plane.pixels == plane.done.iter().map(|tile| tile.pixels()).sum::<u64>()
+        };
         while let Some((&(start, _), plane)) = self.open.first_key_value() {
             let count = plane.samples.count();
             let round = self.open.range((start, 0)..(start, REPLICATES_U32));
-            if round.filter(|(_, plane)| arrived(plane) == whole).count() < REPLICATES {
+            if round.filter(|(_, plane)| is_whole(plane)).count() < REPLICATES {
                 return;
             }
             for replicate in 0..REPLICATES {
@@ -347,16 +408,17 @@ impl Accumulator {
     }
 
     fn add(&mut self, plane: Plane, replicate: usize) {
-        if !self.lumas.is_empty() {
-            for (lumas, sum) in self.lumas.iter_mut().zip(&plane.sums) {
-                lumas[replicate] += luminance(sum.map(f64::from));
-            }
-        }
         let region_w = self.film.region.w as usize;
         for tile in &plane.done {
             let mut at = self.film.index(tile.x, tile.y);
             for _ in 0..tile.h {
                 let row = at..at + tile.w as usize;
+                if !self.lumas.is_empty() {
+                    let row = self.lumas[row.clone()].iter_mut().zip(&plane.sums[row.clone()]);
+                    for (lumas, sum) in row {
+                        lumas[replicate] += luminance(sum.map(f64::from));
+                    }
+                }
                 for (sum, batch) in
                     self.film.sums[row.clone()].iter_mut().zip(&plane.sums[row.clone()])
                 {
@@ -370,7 +432,8 @@ impl Accumulator {
                 at += region_w;
             }
         }
-        self.film.counters.add(&plane.counters);
+        let removed = plane.removed as f64 * REMOVED;
+        self.film.counters.add(&Counters { removed, ..plane.counters });
         // That of the first replicate stands for all.
         insert_range(&mut self.film.ranges, plane.samples);
         self.spare.push(plane.sums);
@@ -380,9 +443,9 @@ impl Accumulator {
     /// of that batch that arrived: better than nothing, and marked by uneven counts.
     pub(crate) fn finish(mut self) -> Film {
         if self.replicates() > 1 {
-            let scale = 1.0 / f64::from(self.per_replicate.max(1));
-            let variance = |sums: &[f64; REPLICATES]| moments(sums, scale).1;
-            self.film.variance = self.lumas.iter().map(variance).collect();
+            let (sums, scale) = self.lumas().means();
+            let variance = sums.iter().map(|sums| moments(sums, scale).1).collect();
+            self.film.variance = variance;
             return self.film;
         }
         if self.film.ranges.is_empty()
@@ -432,7 +495,7 @@ mod tests {
             let mut sum = Accumulator::new(Film::new([20, 10], REGION)).unwrap();
             for batch in &batches {
                 assert!(sum.has_room());
-                sum.open(*batch, 0);
+                sum.open(*batch, 0, REGION.pixels());
             }
             for &i in order {
                 let (batch, rect) = (batches[i / 2], halves()[i % 2]);
@@ -452,7 +515,7 @@ mod tests {
         let mut sum = Accumulator::new(Film::new([20, 10], REGION)).unwrap();
         for batch in range(0, 32).batches() {
             assert!(sum.has_room());
-            sum.open(batch, 0);
+            sum.open(batch, 0, REGION.pixels());
         }
         sum.deposit(&item(range(0, 16), REGION), &tile(REGION, range(0, 16)));
         sum.deposit(&item(range(16, 32), halves()[0]), &tile(halves()[0], range(16, 32)));
@@ -463,7 +526,7 @@ mod tests {
     #[test]
     fn tiles_of_a_first_batch_that_never_ended_are_kept_and_marked() {
         let mut sum = Accumulator::new(Film::new([20, 10], REGION)).unwrap();
-        sum.open(range(0, 16), 0);
+        sum.open(range(0, 16), 0, REGION.pixels());
         sum.deposit(&item(range(0, 16), halves()[1]), &tile(halves()[1], range(0, 16)));
         let film = sum.finish();
         assert_eq!((film.samples(), film.is_even()), ((0, 16), false));
@@ -473,7 +536,7 @@ mod tests {
     #[test]
     fn a_given_up_tile_does_not_hold_the_others_back() {
         let mut sum = Accumulator::new(Film::new([20, 10], REGION)).unwrap();
-        sum.open(range(0, 16), 0);
+        sum.open(range(0, 16), 0, REGION.pixels());
         sum.give_up(&item(range(0, 16), halves()[0]));
         sum.deposit(&item(range(0, 16), halves()[1]), &tile(halves()[1], range(0, 16)));
         assert_eq!(sum.film().samples(), (0, 16));
@@ -483,11 +546,10 @@ mod tests {
     fn the_first_bad_sample_is_the_topmost_of_the_earliest_batch() {
         let run = |order: [usize; 2]| {
             let mut sum = Accumulator::new(Film::new([20, 10], REGION)).unwrap();
-            sum.open(range(0, 16), 0);
+            sum.open(range(0, 16), 0, REGION.pixels());
             for i in order {
                 let mut pixels = tile(halves()[i], range(0, 16));
-                pixels[9].bad = 2;
-                pixels[9].first_bad = 5;
+                pixels[9].bad = (5 << 16) | 2;
                 sum.deposit(&item(range(0, 16), halves()[i]), &pixels);
             }
             sum.finish().counters
@@ -505,12 +567,12 @@ mod tests {
         // 805 MB a batch, of which the memory is not touched.
         let mut sum = Accumulator::new(film).unwrap();
         assert!(sum.has_room());
-        sum.open(range(0, 16), 0);
+        sum.open(range(0, 16), 0, 1);
         assert!(!sum.has_room());
         let mut small = Accumulator::new(Film::new([20, 10], REGION)).unwrap();
         for batch in range(0, 16 * 99).batches() {
             assert!(small.has_room());
-            small.open(batch, 0);
+            small.open(batch, 0, REGION.pixels());
         }
     }
 
@@ -520,7 +582,7 @@ mod tests {
         for (samples, last) in [(range(0, 1), 4), (range(1, 2), 3)] {
             for replicate in 0..4 {
                 assert!(sum.has_room());
-                sum.open(samples, replicate);
+                sum.open(samples, replicate, REGION.pixels());
             }
             for replicate in 0..last {
                 let mut pixels = tile(REGION, samples);
@@ -530,7 +592,7 @@ mod tests {
                 sum.deposit(&WorkItem { replicate, ..item(samples, REGION) }, &pixels);
             }
         }
-        assert_eq!(sum.lumas().1, 1);
+        assert_eq!(sum.lumas().samples, 1);
         let film = sum.finish();
         assert_eq!((film.samples(), film.replicates()), ((4, 4), 4));
         assert_eq!(film.ranges, [range(0, 1)]);

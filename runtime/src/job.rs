@@ -47,6 +47,9 @@ pub struct Job {
     /// Estimator switch of the kernel: 0 MIS (balance), 1 light samples only, 2 BSDF samples only,
     /// 3 MIS (power 2).
     pub estimator: u32,
+    /// Largest channel that the indirect light of a sample may have, in the units of the picture; more is scaled
+    /// down to it. `None`: it is left as it is.
+    pub clamp_indirect: Option<f32>,
     /// Precision of the CPU kernel; GPUs know `F32` only.
     pub precision: Precision,
     /// Whether the CPU kernel walks wide nodes by hand-written code, which changes no bit of the picture;
@@ -108,6 +111,7 @@ impl Job {
             samples: SampleRange { start: 0, end: settings.samples.max(1) },
             seed: settings.seed,
             estimator: 0,
+            clamp_indirect: None,
             precision: Precision::F32,
             native_walk: true,
             time_limit: None,

@@ -19,6 +19,7 @@
 
 #[cfg(feature = "gpu")]
 pub mod ablation;
+mod allocation;
 pub mod check;
 mod checkpoint;
 pub mod cli;

@@ -101,6 +101,7 @@ mod tests {
             samples: SampleRange { start: 0, end: 1 },
             seed: 0,
             estimator: 0,
+            clamp_indirect: None,
             precision: crate::job::Precision::F32,
             native_walk: true,
             time_limit: None,

@@ -136,6 +136,8 @@ fn meta(scene: &Scene, job: &Job) -> Meta {
         render_id: scene.render_id(),
         seed: job.seed,
         estimator: job.estimator,
+        clamp_indirect: job.clamp_indirect,
+        adaptive: job.measure.as_ref().is_some_and(|measure| measure.adaptive),
         precision: job.precision.name().to_owned(),
         exposure: scene.settings().exposure,
         tone_map: scene.settings().tone_map,

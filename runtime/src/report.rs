@@ -44,6 +44,9 @@ pub struct Report {
     pub seed: u32,
     /// Pictures of independent noise.
     pub replicates: usize,
+    /// What indirect light was clamped to, and the share of the light that this has taken away; `null` where it
+    /// was not.
+    pub clamp_indirect: Option<Clamped>,
     /// Size of the picture.
     pub resolution: Resolution,
     /// Why it ended: `complete`, `time limit`, `error reached`, `interrupted`, `failed`.
@@ -56,6 +59,15 @@ pub struct Report {
     pub counters: Counts,
     /// The curve.
     pub checkpoints: Vec<Row>,
+}
+
+/// What `--clamp-indirect` has done.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Clamped {
+    /// Largest channel of the indirect light of a sample.
+    pub most: f32,
+    /// Share of all light that was taken away, from 0 to 1.
+    pub removed: f64,
 }
 
 /// What was counted over the whole run.
@@ -194,6 +206,9 @@ impl Report {
             device: outcome.picture.meta.device.clone(),
             seed: job.seed,
             replicates: REPLICATES,
+            clamp_indirect: job
+                .clamp_indirect
+                .map(|most| Clamped { most, removed: outcome.film().removed() }),
             resolution: Resolution {
                 image: job.image_size,
                 crop: [crop.x, crop.y, crop.w, crop.h],

@@ -3,7 +3,7 @@
 //! Everything that decides about the picture happens here, under one lock; backends only turn work
 //! items into pixels. A tile that fails is reported and left out, the others go on.
 
-use crate::convergence::{Convergence, Moment, Times, Tracker};
+use crate::convergence::{Convergence, Decision, Moment, Times, Tracker};
 use crate::film::{Accumulator, Film};
 use crate::job::Job;
 use crate::outcome::{Outcome, TileFailure};
@@ -109,6 +109,7 @@ impl<'a> Run<'a> {
             Some(measure) => {
                 scheduler = scheduler.in_rounds(REPLICATES_U32);
                 let tracker = Tracker::new(measure.clone(), job.crop.w);
+                tracker.decision().into_iter().for_each(|end| scheduler.up_to(end));
                 (Accumulator::in_rounds(film)?, Some(tracker))
             }
         };
@@ -185,7 +186,8 @@ impl<'a> Run<'a> {
         state.scheduler.hold(!has_room);
         let claim = state.scheduler.claim(now.saturating_sub(first), size);
         if let Claim::FirstOf(item) = claim {
-            state.sum.open(item.samples, item.replicate);
+            let pixels = state.scheduler.pixels(item.samples);
+            state.sum.open(item.samples, item.replicate, pixels);
         }
         claim
     }
@@ -220,7 +222,7 @@ impl<'a> Run<'a> {
             state.last = ended;
             state.readback += ended.saturating_sub(began);
             self.track(&mut state);
-            if self.strict && pixels.iter().any(|pixel| pixel.bad > 0) {
+            if self.strict && pixels.iter().any(|pixel| pixel.n_bad() > 0) {
                 state.scheduler.stop(Stop::Failed);
             }
             let rays = pixels.iter().map(|pixel| u64::from(pixel.rays)).sum();
@@ -237,14 +239,22 @@ impl<'a> Run<'a> {
     fn track(&self, state: &mut State) {
         let now = state.moment();
         let State { sum, tracker: Some(tracker), scheduler, .. } = state else { return };
-        let (sums, samples) = sum.lumas();
-        if !tracker.is_news(samples) {
+        let lumas = sum.lumas();
+        if !tracker.is_news(lumas.samples) {
             return;
         }
-        if let Some(point) = tracker.round(now, sums, samples) {
+        if let Some(point) = tracker.round(now, &lumas) {
             self.signals.note(&point.to_string());
-            if tracker.is_met() {
-                scheduler.stop(Stop::ErrorReached);
+            match tracker.decide() {
+                None => {}
+                Some(Decision::UpTo(end)) => {
+                    if let Some(allocation) = tracker.allocate(&lumas) {
+                        self.signals.note(&allocation.to_string());
+                        scheduler.allocate(allocation);
+                    }
+                    scheduler.up_to(end);
+                }
+                Some(Decision::Met) => scheduler.stop(Stop::ErrorReached),
             }
         }
     }
@@ -361,9 +371,8 @@ impl Shared {
         let device = None;
         drop(state);
         let convergence = tracker.map(|tracker| {
-            let (sums, samples) = sum.lumas();
             let times = Times { compile, readback, device, ..Times::default() };
-            tracker.finish(sums, samples, times)
+            tracker.finish(&sum.lumas(), times)
         });
         Some(Finished { film: sum.finish(), stop, failures, elapsed, convergence, devices })
     }

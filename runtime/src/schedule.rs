@@ -7,6 +7,7 @@
 //! where not even one sample of every pixel fits, some pixels have it and the others have none. It does
 //! not render and reads no clock: the caller says what time it is.
 
+use crate::allocation::Allocation;
 use crate::region::{Rect, SampleRange, Tiler};
 use pack::abi::BATCH;
 use std::time::Duration;
@@ -79,6 +80,28 @@ struct Pass {
     samples: SampleRange,
     replicate: u32,
     tiler: Tiler,
+    /// Parts of the region that follow the one of `tiler`, the next one last.
+    parts: Vec<Rect>,
+}
+
+impl Pass {
+    /// Of at least one part, the first one last.
+    fn new(samples: SampleRange, replicate: u32, mut parts: Vec<Rect>) -> Option<Self> {
+        let tiler = Tiler::new(parts.pop()?);
+        Some(Self { samples, replicate, tiler, parts })
+    }
+
+    /// The next tile.
+    fn next(&mut self, size: TileSize<'_>) -> Option<WorkItem> {
+        let Self { samples, replicate, tiler, parts } = self;
+        loop {
+            if let Some(tile) = tiler.next(size(samples.count())) {
+                let (samples, replicate) = (*samples, *replicate);
+                return Some(WorkItem { tile, samples, replicate, probe: false });
+            }
+            *tiler = Tiler::new(parts.pop()?);
+        }
+    }
 }
 
 /// The state of a run.
@@ -98,6 +121,10 @@ pub(crate) struct Scheduler {
     probe_side: u32,
     /// Whether no further pass may begin now.
     is_held: bool,
+    /// First sample that no pass may have yet.
+    ceiling: Option<u32>,
+    /// Which parts of the region a pass covers; `None`: all.
+    allocation: Option<Allocation>,
     /// Whether nothing is handed out any more.
     is_over: bool,
     started: Option<Duration>,
@@ -124,6 +151,8 @@ impl Scheduler {
             probes,
             probe_side: PROBE_SIDE,
             is_held: false,
+            ceiling: None,
+            allocation: None,
             is_over: false,
             started: None,
             under_way: 0,
@@ -177,6 +206,29 @@ impl Scheduler {
         self.is_held = is_held;
     }
 
+    /// Passes end before sample `end`, and none begins there: `claim` says `Wait` until there is another end,
+    /// and `Done` if nothing is left that could give one.
+    pub(crate) fn up_to(&mut self, end: u32) {
+        self.ceiling = Some(end);
+    }
+
+    /// From now on passes cover what `allocation` says.
+    pub(crate) fn allocate(&mut self, allocation: Allocation) {
+        self.allocation = Some(allocation);
+    }
+
+    /// Pixels of a pass over `samples`.
+    pub(crate) fn pixels(&self, samples: SampleRange) -> u64 {
+        self.parts(samples).iter().map(|part| part.pixels()).sum()
+    }
+
+    fn parts(&self, samples: SampleRange) -> Vec<Rect> {
+        match &self.allocation {
+            None => vec![self.region],
+            Some(allocation) => allocation.parts(self.region, samples),
+        }
+    }
+
     fn next(&mut self, now: Duration, size: TileSize<'_>) -> Claim {
         if let Some(item) = self.next_probe(now) {
             return Claim::Work(item);
@@ -197,11 +249,8 @@ impl Scheduler {
             }
             return self.start_pass(now, size);
         }
-        if let Some(Pass { samples, replicate, tiler }) = &mut self.pass
-            && let Some(tile) = tiler.next(size(samples.count()))
-        {
-            let (samples, replicate) = (*samples, *replicate);
-            return Claim::Work(WorkItem { tile, samples, replicate, probe: false });
+        if let Some(item) = self.pass.as_mut().and_then(|pass| pass.next(size)) {
+            return Claim::Work(item);
         }
         if let Some(Pass { samples, replicate, .. }) = self.pass
             && replicate + 1 < self.replicates
@@ -259,9 +308,10 @@ impl Scheduler {
         let Some(rest) = self.rest.filter(|_| self.stop.is_none() && !self.is_held) else {
             return self.ended();
         };
-        let mut pass = self.first_part(rest);
+        let Some(mut pass) = self.first_part(rest) else { return self.ended() };
         if let Some(limit) = self.limit {
-            let fits = self.samples_in(limit.saturating_sub(now), now);
+            let whole = self.samples_in(limit.saturating_sub(now), now);
+            let fits = whole.saturating_mul(self.region.pixels()) / self.pixels(pass).max(1);
             if fits < u64::from(pass.count()) * u64::from(self.replicates) {
                 self.stop = Some(Stop::TimeLimit);
                 match self.part_in_time(pass, fits) {
@@ -279,21 +329,22 @@ impl Scheduler {
         if self.is_held {
             return self.ended();
         }
-        let mut tiler = Tiler::new(self.region);
-        let tile = tiler.next(size(samples.count())).expect("a region has pixels");
-        self.pass = Some(Pass { samples, replicate, tiler });
-        Claim::FirstOf(WorkItem { tile, samples, replicate, probe: false })
+        self.pass = Pass::new(samples, replicate, self.parts(samples));
+        let first = self.pass.as_mut().and_then(|pass| pass.next(size));
+        Claim::FirstOf(first.expect("a region has pixels, and so has every pass"))
     }
 
     /// The next pass: a batch. The first batch of replicates is cut at 1, 2, 4 and 8 samples, so that
     /// there is something to see early.
-    fn first_part(&self, rest: SampleRange) -> SampleRange {
+    fn first_part(&self, rest: SampleRange) -> Option<SampleRange> {
         let batch = rest.first_batch();
+        let batch =
+            SampleRange::new(batch.start, self.ceiling.map_or(batch.end, |c| c.min(batch.end)))?;
         if self.replicates == 1 || batch.start >= BATCH {
-            return batch;
+            return Some(batch);
         }
         let end = (2 * batch.start).max(1).min(batch.end);
-        SampleRange { start: batch.start, end }
+        Some(SampleRange { start: batch.start, end })
     }
 
     /// What of the last pass still fits. The very first one always has at least one sample; it is broken
@@ -513,6 +564,25 @@ mod tests {
         let (items, _) = run(&mut scheduler, 1.0);
         assert!(items.iter().all(|item| item.samples == range(0, 1)));
         assert_eq!((items.last().unwrap().replicate, scheduler.why()), (3, Stop::ErrorReached));
+    }
+
+    #[test]
+    fn no_pass_goes_beyond_the_next_decision() {
+        let mut scheduler = Scheduler::new(REGION, Some(range(0, 64)), None).in_rounds(4);
+        scheduler.up_to(20);
+        let (items, _) = run(&mut scheduler, 1.0);
+        assert_eq!(items.last().map(|item| item.samples), Some(range(16, 20)));
+        scheduler.up_to(1000);
+        let (items, _) = run(&mut scheduler, 1.0);
+        assert_eq!(items.first().map(|item| item.samples), Some(range(20, 32)));
+        assert_eq!(items.last().map(|item| item.samples), Some(range(48, 64)));
+        let mut scheduler = Scheduler::new(REGION, Some(range(0, 64)), None).in_rounds(4);
+        scheduler.up_to(1);
+        let Claim::FirstOf(_) = scheduler.claim(ZERO, &|_| 1 << 20) else { panic!("no work") };
+        for _ in 1..4 {
+            assert!(matches!(scheduler.claim(ZERO, &|_| 1 << 20), Claim::FirstOf(_)));
+        }
+        assert_eq!(scheduler.claim(ZERO, &|_| 1 << 20), Claim::Wait);
     }
 
     #[test]

@@ -119,6 +119,7 @@ impl Scene {
             instance_at,
             root: settings.root,
             estimator: job.estimator,
+            clamp_indirect: job.clamp_indirect.unwrap_or(0.0),
             sampler: settings.sampler,
             air: settings.air,
             fog: settings.fog,

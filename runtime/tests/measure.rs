@@ -139,6 +139,59 @@ fn replicates_are_no_parts_and_cannot_be_resumed() {
 }
 
 #[test]
+fn the_same_seed_stops_at_the_same_sample_on_any_number_of_threads() {
+    let folder = folder();
+    let folder = folder.path();
+    let run = |name: &str, threads: &str, more: &[&str]| {
+        let args = ["marbles.pack", "--crop", "0,24,72,16", "--until-error", "0.01", "-o", name];
+        let log = said(folder, &[&args[..], &["--threads", threads], more].concat());
+        assert!(log.contains("error reached"), "{log}");
+        (log, runtime::output::read_exr(&folder.join(name)).expect("a picture"))
+    };
+    let same = |a: &runtime::Film, b: &runtime::Film| {
+        assert_eq!((&a.ranges, &a.counts), (&b.ranges, &b.counts));
+        assert!(a.sums == b.sums && a.variance == b.variance);
+    };
+    let [(_, one), (_, two)] = [run("a.exr", "1", &[]), run("b.exr", "2", &[])];
+    assert!(!one.meta.adaptive && one.film.is_even());
+    same(&one.film, &two.film);
+    let [(log, one), (_, two)] =
+        [run("c.exr", "1", &["--adaptive"]), run("d.exr", "2", &["--adaptive"])];
+    same(&one.film, &two.film);
+    assert!(one.meta.adaptive && !one.film.is_even(), "{log}");
+    assert!(log.contains("adaptive: from here on a block of 8x8 pixels gets "), "{log}");
+    assert!(log.contains("--adaptive gave pixels "), "{log}");
+    let output = rtr(folder, &["marbles.pack", "-o", "e.exr", "--adaptive"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("--until-error"), "{}", text(&output.stderr));
+}
+
+#[test]
+fn what_clamping_took_away_is_told() {
+    let folder = folder();
+    let folder = folder.path();
+    let args = ["marbles.pack", "-o", "a.exr", "--spp", "16", "--report", "a.json"];
+    let log = said(folder, &[&args[..], &["--clamp-indirect", "0.01"]].concat());
+    assert!(log.contains("--clamp-indirect 0.01 removed ") && log.contains("is biased"), "{log}");
+    let json: serde_json::Value = serde_json::from_str(&read(folder, "a.json")).expect("JSON");
+    let removed = json["clamp_indirect"]["removed"].as_f64().expect("a number");
+    assert!(removed > 0.0 && removed < 1.0, "{removed}");
+    let picture = runtime::output::read_exr(&folder.join("a.exr")).expect("a picture");
+    assert_eq!(picture.meta.clamp_indirect, Some(0.01));
+    assert!((picture.film.removed() - removed).abs() < 1e-6);
+    let log = said(folder, &args);
+    assert!(!log.contains("clamp"), "{log}");
+    let json: serde_json::Value = serde_json::from_str(&read(folder, "a.json")).expect("JSON");
+    assert_eq!(json["clamp_indirect"], serde_json::Value::Null);
+    for value in ["0", "-1", "inf", "nan", "much"] {
+        let value = format!("--clamp-indirect={value}");
+        let output = rtr(folder, &["marbles.pack", "-o", "b.exr", &value]);
+        assert_eq!(output.status.code(), Some(2), "{value}");
+        assert!(text(&output.stderr).contains("a number above 0, such as 10"), "{value}");
+    }
+}
+
+#[test]
 fn two_packs_are_compared_in_equal_time() {
     let folder = folder();
     let folder = folder.path();

@@ -103,6 +103,7 @@ fn a_checkpoint_of_another_run_is_refused_in_one_line() {
     refused(&["--spp", SPP, "--crop", "0,0,8,8"], "crop is 0,0,72,40 there and 0,0,8,8 here");
     refused(&["--spp", SPP, "--estimator", "bsdf"], "estimator is 0 there and 2 here");
     refused(&["--spp", SPP, "--precision", "f64"], "precision is f32 there and f64 here");
+    refused(&["--spp", SPP, "--clamp-indirect", "2"], "clamp_indirect is off there and 2 here");
     refused(&["--spp", "64"], "samples is 0..320 there and 0..64 here");
     let kernel = shaders::link(&common::features()).expect("it links").text + "\n";
     let other = common::pack_with_kernel(&kernel);

@@ -153,7 +153,7 @@ render main: path { camera = eye, film = f, samples = 16, depth = 4, seed = 1 }
 ";
     let goal = "0.01".parse().ok();
     let outcome =
-        measured(scene::pack(black), [16, 16], 1 << 20, Measure { goal, reference: None });
+        measured(scene::pack(black), [16, 16], 1 << 20, Measure { goal, ..Measure::default() });
     assert_eq!(outcome.stop, Stop::ErrorReached);
     let point = last(&outcome);
     assert!(point.spp < 10_000, "{}", point.spp);

@@ -143,6 +143,10 @@ pub(super) struct ErrorArgs {
     /// --spp and --time still apply; whichever is reached first ends the run.
     #[arg(long, value_name = "[p95:]X")]
     pub(super) until_error: Option<Goal>,
+    /// Give parts of the picture whose error is small already fewer samples, decided once after 64 spp. Needs
+    /// --until-error. The picture is slightly biased; its header says so.
+    #[arg(long, requires = "until_error")]
+    pub(super) adaptive: bool,
     /// Converged EXR picture of the same pixels to compare with, preferably made with --report, which
     /// stores its variance.
     #[arg(long, value_name = "REF.exr")]
@@ -234,6 +238,11 @@ pub(super) struct RenderArgs {
     /// Seed of the image [default: that of the scene].
     #[arg(long, value_name = "N")]
     pub(super) seed: Option<u32>,
+    /// Scale the indirect light of every sample down so that no channel exceeds VALUE: fewer fireflies, but a
+    /// picture that is too dark. Emission that is seen directly and direct light at the first surface are
+    /// left alone. The header of the EXR says so, and how much light was removed.
+    #[arg(long, value_name = "VALUE", value_parser = parse_clamp)]
+    pub(super) clamp_indirect: Option<f32>,
     /// Stop after this render time, such as 60s, 1m30s or 500ms, within 10 % or a second. The picture is
     /// evenly sampled, unless the time is too short for one sample of every pixel.
     #[arg(long, value_name = "TIME", value_parser = parse_duration)]
@@ -351,6 +360,13 @@ fn parse_samples(text: &str) -> Result<SampleRange, String> {
         .ok_or(
             "write it as 0..32: from the first index up to, not including, the second".to_owned(),
         )
+}
+
+fn parse_clamp(text: &str) -> Result<f32, String> {
+    match text.parse() {
+        Ok(most) if most > 0.0 && most < f32::INFINITY => Ok(most),
+        _ => Err("a number above 0, such as 10".to_owned()),
+    }
 }
 
 fn parse_threads(text: &str) -> Result<usize, String> {

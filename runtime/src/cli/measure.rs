@@ -75,7 +75,7 @@ pub(super) fn prepare(args: &RenderArgs, console: &Console, job: &mut Job) -> Re
         _ => job.samples.count(),
     };
     job.samples = SampleRange { start: 0, end: spp.div_ceil(REPLICATES_U32) };
-    job.measure = Some(Measure { goal, reference });
+    job.measure = Some(Measure { goal, adaptive: error.adaptive, reference });
     Ok(())
 }
 

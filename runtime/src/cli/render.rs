@@ -179,6 +179,7 @@ fn job(args: &RenderArgs, scene: &Scene) -> Job {
     job.strict = args.strict;
     job.submission = args.submission;
     job.estimator = args.estimator as u32;
+    job.clamp_indirect = args.clamp_indirect;
     job.precision = match args.precision {
         PrecisionArg::F32 => Precision::F32,
         PrecisionArg::F64 => Precision::F64,
@@ -428,8 +429,19 @@ fn report(console: &Console, outcome: &Outcome, job: &Job) {
             "warning: the time was enough for {share:.1} % of the pixels, the others are black; give it \
              more, or render less with --size or --crop"
         ));
+    } else if least != most && outcome.picture.meta.adaptive {
+        let mean = film.total_samples() as f64 / film.counts.len().max(1) as f64;
+        console.note(&format!(
+            "--adaptive gave pixels {least} to {most} samples, {mean:.0} on average: the picture is slightly biased"
+        ));
     } else if least != most {
         console.warn(&format!("warning: pixels have between {least} and {most} samples"));
+    }
+    if let Some(most) = job.clamp_indirect {
+        console.note(&format!(
+            "--clamp-indirect {most} removed {:.2} % of the light: the picture is biased",
+            100.0 * film.removed(),
+        ));
     }
     if let Some(error) = &outcome.device_error {
         let kept =

@@ -10,6 +10,8 @@ use std::sync::Arc;
 pub struct Measure {
     /// When the picture is good enough; `None`: only samples and time end the run.
     pub goal: Option<Goal>,
+    /// Whether parts of the picture whose error is small already get fewer samples.
+    pub adaptive: bool,
     /// What the picture converges to, where that is known.
     pub reference: Option<Arc<Reference>>,
 }
@@ -17,14 +19,13 @@ pub struct Measure {
 /// Which error is to become small.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// `Noise::rel`, at the upper end of its interval.
+    /// `Noise::rel`, with its standard error.
     Rel,
     /// `Noise::p95`.
     P95,
 }
 
-/// When a picture is good enough: at two points in a row the quantity is at most `limit`, with 64
-/// samples or more and without a heavy tail.
+/// When a picture is good enough: from 64 samples on, when the quantity is at most `limit`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Goal {
     /// What is looked at.

@@ -1,12 +1,15 @@
 //! Rounds of replicates → points of the error curve, and when the picture is good enough.
 //!
 //! It reads no clock: the run says what time it is. Points lie at 4, 8, ... 64 samples, then at every
-//! 1.25-fold time, never so close that measuring takes more than 0.5 % of the time.
+//! 1.25-fold time, never so close that measuring takes more than 0.5 % of the time. Where there is a goal
+//! more of them lie where it may be met; these follow from the samples alone, and so does the end of the run.
 
-use super::estimate::{Noise, noise};
+use super::estimate::{Noise, noise, squared_error};
 use super::goal::{Goal, Measure, Quantity};
 use super::reference::Versus;
-use crate::replicate::{REPLICATES, REPLICATES_U32};
+use crate::allocation::Allocation;
+use crate::film::Lumas;
+use crate::replicate::REPLICATES_U32;
 use std::fmt;
 use std::time::{Duration, Instant};
 
@@ -19,14 +22,44 @@ const PATIENCE: f64 = 200.0;
 /// Points behind a slope.
 const SLOPE_POINTS: usize = 4;
 
+/// Samples of a replicate between two decisions are a multiple of this ...
+const GRAIN: u32 = 4;
+/// ... and at least this share of those that there are.
+const LEAST: u32 = 32;
+
 impl Goal {
-    fn is_met_by(&self, point: &Point) -> bool {
+    /// The square of what there is over what is wanted: how many times as many samples plain Monte Carlo needs.
+    fn excess(&self, noise: &Noise) -> f64 {
         let value = match self.quantity {
-            Quantity::Rel => point.noise.rel_hi,
-            Quantity::P95 => point.noise.p95,
+            Quantity::Rel => noise.rel_safe(),
+            Quantity::P95 => noise.p95,
         };
-        value <= self.limit && point.spp >= EARLY && point.noise.top <= 0.5
+        (value / self.limit).powi(2)
     }
+}
+
+/// What to do after a round at which the goal was to be looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Decision {
+    /// Render up to so many samples of each replicate and look again.
+    UpTo(u32),
+    /// The goal is met.
+    Met,
+}
+
+/// When to look again, after `samples` of each replicate: most of the way to where the goal is expected. Well
+/// spread samples get there sooner than plain Monte Carlo, and the error is not known well to begin with.
+fn look_again(samples: u32, excess: f64) -> u32 {
+    // Not a number, too: then nothing is known.
+    let factor = if excess < 2.0_f64.powf(4.0 / 3.0) { excess.powf(0.75) } else { 2.0 };
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "saturates, 0 or more"
+    )]
+    let more = (f64::from(samples) * (factor - 1.0)) as u32;
+    let more = more.clamp((samples / LEAST).max(1), 1 << 31).next_multiple_of(GRAIN);
+    samples.saturating_add(more)
 }
 
 /// One point of an error curve.
@@ -146,7 +179,7 @@ pub(crate) struct Moment {
 pub(crate) struct Tracker {
     measure: Measure,
     /// Columns of the picture.
-    width: usize,
+    width: u32,
     points: Vec<Point>,
     /// Seconds of rendering at which the next point is due.
     next: f64,
@@ -156,13 +189,26 @@ pub(crate) struct Tracker {
     seen: u32,
     /// When the last one became so.
     latest: Moment,
+    /// Samples of each replicate at which the goal is looked at next.
+    decision: Option<u32>,
 }
 
 impl Tracker {
     pub(crate) fn new(measure: Measure, width: u32) -> Self {
         let (points, estimate) = (Vec::new(), Duration::ZERO);
-        let (width, latest) = (width as usize, Moment::default());
-        Self { measure, width, points, next: 0.0, first_frame: 0.0, estimate, seen: 0, latest }
+        let latest = Moment::default();
+        let decision = measure.goal.map(|_| EARLY / REPLICATES_U32);
+        Self {
+            measure,
+            width,
+            points,
+            next: 0.0,
+            first_frame: 0.0,
+            estimate,
+            seen: 0,
+            latest,
+            decision,
+        }
     }
 
     /// Whether rounds up to `samples` samples were not seen yet.
@@ -171,12 +217,8 @@ impl Tracker {
     }
 
     /// A round is whole: each sum is of `samples` samples. Gives a point when one is due.
-    pub(crate) fn round(
-        &mut self,
-        now: Moment,
-        sums: &[[f64; REPLICATES]],
-        samples: u32,
-    ) -> Option<&Point> {
+    pub(crate) fn round(&mut self, now: Moment, lumas: &Lumas<'_>) -> Option<&Point> {
+        let samples = lumas.samples;
         self.latest = now;
         if self.first_frame == 0.0 {
             self.first_frame = now.elapsed.as_secs_f64();
@@ -184,11 +226,12 @@ impl Tracker {
         let spp = samples * REPLICATES_U32;
         let early = spp <= EARLY && spp.is_power_of_two();
         let seconds = self.rendering(now);
-        if !early && seconds < self.next {
+        let decides = self.decision.is_some_and(|decision| samples >= decision);
+        if !early && !decides && seconds < self.next {
             return None;
         }
         let began = Instant::now();
-        self.measure(now, sums, samples);
+        self.measure(now, lumas);
         let cost = began.elapsed();
         self.estimate += cost;
         self.next = (seconds * STEP).max(seconds + PATIENCE * cost.as_secs_f64());
@@ -200,20 +243,21 @@ impl Tracker {
         now.elapsed.saturating_sub(self.estimate).as_secs_f64()
     }
 
-    fn measure(&mut self, now: Moment, sums: &[[f64; REPLICATES]], samples: u32) {
-        let scale = 1.0 / f64::from(samples);
-        let noise = noise(sums, self.width, scale);
+    fn measure(&mut self, now: Moment, lumas: &Lumas<'_>) {
+        let (sums, scale) = lumas.means();
+        let noise = noise(&sums, scale);
         let reference = self.measure.reference.as_ref();
-        let spp = samples * REPLICATES_U32;
+        let samples = lumas.total();
+        let spp = samples.checked_div(sums.len() as u64).unwrap_or(0);
         self.points.push(Point {
             t_render: self.rendering(now),
             t_total: now.total.as_secs_f64(),
-            spp,
-            samples: u64::from(spp) * sums.len() as u64,
+            spp: u32::try_from(spp).unwrap_or(u32::MAX),
+            samples,
             rays: now.rays,
             bad: now.bad,
             noise,
-            versus: reference.map(|reference| reference.judge(sums, scale, noise.e)),
+            versus: reference.map(|reference| reference.judge(&sums, scale, noise.e)),
             slope: None,
         });
         let slope = slope(&self.points);
@@ -222,24 +266,45 @@ impl Tracker {
         }
     }
 
-    /// Whether the last two points reach the goal.
-    pub(crate) fn is_met(&self) -> bool {
-        let Some(goal) = self.measure.goal else { return false };
-        let met = |point: &Point| goal.is_met_by(point);
-        matches!(&self.points[..], [.., a, b] if met(a) && met(b))
+    /// Samples of each replicate that may be rendered before the next decision, if there is a goal.
+    pub(crate) fn decision(&self) -> Option<u32> {
+        self.decision
+    }
+
+    /// What the last point means for the goal, if that was to be looked at.
+    pub(crate) fn decide(&mut self) -> Option<Decision> {
+        let (goal, decision) = (self.measure.goal?, self.decision?);
+        let point = self.points.last()?;
+        let samples = self.seen;
+        if samples < decision {
+            return None;
+        }
+        let excess = goal.excess(&point.noise);
+        if excess <= 1.0 {
+            return Some(Decision::Met);
+        }
+        let next = look_again(samples, excess);
+        self.decision = Some(next);
+        Some(Decision::UpTo(next))
+    }
+
+    /// Which parts of the picture get fewer samples, if that is wanted and not said yet.
+    pub(crate) fn allocate(&mut self, lumas: &Lumas<'_>) -> Option<Allocation> {
+        if !std::mem::take(&mut self.measure.adaptive) {
+            return None;
+        }
+        let (sums, scale) = lumas.means();
+        let e = self.points.last()?.noise.e;
+        let squares: Vec<f64> = sums.iter().map(|sums| squared_error(sums, scale, e)).collect();
+        Some(Allocation::new(&squares, self.width))
     }
 
     /// The curve, with a point at the end of it.
-    pub(crate) fn finish(
-        mut self,
-        sums: &[[f64; REPLICATES]],
-        samples: u32,
-        times: Times,
-    ) -> Convergence {
-        let last = self.points.last().map_or(0, |point| point.spp);
-        if samples > 0 && last != samples * REPLICATES_U32 {
+    pub(crate) fn finish(mut self, lumas: &Lumas<'_>, times: Times) -> Convergence {
+        let last = self.points.last().map_or(0, |point| point.samples);
+        if lumas.samples > 0 && last != lumas.total() {
             let began = Instant::now();
-            self.measure(self.latest, sums, samples);
+            self.measure(self.latest, lumas);
             self.estimate += began.elapsed();
         }
         let times = Times {
@@ -287,24 +352,35 @@ mod tests {
     }
 
     fn tracker(goal: &str, points: Vec<Point>) -> Tracker {
-        let measure = Measure { goal: Some(goal.parse().unwrap()), reference: None };
-        Tracker { points, ..Tracker::new(measure, 8) }
+        let measure = Measure { goal: Some(goal.parse().unwrap()), ..Measure::default() };
+        let seen = points.last().map_or(0, |point| point.spp / REPLICATES_U32);
+        Tracker { points, seen, ..Tracker::new(measure, 8) }
     }
 
     #[test]
-    fn a_goal_needs_two_points_in_a_row_at_the_upper_end() {
-        let good = point(1.0, 0.009);
-        let bad = point(1.0, 0.0095);
-        assert!(tracker("0.01", vec![good, good]).is_met());
-        assert!(!tracker("0.01", vec![good]).is_met());
-        assert!(!tracker("0.01", vec![good, bad]).is_met());
-        assert!(!tracker("0.01", vec![good, bad, good]).is_met());
-        assert!(tracker("p95:0.03", vec![good, bad]).is_met());
-        assert!(!tracker("p95:0.02", vec![good, bad]).is_met());
-        let few = Point { spp: 32, ..good };
-        assert!(!tracker("0.01", vec![few, few]).is_met());
-        let tail = Point { noise: Noise { top: 0.6, ..good.noise }, ..good };
-        assert!(!tracker("0.01", vec![tail, tail]).is_met());
+    fn a_goal_is_met_by_the_error_and_its_standard_error() {
+        // The interval ends at 1.1 times the error: its square is 0.21 above, a standard error is 0.107.
+        let safe = 0.009 * 1.107_f64.sqrt();
+        assert!((point(1.0, 0.009).noise.rel_safe() - safe).abs() < 1e-6);
+        let decide = |goal: &str, point| tracker(goal, vec![point]).decide();
+        assert_eq!(decide("0.0095", point(1.0, 0.009)), Some(Decision::Met));
+        assert_eq!(decide("p95:0.028", point(1.0, 0.009)), Some(Decision::Met));
+        assert_eq!(decide("p95:0.026", point(1.0, 0.009)), Some(Decision::UpTo(68)));
+        let few = Point { spp: 32, ..point(1.0, 0.009) };
+        assert_eq!(decide("0.0095", few), None);
+        let unknown = point(1.0, f64::NAN);
+        assert_eq!(decide("0.0095", unknown), Some(Decision::UpTo(128)));
+    }
+
+    #[test]
+    fn decisions_come_closer_together_near_the_goal() {
+        assert_eq!(look_again(16, 1.01), 20);
+        assert_eq!(look_again(16, 100.0), 32);
+        assert_eq!(look_again(64, f64::INFINITY), 128);
+        assert_eq!(look_again(6400, 1.0001), 6600);
+        // 1.5^0.75 = 1.355.
+        assert_eq!(look_again(1000, 1.5), 1356);
+        assert_eq!(look_again(u32::MAX - 1, 4.0), u32::MAX);
     }
 
     #[test]
@@ -343,7 +419,9 @@ mod tests {
         for samples in [1, 2, 4, 8, 16].into_iter().chain((40..=320).step_by(16)) {
             let elapsed = Duration::from_secs(u64::from(samples));
             let now = Moment { elapsed, total: elapsed, rays: 0, bad: 0 };
-            spp.extend(tracker.round(now, &sums, samples).map(|point| point.spp));
+            let counts = [4 * samples; 16];
+            let lumas = Lumas { sums: &sums, samples, counts: &counts };
+            spp.extend(tracker.round(now, &lumas).map(|point| point.spp));
         }
         // After 16 s at every 1.25-fold time, at the next multiple of 16 s after 40 s.
         assert_eq!(spp, [4, 8, 16, 32, 64, 160, 224, 288, 416, 544, 736, 928, 1184]);

@@ -5,7 +5,9 @@
 //! `variance.Y` is the variance of the mean luminance, in pictures that are the mean of replicates.
 //! `samples` is there where pixels have different numbers of samples.
 
-use super::picture::{Meta, OutputError, Picture, parse_ranges, ranges_text};
+use super::picture::{
+    Meta, OutputError, Picture, clamp_text, parse_clamp, parse_ranges, ranges_text,
+};
 use crate::film::{BadSample, Counters, Film};
 use crate::region::{Rect, SampleRange};
 use ::exr::meta::MetaData;
@@ -92,7 +94,7 @@ fn attributes_of(picture: &Picture) -> Vec<(Text, AttributeValue)> {
     let Picture { film, meta } = picture;
     let text = |s: &str| AttributeValue::Text(Text::new_or_none(s).unwrap_or_default());
     let number = |n: u64| text(&n.to_string());
-    let Counters { rays, bad, first_bad, depth, overflows, leaks } = film.counters;
+    let Counters { rays, bad, first_bad, depth, overflows, leaks, removed } = film.counters;
     let mut list = vec![
         ("render_id", text(&meta.render_id)),
         ("spp", AttributeValue::I32(signed(film.samples().1))),
@@ -113,6 +115,15 @@ fn attributes_of(picture: &Picture) -> Vec<(Text, AttributeValue)> {
     ];
     if let Some(first) = first_bad {
         list.push(("first_bad_sample", text(&first.to_string())));
+    }
+    if meta.adaptive {
+        list.push(("adaptive", text("1")));
+    }
+    // Only where it is on: a picture without it is what it always was.
+    if meta.clamp_indirect.is_some() {
+        list.push(("clamp_indirect", text(&clamp_text(meta.clamp_indirect))));
+        list.push(("clamp_indirect_removed", AttributeValue::F64(removed)));
+        list.push(("clamp_indirect_removed_share", AttributeValue::F64(film.removed())));
     }
     list.into_iter().map(|(name, value)| (Text::from(name), value)).collect()
 }
@@ -168,6 +179,11 @@ fn parse(image: &ReadImage, fields: &Fields<'_>) -> Result<(Film, Meta), String>
         render_id: fields.text("render_id")?,
         seed: fields.number("seed")?,
         estimator: fields.number("estimator")?,
+        clamp_indirect: match fields.text("clamp_indirect") {
+            Ok(text) => parse_clamp(&text).ok_or("`clamp_indirect` is malformed")?,
+            Err(_) => None,
+        },
+        adaptive: fields.number::<u32>("adaptive").is_ok_and(|n| n == 1),
         precision: fields.text("precision")?,
         device: fields.text("device")?,
         seconds: fields.float("seconds")?,
@@ -184,6 +200,7 @@ fn parse(image: &ReadImage, fields: &Fields<'_>) -> Result<(Film, Meta), String>
         depth: fields.number("longest_path")?,
         overflows: fields.number("media_overflows")?,
         leaks: fields.number("media_leaks")?,
+        removed: fields.float("clamp_indirect_removed").unwrap_or(0.0),
     };
     Ok((parse_film(image, ranges, counters)?, meta))
 }

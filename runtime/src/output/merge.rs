@@ -1,6 +1,6 @@
 //! Parts of one picture → the picture: sums added in `f64`, ranges joined.
 
-use super::picture::{Meta, Picture, ranges_text};
+use super::picture::{Meta, Picture, clamp_text, ranges_text};
 use crate::job::Job;
 use crate::region::{Rect, insert_range};
 use crate::scene::Scene;
@@ -132,6 +132,8 @@ pub struct Identity {
     pub seed: u32,
     /// Estimator switch of the kernel.
     pub estimator: u32,
+    /// What indirect light was clamped to, `off` if it was not.
+    pub clamp_indirect: String,
     /// Precision of the kernel: `f32` or `f64`.
     pub precision: String,
 }
@@ -146,6 +148,7 @@ impl Identity {
             crop: job.crop,
             seed: job.seed,
             estimator: job.estimator,
+            clamp_indirect: clamp_text(job.clamp_indirect),
             precision: job.precision.name().to_owned(),
         }
     }
@@ -157,12 +160,13 @@ impl Identity {
             crop: picture.film.region,
             seed: picture.meta.seed,
             estimator: picture.meta.estimator,
+            clamp_indirect: clamp_text(picture.meta.clamp_indirect),
             precision: picture.meta.precision.clone(),
         }
     }
 
     /// Name and value of everything, as people read it.
-    pub(crate) fn rows(&self) -> [(&'static str, String); 6] {
+    pub(crate) fn rows(&self) -> [(&'static str, String); 7] {
         let [w, h] = self.image_size;
         [
             ("render_id", self.render_id.clone()),
@@ -170,6 +174,7 @@ impl Identity {
             ("crop", self.crop.to_string()),
             ("seed", self.seed.to_string()),
             ("estimator", self.estimator.to_string()),
+            ("clamp_indirect", self.clamp_indirect.clone()),
             ("precision", self.precision.clone()),
         ]
     }

@@ -24,6 +24,10 @@ pub struct Meta {
     pub seed: u32,
     /// Estimator switch of the kernel; 0 except in tests.
     pub estimator: u32,
+    /// `Job::clamp_indirect`.
+    pub clamp_indirect: Option<f32>,
+    /// Whether parts of the picture have fewer samples because of what they looked like.
+    pub adaptive: bool,
     /// Precision of the kernel: `f32` or `f64`.
     pub precision: String,
     /// Devices that rendered it, in order.
@@ -93,4 +97,17 @@ pub(crate) fn parse_ranges(text: &str) -> Option<Vec<SampleRange>> {
         }
     }
     Some(ranges)
+}
+
+/// What indirect light is clamped to, as headers say it.
+pub(crate) fn clamp_text(clamp: Option<f32>) -> String {
+    clamp.map_or("off".to_owned(), |most| most.to_string())
+}
+
+/// The inverse of `clamp_text`.
+pub(crate) fn parse_clamp(text: &str) -> Option<Option<f32>> {
+    match text {
+        "off" => Some(None),
+        number => number.parse().ok().map(Some),
+    }
 }

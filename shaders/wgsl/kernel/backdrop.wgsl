@@ -21,7 +21,7 @@ fn render(@builtin(global_invocation_id) gid: vec3<u32>) {
         if (sample == end) { break; }
         let key = sample_key(pixel, sample, frame.seed);
         let ray = dispatch_camera(key, vec2f(pixel) + sample_2d(key, PURPOSE_PIXEL));
-        film_add(&film, dispatch_sky(ray.dir), sample, 1u);
+        film_add(&film, dispatch_sky(ray.dir), sample - frame.sample_first, 1u);
         film.rays += 1u;
         sample += 1u;
     }

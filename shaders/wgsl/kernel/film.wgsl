@@ -7,21 +7,29 @@ const FILM_CUT: u32 = 0xffffffffu;
 
 // No sample yet.
 fn film_empty() -> FilmPixel {
-    return FilmPixel(vec3f(0.0), 0u, 0u, 0u, 0u, 0u);
+    return FilmPixel(vec3f(0.0), 0u, 0u, 0.0, 0u, 0u);
 }
 
-// Adds sample number `sample`. A sample that is not finite adds 0, still counts, and is remembered: leaving
+// Adds sample number `sample` of the dispatch. A sample that is not finite adds 0, still counts, and is remembered: leaving
 // it out of the count would weigh the rest more.
 fn film_add(film: ptr<function, FilmPixel>, radiance: vec3f, sample: u32, segments: u32) {
     if (film_finite(radiance.x) && film_finite(radiance.y) && film_finite(radiance.z)) {
         (*film).sum += radiance;
     } else {
         if ((*film).bad == 0u) {
-            (*film).first_bad = sample;
+            (*film).bad = sample << 16u;
         }
         (*film).bad += 1u;
     }
     (*film).depth = max((*film).depth, segments);
+}
+
+// Counts light that was taken away from a sample.
+fn film_remove(film: ptr<function, FilmPixel>, radiance: vec3f) {
+    let luminance = dot(radiance, vec3f(0.2126, 0.7152, 0.0722));
+    if (film_finite(luminance)) {
+        (*film).removed += luminance;
+    }
 }
 
 // Says that nothing of the pixel is true where the driver has stopped running its loops. Mesa's llvmpipe gives all

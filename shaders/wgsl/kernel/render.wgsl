@@ -2,6 +2,7 @@
 // thread begins the next one at once, so that lanes do not wait for the longest path.
 
 #import "kernel/film.wgsl"
+#import "kernel/indirect.wgsl"
 #import "kernel/path.wgsl"
 #import "sampler/key.wgsl"
 #import "scene/crossing.wgsl"
@@ -26,7 +27,9 @@ fn render(@builtin(global_invocation_id) gid: vec3<u32>) {
         path_advance(&path, trace(path_ray(path)));
         if (path_ended(path)) {
             let sample = path.key.sample;
-            film_add(&film, path.radiance, sample, path.segments);
+            let kept = indirect_clamped(&path);
+            film_add(&film, kept, sample - frame.sample_first, path.segments);
+            film_remove(&film, path.radiance - kept);
             film.stack_errors += dispatch_stack_errors(&path);
             path = path_begin(sample_key(pixel, sample + 1u, frame.seed), pixel);
         }

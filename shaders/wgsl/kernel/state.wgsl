@@ -15,6 +15,10 @@ struct Path {
     radiance: vec3f,
     // Segments traced.
     segments: u32,
+    // What of `radiance` is direct light, from the second scattering on; see `indirect.wgsl`.
+    direct: vec3f,
+    // Times it was scattered.
+    scattered: u32,
     // Product of f |cos| / pdf over the vertices, roulette included.
     throughput: vec3f,
     // Product of eta^2: what refraction has taken from `throughput` for good until the path comes out again.
@@ -53,7 +57,7 @@ struct Path {
 // A path that is about to leave the camera along `ray`.
 fn state_at_camera(key: SampleKey, ray: CameraRay) -> Path {
     return Path(
-        key, vec3f(0.0), 0u, vec3f(1.0), 1.0,
+        key, vec3f(0.0), 0u, vec3f(0.0), 0u, vec3f(1.0), 1.0,
         ray.origin, 0.0, ray.dir, vec2u(NONE), vec3f(0.0), dispatch_start_plain(), true,
         ray.dir, 0.0, vec3f(0.0), NONE,
         inside_begin(), pending_begin(ray.origin), receiver_none(), dispatch_time(key),

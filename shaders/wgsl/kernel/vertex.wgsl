@@ -3,6 +3,7 @@
 #import "abi/material.wgsl"
 #import "bsdf/phase.wgsl"
 #import "bsdf/scatter.wgsl"
+#import "kernel/indirect.wgsl"
 #import "kernel/state.wgsl"
 #import "light/emission.wgsl"
 #import "math/vector.wgsl"
@@ -85,6 +86,7 @@ fn vertex_scatter(path: ptr<function, Path>, v: Vertex) {
     dispatch_cross(path, v.s, v.flags, next.wi);
     if (!dispatch_passes(path, v.flags, next)) {
         (*path).receiver = receiver;
+        indirect_scattered(path);
     }
     let pdf = dispatch_depart(path, v.s.p, v.flags, next);
     (*path).point = v.s.p;

@@ -215,6 +215,8 @@ fn part(picture: &Picture) -> Vec<u8> {
 
 fn parts() -> Made {
     let meta = Meta {
+        clamp_indirect: None,
+        adaptive: false,
         render_id: "00ff".to_owned(),
         seed: 3,
         estimator: 0,
@@ -267,6 +269,7 @@ fn parts() -> Made {
 fn checkpoint() -> Vec<u8> {
     let crop = Rect { x: 1, y: 2, w: 5, h: 3 };
     let identity = Identity {
+        clamp_indirect: "off".to_owned(),
         render_id: "00ff".to_owned(),
         image_size: [9, 8],
         crop,

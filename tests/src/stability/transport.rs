@@ -212,7 +212,7 @@ fn until_error(black: &[u8]) -> Row {
         let outcome = picture::cpu(open(black), |job| {
             sized(32, 1 << 18)(job);
             job.precision = precision;
-            job.measure = Some(Measure { goal: "0.01".parse().ok(), reference: None });
+            job.measure = Some(Measure { goal: "0.01".parse().ok(), ..Measure::default() });
         });
         let points = outcome.convergence.map_or(Vec::new(), |curve| curve.points);
         let numbers = |point: &Point| {

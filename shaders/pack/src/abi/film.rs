@@ -9,10 +9,11 @@ abi_struct! {
         pub sum: [f32; 3],
         /// Rays traced: camera, bounce and shadow.
         pub rays: u32,
-        /// Samples whose radiance was not finite.
+        /// Samples whose radiance was not finite: bits 0-15 count them, bits 16-31 say which of this dispatch
+        /// was the first.
         pub bad: u32,
-        /// Index of the first bad sample; meaningful when `bad > 0`.
-        pub first_bad: u32,
+        /// Sum of the luminance that was taken away from the samples, Rec. 709.
+        pub removed: f32,
         /// Longest path of this dispatch in segments.
         pub depth: u32,
         /// Crossings at which the medium stack was wrong: bits 0-15 count those that found it full,
@@ -22,6 +23,18 @@ abi_struct! {
 }
 
 impl FilmPixel {
+    /// Samples whose radiance was not finite.
+    #[must_use]
+    pub fn n_bad(&self) -> u32 {
+        self.bad & 0xffff
+    }
+
+    /// Which sample of the dispatch was the first of them.
+    #[must_use]
+    pub fn first_bad(&self) -> u32 {
+        self.bad >> 16
+    }
+
     /// `rays` of a pixel of which nothing is true: one whose loops the driver has cut short. No pixel traces so many: a dispatch has 16 samples
     /// of a pixel.
     pub const CUT: u32 = u32::MAX;

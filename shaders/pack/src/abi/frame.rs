@@ -62,8 +62,8 @@ abi_struct! {
         pub fog: u32,
         /// First heap word of the `Instance` table.
         pub instance_at: u32,
-        /// Unused.
-        pub _pad0: u32,
+        /// Largest channel of the indirect light of a sample; 0: it is not clamped.
+        pub clamp_indirect: f32,
         /// Unused.
         pub _pad1: u32,
         /// Unused.
