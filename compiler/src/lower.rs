@@ -9,6 +9,7 @@
     reason = "records hold f32 and u32; indices are bounded by the format's limits before"
 )]
 
+pub mod albedo;
 mod camera;
 mod closed;
 mod extent;
@@ -171,6 +172,7 @@ fn records(
         camera: camera::camera(&scene.camera, frame),
         sky: lit.sky,
         sky_table: lit.sky_table,
+        albedo: albedo::words(&materials),
         nodes,
         wide_nodes,
         triangles,

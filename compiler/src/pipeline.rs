@@ -206,6 +206,7 @@ impl Compiled {
             .records(&lowered.light_nodes)
             .records(&lowered.textures)
             .sky_table(&lowered.sky_table)
+            .albedo(&lowered.albedo)
             .kernel(&self.kernel.text)
             .recipe_id(self.recipe_id)
             .taken_from(self.source.clone());

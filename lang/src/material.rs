@@ -251,7 +251,7 @@ materials! {
             /// 0 round ..= 1 brushed along the tangent.
             anisotropy: f64 = [specular::CONDUCTOR_ANISOTROPY],
             /// Gives back what single reflection loses.
-            compensation: bool = [specular::CONDUCTOR_COMPENSATION],
+            compensation: bool = [specular::COMPENSATION],
         }
         also: [fields::NORMAL, fields::NORMAL_STRENGTH],
         traits: {}
@@ -273,6 +273,8 @@ materials! {
             ior: f64 = [fields::IOR],
             /// Perceptual roughness, 0 ..= 1.
             roughness: Scalar = [specular::DIELECTRIC_ROUGHNESS],
+            /// Gives back what single scattering loses.
+            compensation: bool = [specular::COMPENSATION],
             /// What it is inside.
             inside: Inside = [fields::INTERIOR, fields::PRIORITY],
         }
@@ -370,6 +372,8 @@ materials! {
             coat_roughness: Scalar = [principled::COAT_ROUGHNESS],
             /// Share of the light entering that goes through the sheet, 0 ..= 1.
             transmission: Scalar = [principled::TRANSMISSION],
+            /// Gives back what single scattering loses.
+            compensation: bool = [specular::COMPENSATION],
             /// Emitted colour.
             emission: Color = [principled::EMISSION_COLOR],
             /// Factor on `emission`.

@@ -7,7 +7,7 @@ use crate::replicate::replicate_seed;
 use crate::scene::Scene;
 use crate::schedule::WorkItem;
 use glam::UVec4;
-use pack::abi::{Camera, Frame, NONE};
+use pack::abi::{Camera, Frame, NONE, albedo_tables};
 use pack::{Kind, features};
 
 /// Sections that the kernel binds as they are, with their binding numbers.
@@ -22,7 +22,7 @@ const BOUND: [(u32, Kind); 6] = [
 ];
 
 /// Small tables that share one buffer, in this order.
-const HEAP: [Kind; 11] = [
+const HEAP: [Kind; 12] = [
     Kind::CAMERA,
     Kind::SKY,
     Kind::MATERIAL,
@@ -34,6 +34,7 @@ const HEAP: [Kind; 11] = [
     Kind::SKYTABLE,
     Kind::LIGHTNODE,
     Kind::INSTANCE,
+    Kind::ALBEDO,
 ];
 
 /// Bytes of one window of a section: the largest binding that every device has. Window `w` of binding
@@ -67,6 +68,22 @@ impl Scene {
         Camera { tan_half_height, ..camera }
     }
 
+    /// `Frame::wide`.
+    fn wide(&self, job: &Job) -> u32 {
+        match self.pack().section_bytes(Kind::WIDENODE) {
+            None => 0,
+            Some(_) if !job.native_walk => 2,
+            Some(_) if self.pack().features() & features::ALPHA_CLIP == 0 => 3,
+            Some(_) => 1,
+        }
+    }
+
+    /// First heap words of the tables of directional albedo, which begin at word `first`.
+    fn albedo_at(&self, first: u32) -> [u32; 4] {
+        let at = |word: usize| u32::try_from(word).expect("tables are small") + first;
+        albedo_tables(self.pack().records()).map(|word| word.map_or(NONE, at))
+    }
+
     pub(crate) fn setup(&self, job: &Job) -> Setup<'_> {
         let settings = self.settings();
         let camera = self.camera(job.image_size);
@@ -92,6 +109,7 @@ impl Scene {
             sky_table_at,
             light_tree_at,
             instance_at,
+            albedo_first,
         ] = at;
         // The full kernel asks this number whether there is a sky; a specialised one knows.
         let sky_at = if self.pack().sky().is_some() { sky_at } else { NONE };
@@ -101,6 +119,7 @@ impl Scene {
         let has_objects = self.pack().section_bytes(Kind::OBJECT).is_some();
         let object_at = if has_objects { object_at } else { NONE };
         let frame = Frame {
+            albedo_at: self.albedo_at(albedo_first),
             image_size: job.image_size,
             seed: job.seed,
             max_depth: settings.max_depth,
@@ -123,12 +142,7 @@ impl Scene {
             sampler: settings.sampler,
             air: settings.air,
             fog: settings.fog,
-            wide: match self.pack().section_bytes(Kind::WIDENODE) {
-                None => 0,
-                Some(_) if !job.native_walk => 2,
-                Some(_) if self.pack().features() & features::ALPHA_CLIP == 0 => 3,
-                Some(_) => 1,
-            },
+            wide: self.wide(job),
             inside: settings.inside,
             ..Frame::default()
         };

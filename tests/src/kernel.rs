@@ -7,8 +7,8 @@ use bytemuck::Pod;
 use compiler::lower::Lowered;
 use glam::{DVec3, UVec2, UVec4, Vec3};
 use pack::abi::{
-    Camera, Frame, Light, LightNode, Material, Medium, NONE, Node, Object, SamplerKind, Sky,
-    Sphere, TriShade, Triangle,
+    AlbedoTable, Camera, Frame, Light, LightNode, Material, Medium, NONE, Node, Object,
+    SamplerKind, Sky, Sphere, TriShade, Triangle,
 };
 use runtime::kernel::{f32 as single, f64 as double};
 
@@ -87,7 +87,17 @@ impl Bench {
             shades: none(),
             spheres: none(),
         };
-        bench.framed()
+        bench.albedo()
+    }
+
+    /// With every table of directional albedo.
+    fn albedo(mut self) -> Self {
+        self.frame.albedo_at = AlbedoTable::ALL.map(|of| {
+            let at = self.heap_end();
+            self.heap.extend(words(&compiler::lower::albedo::table(of)));
+            at
+        });
+        self.framed()
     }
 
     fn framed(mut self) -> Self {

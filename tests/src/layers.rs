@@ -44,6 +44,7 @@ impl From<Layers> for Material {
             coat_roughness: layers.coat_roughness,
             transmission: layers.transmission,
             specular_texture: NONE,
+            compensation: 1.0,
             coat_texture: NONE,
             transmission_texture: NONE,
             ..Self::default()

@@ -4,6 +4,7 @@
 //! becomes a film, a film becomes a mean with its standard error.
 
 pub mod ablation;
+pub mod albedo;
 #[cfg(unix)]
 pub mod attacks;
 pub mod ball;
@@ -12,6 +13,7 @@ pub mod console;
 pub mod edits;
 pub mod features;
 pub mod flips;
+pub mod furnace;
 pub mod fuzz;
 pub mod kernel;
 pub mod layers;

@@ -49,7 +49,7 @@ fn albedo(kernel: &mut double::Kernel<'_>, lobe: &Lobe, wo: DVec3, fine: usize) 
     let mut sum: f64 = rough.iter().sum();
     let smooth = s.roughness * s.roughness < double::GLOSS_SMOOTH;
     if lobe.kind == MaterialKind::Principled && smooth {
-        let p = kernel.principled_at(s);
+        let p = kernel.principled_at(s, wo);
         sum += kernel.principled_fresnel(p, lobe.normal.dot(wo)).x;
     }
     sum

@@ -1,10 +1,9 @@
-"""Scattering models for Mitsuba whose reflection is masked by the height-correlated form.
+"""Scattering models for Mitsuba that are masked by the height-correlated form.
 
 Mitsuba's own `roughconductor` and `roughdielectric` use Smith's separable masking, G1(wi) G1(wo). The
-renderer under test uses the height-correlated form for reflection, 1 / (1 + L(wi) + L(wo)) with
-L = 1 / G1 - 1 (Heitz 2014, "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT
-3(2)), and as Mitsuba the separable one for refraction. Here the masking is the only thing that is ours
-to write: the density of normals, the one-sided masking, the samples and their density are Mitsuba's
+renderer under test uses the height-correlated form for reflection and refraction, 1 / (1 + L(wi) + L(wo))
+with L = 1 / G1 - 1 (Heitz 2014, "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs",
+JCGT 3(2)). Here the masking is the only thing that is ours to write: the density of normals, the one-sided masking, the samples and their density are Mitsuba's
 `MicrofacetDistribution`. With `masking = "separable"` the same class must give what Mitsuba's own plugin
 gives; `validate.py` looks at that before anything else.
 
@@ -95,9 +94,6 @@ class Dielectric(mi.BSDF):
     def distribution(self):
         return mi.MicrofacetDistribution(mi.MicrofacetType.GGX, self.alpha, True)
 
-    def masked(self, d, reflected, wi, wo, m):
-        return dr.select(reflected, masked(d, self.masking, wi, wo, m), masked(d, "separable", wi, wo, m))
-
     def sample(self, ctx, si, sample1, sample2, active=True):
         d = self.distribution()
         m, _ = d.sample(dr.mulsign(si.wi, mi.Frame3f.cos_theta(si.wi)), sample2)
@@ -113,7 +109,7 @@ class Dielectric(mi.BSDF):
                                     mi.UInt32(+mi.BSDFFlags.GlossyTransmission))
         bs.sampled_component = dr.select(reflected, mi.UInt32(0), mi.UInt32(1))
         # Fresnel and the density of normals cancel; what is left is the masking given visibility.
-        weight = self.masked(d, reflected, si.wi, wo, m) / d.smith_g1(si.wi, m)
+        weight = masked(d, self.masking, si.wi, wo, m) / d.smith_g1(si.wi, m)
         weight *= dr.select(reflected, 1, dr.square(eta_ti))
         return bs, dr.select(active, mi.Color3f(weight), 0)
 
@@ -133,7 +129,7 @@ class Dielectric(mi.BSDF):
         active = mi.Bool(active) & (wi_m * cos_i > 0) & (wo_m * cos_o > 0)
         d = self.distribution()
         f, _, _, _ = mi.fresnel(wi_m, self.eta)
-        lobe = d.eval(m) * self.masked(d, reflected, si.wi, wo, m)
+        lobe = d.eval(m) * masked(d, self.masking, si.wi, wo, m)
         # Half vector over outgoing direction, per solid angle.
         spread = dr.abs(eta * eta * wo_m) / dr.square(wi_m + eta * wo_m)
         value = dr.select(reflected, f * lobe / (4 * dr.abs(cos_i)),

@@ -26,12 +26,12 @@ def material(name, m):
         case model.Textured():
             body = f"diffuse {{ color = {m.name}.rgb }}"
         case model.Metal():
-            body = f"principled {{ color = {color(m.color)}, metallic = 1, roughness = {m.roughness} }}"
+            body = f"principled {{ color = {color(m.color)}, metallic = 1, roughness = {m.roughness}, compensation = off }}"
         case model.Conductor():
             fields = f"color = {color(m.color)}, roughness = {m.roughness}, compensation = off"
             body = f"conductor {{ {fields} }}"
         case model.Glass():
-            rough = f", roughness = {m.roughness}" if m.roughness else ""
+            rough = f", roughness = {m.roughness}, compensation = off" if m.roughness else ""
             inside = f", interior = in_{name}" if m.interior else ""
             body = f"dielectric {{ ior = {m.ior}{rough}{inside} }}"
         case model.Lamp():

@@ -66,6 +66,8 @@ pub struct Lowered {
     pub sky: Option<abi::Sky>,
     /// By which the sky is sampled; empty if it is no light.
     pub sky_table: Vec<[f32; 4]>,
+    /// Tables of directional albedo; empty if no material reads one.
+    pub albedo: Vec<[f32; 4]>,
     /// Nodes of the joined tree; empty if they are wide.
     pub nodes: Rows<abi::Node>,
     /// Nodes of the joined tree; empty if they are binary.

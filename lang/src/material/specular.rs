@@ -45,19 +45,18 @@ pub(super) const CONDUCTOR_ANISOTROPY: Field = Field::new(
     ("anisotropyStrength", "glTF"),
 ]);
 
-pub(super) const CONDUCTOR_COMPENSATION: Field = Field::new(
+pub(super) const COMPENSATION: Field = Field::new(
     "compensation",
     FieldType::Word(SWITCH),
     Default::Word("on"),
-    "Light that several reflections at the rough surface give back; without it rough metal is dark.",
+    "Light that several reflections at the rough surface give back; without it rough surfaces are too dark.",
 );
 
 pub(super) const DIELECTRIC_ROUGHNESS: Field = Field::new(
     "roughness",
     FieldType::ScalarSlot(UNIT),
     Default::Number(0.0),
-    "Perceptual roughness of both sides of the surface; 0 is polished. Light that meets the \
-             rough surface twice at one point is lost.",
+    "Perceptual roughness of both sides of the surface; 0 is polished.",
 )
 .typical("polished 0, frosted 0.3 to 0.6")
 .foreign(ROUGHNESS_NAMES);

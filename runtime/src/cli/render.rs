@@ -406,7 +406,7 @@ fn headline(path: &Path, scene: &Scene, job: &Job) -> String {
 fn report(console: &Console, outcome: &Outcome, job: &Job) {
     let film = outcome.film();
     let counters = &film.counters;
-    let (least, most) = film.samples();
+    let (_, most) = film.samples();
     let why = match outcome.stop {
         Stop::Complete => "",
         Stop::TimeLimit => ", time limit",
@@ -422,21 +422,7 @@ fn report(console: &Console, outcome: &Outcome, job: &Job) {
         counters.rays,
         counters.depth,
     ));
-    if outcome.stop == Stop::TimeLimit && least == 0 && most > 0 {
-        let done = film.counts.iter().filter(|n| **n > 0).count();
-        let share = 100.0 * done as f64 / film.counts.len().max(1) as f64;
-        console.warn(&format!(
-            "warning: the time was enough for {share:.1} % of the pixels, the others are black; give it \
-             more, or render less with --size or --crop"
-        ));
-    } else if least != most && outcome.picture.meta.adaptive {
-        let mean = film.total_samples() as f64 / film.counts.len().max(1) as f64;
-        console.note(&format!(
-            "--adaptive gave pixels {least} to {most} samples, {mean:.0} on average: the picture is slightly biased"
-        ));
-    } else if least != most {
-        console.warn(&format!("warning: pixels have between {least} and {most} samples"));
-    }
+    report_samples(console, outcome);
     if let Some(most) = job.clamp_indirect {
         console.note(&format!(
             "--clamp-indirect {most} removed {:.2} % of the light: the picture is biased",
@@ -479,6 +465,27 @@ fn report(console: &Console, outcome: &Outcome, job: &Job) {
             sample.saturating_add(1),
             job.seed,
         ));
+    }
+}
+
+/// Says where pixels have different numbers of samples.
+fn report_samples(console: &Console, outcome: &Outcome) {
+    let film = outcome.film();
+    let (least, most) = film.samples();
+    if outcome.stop == Stop::TimeLimit && least == 0 && most > 0 {
+        let done = film.counts.iter().filter(|n| **n > 0).count();
+        let share = 100.0 * done as f64 / film.counts.len().max(1) as f64;
+        console.warn(&format!(
+            "warning: the time was enough for {share:.1} % of the pixels, the others are black; give it \
+             more, or render less with --size or --crop"
+        ));
+    } else if least != most && outcome.picture.meta.adaptive {
+        let mean = film.total_samples() as f64 / film.counts.len().max(1) as f64;
+        console.note(&format!(
+            "--adaptive gave pixels {least} to {most} samples, {mean:.0} on average: the picture is slightly biased"
+        ));
+    } else if least != most {
+        console.warn(&format!("warning: pixels have between {least} and {most} samples"));
     }
 }
 

@@ -180,7 +180,7 @@ fn parse(image: &ReadImage, fields: &Fields<'_>) -> Result<(Film, Meta), String>
         seed: fields.number("seed")?,
         estimator: fields.number("estimator")?,
         clamp_indirect: match fields.text("clamp_indirect") {
-            Ok(text) => parse_clamp(&text).ok_or("`clamp_indirect` is malformed")?,
+            Ok(text) => parse_clamp(&text)?,
             Err(_) => None,
         },
         adaptive: fields.number::<u32>("adaptive").is_ok_and(|n| n == 1),

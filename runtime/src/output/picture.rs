@@ -105,9 +105,9 @@ pub(crate) fn clamp_text(clamp: Option<f32>) -> String {
 }
 
 /// The inverse of `clamp_text`.
-pub(crate) fn parse_clamp(text: &str) -> Option<Option<f32>> {
+pub(crate) fn parse_clamp(text: &str) -> Result<Option<f32>, &'static str> {
     match text {
-        "off" => Some(None),
-        number => number.parse().ok().map(Some),
+        "off" => Ok(None),
+        number => number.parse().map(Some).map_err(|_| "`clamp_indirect` is malformed"),
     }
 }

@@ -7,6 +7,7 @@
 //!
 //! It does not know naga, wgpu, files or the language.
 
+mod albedo;
 mod camera;
 mod field;
 mod film;
@@ -23,6 +24,7 @@ mod sky;
 mod tag;
 mod texture;
 
+pub use albedo::{AlbedoTable, albedo_tables, albedo_words};
 pub use camera::Camera;
 pub use field::{AbiRecord, Field, FieldType, Record};
 pub use film::FilmPixel;

@@ -5,6 +5,7 @@
 //! motion, then the trees, then the feature bits. Linear time, no allocation beyond a bit a primitive, a byte
 //! a light and a word a node.
 
+mod albedo;
 mod broken;
 mod light_tree;
 mod motion;
@@ -99,6 +100,7 @@ fn records(contents: &Contents<'_>) -> Result<(), PackError> {
     each(contents.light_nodes, contents)?;
     light_tree::check(contents)?;
     sky::check(contents)?;
+    albedo::check(contents)?;
     each(contents.textures, contents)?;
     texture::check(contents)?;
     motion::check(contents)

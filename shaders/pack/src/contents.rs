@@ -31,6 +31,7 @@ pub(crate) struct Contents<'a> {
     pub(crate) texels: &'a [[u32; 4]],
     pub(crate) srgb: &'a [f32],
     pub(crate) sky_table: &'a [f32],
+    pub(crate) albedo: &'a [f32],
     pub(crate) kernel: &'a [u8],
 }
 
@@ -60,6 +61,7 @@ impl<'a> Contents<'a> {
             texels: find(Kind::TEXEL).map_or(&[], bytemuck::cast_slice),
             srgb: find(Kind::SRGBLUT).map_or(&[], bytemuck::cast_slice),
             sky_table: find(Kind::SKYTABLE).map_or(&[], bytemuck::cast_slice),
+            albedo: find(Kind::ALBEDO).map_or(&[], bytemuck::cast_slice),
             kernel: find(Kind::KERNEL).ok_or_else(|| first(Kind::KERNEL))?,
         })
     }

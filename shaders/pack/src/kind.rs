@@ -49,6 +49,9 @@ impl Kind {
     /// `f32` values by which the sky is sampled, four a word: [`abi::sky_table_values`]. Present exactly when
     /// the sky is a light.
     pub const SKYTABLE: Self = Self(*b"SKYTABLE");
+    /// Tables of directional albedo, `f32` values, four a word. Present exactly when a material reads one:
+    /// [`abi::albedo_words`].
+    pub const ALBEDO: Self = Self(*b"ALBEDO  ");
     /// The linked WGSL text.
     pub const KERNEL: Self = Self(*b"KERNEL  ");
     /// The [`crate::Manifest`]; never needed to render.
@@ -151,7 +154,7 @@ const MAX_SKY_WORDS: u64 = (32 << 20) / 16 + (1 << 16);
 pub(crate) const SRGB_WORDS: u64 = 64;
 
 /// Every section of this format, in file order.
-pub const SECTIONS: [SectionSpec; 20] = [
+pub const SECTIONS: [SectionSpec; 21] = [
     one(Kind::RENDER, size_of::<abi::RenderSettings>(), true),
     one(Kind::CAMERA, size_of::<abi::Camera>(), true),
     one(Kind::SKY, size_of::<abi::Sky>(), false),
@@ -174,6 +177,7 @@ pub const SECTIONS: [SectionSpec; 20] = [
     table(Kind::TEXEL, 16, 1 << 32),
     SectionSpec { min_count: SRGB_WORDS, ..table(Kind::SRGBLUT, 16, SRGB_WORDS) },
     table(Kind::SKYTABLE, 16, MAX_SKY_WORDS),
+    table(Kind::ALBEDO, 16, 1 << 16),
     SectionSpec { required: true, ..table(Kind::KERNEL, 1, MAX_KERNEL) },
     // 2: features with their declarations, and the size of the kernel.
     SectionSpec { version: 2, must_understand: false, ..table(Kind::META, 1, MAX_META as u64) },

@@ -84,6 +84,11 @@ impl<'a> PackWriter<'a> {
         self.push(Kind::SKYTABLE, Payload::Bytes(Cow::Borrowed(bytemuck::cast_slice(words))))
     }
 
+    /// Adds the tables of directional albedo that materials read; none, no section.
+    pub fn albedo(&mut self, words: &'a [[f32; 4]]) -> &mut Self {
+        self.push(Kind::ALBEDO, Payload::Bytes(Cow::Borrowed(bytemuck::cast_slice(words))))
+    }
+
     /// Adds the linked WGSL text.
     pub fn kernel(&mut self, wgsl: &'a str) -> &mut Self {
         self.bytes(Kind::KERNEL, wgsl.as_bytes())

@@ -177,13 +177,13 @@ fn absent_kinds_bring_no_section() {
         let there = pack::SECTIONS.iter().filter(|spec| spec.kind != absent);
         there.map(|spec| spec.kind.to_string()).collect()
     };
-    assert_eq!(kinds(&Scene::with_light_tree().and_instances()), but(Kind::WIDENODE));
+    assert_eq!(kinds(&Scene::with_light_tree().and_instances().and_albedo()), but(Kind::WIDENODE));
     let Scene { render, wide_nodes, nodes, .. } = Scene::wide();
     let render = pack::abi::RenderSettings {
         stack_need: render.stack_need,
         ..Scene::with_light_tree().render
     };
-    let wide = Scene { render, nodes, wide_nodes, ..Scene::with_light_tree() };
+    let wide = Scene { render, nodes, wide_nodes, ..Scene::with_light_tree().and_albedo() };
     let mut others = but(Kind::NODE);
     others.retain(|kind| *kind != Kind::INSTANCE.to_string());
     assert_eq!(kinds(&wide), others);

@@ -8,19 +8,37 @@ use std::fmt::Write as _;
 /// Parameters that few scenes use, or what they are without them.
 pub(crate) fn layers(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: which layers the principled surfaces have.\n\n");
-    text += &imports(["bsdf/layers.wgsl", "bsdf/scatter.wgsl"]);
+    text += &imports([
+        "bsdf/gloss_albedo.wgsl",
+        "bsdf/layers.wgsl",
+        "bsdf/scatter.wgsl",
+        "bsdf/under_coat.wgsl",
+    ]);
     let choose = |present: bool, value: &'static str, absent| if present { value } else { absent };
     let specular = choose(features.principled_specular, "layers_specular(s)", "vec4f(1.0)");
     let through = choose(features.principled_transmission, "layers_transmission(s)", "0.0");
-    let coat = choose(features.principled_coat, "layers_coat(s)", "vec2f(0.0, 1.0)");
+    let coated = features.principled_coat;
+    let coat = choose(coated, "layers_coat(s)", "vec2f(0.0, 1.0)");
+    let under = choose(coated, "under_coat_through(coat, on, c)", "1.0");
+    let kept = choose(coated, "under_coat_kept(coat, g, roughness, entry)", "0.0");
+    let missing = choose(coated, "under_coat_missing(coat, g, roughness)", "g.mean_missing");
+    let flattened = choose(coated, "under_coat_flattened(coat, g, c)", "0.0");
     let _ = write!(
         text,
         "\n// Colour and factor of the reflectance of the dielectric part.\n\
          fn dispatch_specular(s: Scatter) -> vec4f {{\n    return {specular};\n}}\n\
          \n// Share of the light entering that goes through.\n\
          fn dispatch_transmission(s: Scatter) -> f32 {{\n    return {through};\n}}\n\
-         \n// Share under a clear coat, and the width of its lobe.\n\
-         fn dispatch_coat(s: Scatter) -> vec2f {{\n    return {coat};\n}}\n"
+         \n// Share under a clear coat, and its perceptual roughness.\n\
+         fn dispatch_coat(s: Scatter) -> vec2f {{\n    return {coat};\n}}\n\
+         \n// What a coat lets through at cosine `c`.\n\
+         fn dispatch_under_coat(coat: vec2f, on: bool, c: f32) -> f32 {{\n    return {under};\n}}\n\
+         \n// How much it takes off the mean of what enters the lobe `g`.\n\
+         fn dispatch_coat_keeps(coat: vec2f, g: GlossAlbedo, roughness: f32, entry: vec2f) -> f32 {{\n    return {kept};\n}}\n\
+         \n// What the lobe `g` loses under it at cosine `c`.\n\
+         fn dispatch_coat_flattened(coat: vec2f, g: GlossAlbedo, c: f32) -> f32 {{\n    return {flattened};\n}}\n\
+         \n// The mean of what the lobe `g` does not give back.\n\
+         fn dispatch_coat_missing(coat: vec2f, g: GlossAlbedo, roughness: f32) -> f32 {{\n    return {missing};\n}}\n"
     );
     text
 }
@@ -76,7 +94,7 @@ pub(crate) fn outer(features: &FeatureSet) -> String {
         text,
         "\n// Samples `wi`. `u`: direction, `v`: which lobe; all in [0, 1 - 2^-24].\n\
          fn dispatch_principled_sample(s: Scatter, wo: vec3f, u: vec2f, v: f32) -> Scattered {{\n    \
-         let p = principled_at(s);\n    \
+         let p = principled_at(s, wo);\n    \
          let to = {direction};\n    \
          if (to.pdf <= 0.0) {{\n        return to;\n    }}\n    \
          let wi = to.wi;\n    \
@@ -93,7 +111,7 @@ pub(crate) fn outer(features: &FeatureSet) -> String {
             text,
             "\n// {comment}\n\
              fn dispatch_principled_{name}(s: Scatter, wo: vec3f{parameters}) -> {result} {{\n    \
-             let p = principled_at(s);\n    \
+             let p = principled_at(s, wo);\n    \
              return {called};\n}}\n"
         );
     }

@@ -1,9 +1,9 @@
 // A clear coat over Lambert's model. The coat reflects like a dielectric, into the mirror direction moved by a
-// ball of radius `fuzz`; the base is lit through the coat and seen through it, light that the coat holds
-// back being reflected by the base again and again:
+// ball of radius `fuzz`, and what falls below the surface is folded back. The base is lit through the coat and seen
+// through it, light that the coat holds back being reflected by the base again and again:
 //   f = (1 - F(cos_o)) (1 - F(cos_i)) color / (pi eta^2 (1 - color B))
 // B: mean reflectance of the coat from within, `Material::specular`. As 1 - B = (1 - mean F) / eta^2, a white
-// base under a smooth coat returns everything. The base is reciprocal; the ball is not, as the metal's.
+// base under a coat returns everything. The base is reciprocal; the ball is not, as the metal's.
 
 #import "bsdf/diffuse.wgsl"
 #import "bsdf/fresnel.wgsl"
@@ -49,7 +49,7 @@ fn clearcoat_sample(s: Scatter, wo: vec3f, u: vec2f, v: f32, w: f32) -> Scattere
         if (s.fuzz < METAL_SMOOTH) {
             return Scattered(wi, 0.0, load_material_tint(s.material) * (f / share), 1.0);
         }
-        wi = metal_direction(wi, s.fuzz, u, v);
+        wi = metal_folded(metal_direction(wi, s.fuzz, u, v), s.ns);
     } else {
         wi = diffuse_direction(s.ns, u);
     }
@@ -73,15 +73,21 @@ fn clearcoat_eval(s: Scatter, wo: vec3f, wi: vec3f) -> vec3f {
     if (s.fuzz < METAL_SMOOTH) {
         return base;
     }
-    return base + load_material_tint(s.material) * (f * metal_density(wi, scatter_mirror(s, wo), s.fuzz));
+    return base + load_material_tint(s.material) * (f * metal_folded_density(wi, scatter_mirror(s, wo), s.ns, s.fuzz));
 }
 
 // Density of `clearcoat_sample` over both lobes, per steradian of `wi`, the mirror part left out.
 fn clearcoat_pdf(s: Scatter, wo: vec3f, wi: vec3f) -> f32 {
     let cos_o = dot(s.ns, wo);
-    if (cos_o <= 0.0) {
+    let cos_i = dot(s.ns, wi);
+    if (cos_o <= 0.0 || cos_i <= 0.0) {
         return 0.0;
     }
     let share = clearcoat_share(s, clearcoat_fresnel(s, cos_o));
-    return (1.0 - share) * diffuse_pdf(s, wi) + share * metal_pdf(s, wo, wi);
+    let even = cos_i * INV_PI;
+    let base = (1.0 - share) * even;
+    if (s.fuzz < METAL_SMOOTH) {
+        return base;
+    }
+    return base + share * metal_folded_density(wi, scatter_mirror(s, wo), s.ns, s.fuzz);
 }

@@ -3,9 +3,9 @@
 //   f = F(wo.h) D G2 / (4 cos_o cos_i) + K M_o M_i / (pi mean M)
 // K = A^2 E / (1 - A (1 - E)) tints the second lobe: A the mean of F, E = 1 - mean M (Kulla & Conty 2017, with
 // the square of Hill 2018: light reflected once is the first lobe's). White metal returns 1 within 1e-3.
-// Reciprocal. With anisotropy M is that of the mean square width, scaled so that no direction returns
-// more than it gets.
+// Reciprocal. With anisotropy M is that of `brushed_albedo.wgsl`, and white metal returns 1 within 0.015.
 
+#import "bsdf/brushed_albedo.wgsl"
 #import "bsdf/fresnel.wgsl"
 #import "bsdf/ggx.wgsl"
 #import "bsdf/ggx_albedo.wgsl"
@@ -25,7 +25,7 @@ struct ConductorLobe {
     a2: f32,
     // K M_o / mean M; 0 without compensation.
     extra: vec3f,
-    fit: GgxAlbedo,
+    albedo: BrushedAlbedo,
     // Probability of sampling the second lobe.
     share: f32,
 }
@@ -37,19 +37,18 @@ fn conductor_lobe(s: Scatter, wo: vec3f) -> ConductorLobe {
     let basis = basis_along(s.ns, s.tangent);
     let o = basis_local_from_world(basis, wo);
     let a2 = min(0.5 * dot(alpha, alpha), 1.0);
-    // 0.12: where the mean square width overstates M most, measured over all widths and directions.
-    let weight = load_material_weight(s.material) * (1.0 - min(0.48 * anisotropy, 0.12));
-    let fit = ggx_albedo_at(a2);
-    if (weight <= 0.0) {
-        return ConductorLobe(basis, o, alpha, a2, vec3f(0.0), fit, 0.0);
+    let on = load_material_compensation(s.material) > 0.0;
+    let albedo = brushed_albedo_at(s.roughness, select(0.0, anisotropy, on), alpha);
+    if (!on) {
+        return ConductorLobe(basis, o, alpha, a2, vec3f(0.0), albedo, 0.0);
     }
     // The mean of Schlick's term: the integral of 2 c (1 - c)^5 is 1/21.
     let mean = s.color + (vec3f(1.0) - s.color) * 0.047619048;
-    let missing = weight * ggx_albedo_missing(fit, vec3f(o.xy * alpha, o.z));
-    let tint = mean * mean * (1.0 - fit.mean) / (vec3f(1.0) - mean * fit.mean);
+    let missing = brushed_albedo_missing(albedo, vec3f(o.xy * alpha, o.z));
+    let tint = mean * mean * (1.0 - albedo.mean) / (vec3f(1.0) - mean * albedo.mean);
     let once = vector_max(max(fresnel_schlick_to(s.color, 1.0, o.z), mean)) * (1.0 - missing);
     let more = vector_max(tint) * missing;
-    return ConductorLobe(basis, o, alpha, a2, tint * (missing / fit.mean), fit, more / (once + more));
+    return ConductorLobe(basis, o, alpha, a2, tint * (missing / albedo.mean), albedo, more / (once + more));
 }
 
 // Samples `wi`. `u`: direction, `v`: which lobe; all in [0, 1 - 2^-24].
@@ -109,7 +108,7 @@ fn conductor_value(s: Scatter, lobe: ConductorLobe, wi: vec3f) -> vec3f {
     if (lobe.share <= 0.0) {
         return once;
     }
-    let missing = ggx_albedo_missing(lobe.fit, vec3f(i.xy * lobe.alpha, i.z));
+    let missing = brushed_albedo_missing(lobe.albedo, vec3f(i.xy * lobe.alpha, i.z));
     return once + lobe.extra * (missing * (i.z * INV_PI));
 }
 

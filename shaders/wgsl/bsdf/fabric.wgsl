@@ -39,7 +39,7 @@ fn fabric_matte(s: Scatter) -> Matte {
     let share = load_material_weight(s.material);
     let alpha = max(s.roughness * s.roughness, 1e-3);
     let color = s.color * (1.0 - gloss);
-    return Matte(basis_around(s.ns), vec2f(alpha), gloss, color * (1.0 - share), color * share);
+    return Matte(basis_around(s.ns), vec2f(alpha), s.roughness, 0.0, gloss, color * (1.0 - share), color * share);
 }
 
 // Samples `wi`. `u`: direction, `v`: which lobe; all in [0, 1 - 2^-24].

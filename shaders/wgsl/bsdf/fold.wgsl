@@ -37,11 +37,11 @@ fn fold_leads(s: Scatter, from_dir: vec3f, wi: vec3f) -> bool {
 
 // Samples `wi`. The weight is that of the direction before it was folded: its mean over both is right.
 fn fold_sample(s: Scatter, wo: vec3f, key: SampleKey) -> Scattered {
-    if (!fold_is_tilted(s)) {
-        return model_sample(s, wo, key);
-    }
     let seen = fold_seen(s);
     var next = model_sample(seen, wo, key);
+    if (!fold_is_tilted(s)) {
+        return next;
+    }
     let mirrored = fold_mirrored(s, next.wi);
     var other = mirrored;
     if (dot(s.ns, next.wi) * dot(s.ng, next.wi) < 0.0) {
@@ -54,36 +54,38 @@ fn fold_sample(s: Scatter, wo: vec3f, key: SampleKey) -> Scattered {
     return next;
 }
 
-// f |cos|, delta lobes left out.
+// f |cos|, delta lobes left out. A loop, because compilers for GPUs copy a model to every place that calls it.
 fn fold_eval(s: Scatter, wo: vec3f, wi: vec3f) -> vec3f {
-    if (!fold_is_tilted(s)) {
-        return model_eval(s, wo, wi);
-    }
     let seen = fold_seen(s);
+    let tilted = fold_is_tilted(s);
     var f = vec3f(0.0);
-    if (fold_leads(s, wi, wi)) {
-        f = model_eval(seen, wo, wi);
-    }
-    let other = fold_mirrored(s, wi);
-    if (fold_leads(s, other, wi)) {
-        f += model_eval(seen, wo, other);
+    var from_dir = wi;
+    var k = 0u;
+    loop {
+        if (!tilted || fold_leads(s, from_dir, wi)) {
+            f += model_eval(seen, wo, from_dir);
+        }
+        k += 1u;
+        if (!tilted || k == 2u) { break; }
+        from_dir = fold_mirrored(s, wi);
     }
     return f;
 }
 
 // Density of `fold_sample`, per steradian.
 fn fold_pdf(s: Scatter, wo: vec3f, wi: vec3f) -> f32 {
-    if (!fold_is_tilted(s)) {
-        return model_pdf(s, wo, wi);
-    }
     let seen = fold_seen(s);
+    let tilted = fold_is_tilted(s);
     var pdf = 0.0;
-    if (fold_leads(s, wi, wi)) {
-        pdf = model_pdf(seen, wo, wi);
-    }
-    let other = fold_mirrored(s, wi);
-    if (fold_leads(s, other, wi)) {
-        pdf += model_pdf(seen, wo, other);
+    var from_dir = wi;
+    var k = 0u;
+    loop {
+        if (!tilted || fold_leads(s, from_dir, wi)) {
+            pdf += model_pdf(seen, wo, from_dir);
+        }
+        k += 1u;
+        if (!tilted || k == 2u) { break; }
+        from_dir = fold_mirrored(s, wi);
     }
     return pdf;
 }

@@ -27,7 +27,9 @@ struct GgxAlbedo {
 // largest M of that width is at most 1.4e-4.
 fn ggx_albedo_at(a2: f32) -> GgxAlbedo {
     let alpha = sqrt(a2);
-    let b = 1.4 * a2 / (a2 + 0.4);
+    // `min` keeps the product that a caller gives from being regrouped.
+    let square = min(a2, 1.0);
+    let b = 1.4 * square / (square + 0.4);
     let w = 2.0 * b - 1.0;
     let low = vec4f(0.1580581, 0.2857064, -0.03933863, -0.03842512)
         + w * (vec4f(-0.0284624, 0.232191, -0.0019093, 0.01241983)
@@ -40,7 +42,7 @@ fn ggx_albedo_at(a2: f32) -> GgxAlbedo {
     let rough = 16.370597 + alpha * (-9.517109 + alpha * 2.3273757);
     let p = 0.091950407 + alpha * (7.9544519 + alpha * (-16.636172 + alpha * rough));
     let q = exp_log_log2(alpha) * (-0.85024642 + alpha * 2.170417);
-    return GgxAlbedo(low, high, b, a2 * (p + q));
+    return GgxAlbedo(low, high, b, square * (p + q));
 }
 
 // M for the direction whose `x`, `y` are scaled by the widths already: (alpha_x x, alpha_y y, cosine > 0).

@@ -47,11 +47,15 @@ fn ggx_transmission_facet(wo: vec3f, wi: vec3f, eta_minus_1: f32) -> vec3f {
 }
 
 // The lobe at facet `h`, without Fresnel, times the cosine of `wi`: radiance coming from below the surface,
-// per radiance above it. D G2 |wo.h wi.h| / (cos_o (wo.h + eta wi.h)^2); the two sides mask independently.
+// per radiance above it. D G2 |wo.h wi.h| / (cos_o (wo.h + eta wi.h)^2), masked as reflection is: heights correlated,
+// G2 = 1 / (1 + L_o + L_i).
 fn ggx_transmission_eval(wo: vec3f, wi: vec3f, h: vec3f, alpha: f32, eta_minus_1: f32) -> f32 {
-    let masked = ggx_transmission_seen(wi, alpha) * ggx_transmission_seen(wo, alpha);
+    let lo = abs(wi.z) * sqrt(wo.z * wo.z + alpha * alpha * dot(wo.xy, wo.xy));
+    let li = wo.z * sqrt(wi.z * wi.z + alpha * alpha * dot(wi.xy, wi.xy));
+    // G2 over cos_o; both cosines are > 0.
+    let masked = 2.0 * abs(wi.z) / (lo + li);
     let along = ggx_transmission_along(wo, wi, eta_minus_1);
-    let k = ggx_normals(h, alpha) * masked / (wo.z * dot(along, along));
+    let k = ggx_normals(h, alpha) * masked / dot(along, along);
     return k * abs(dot(wo, h) * dot(wi, h));
 }
 

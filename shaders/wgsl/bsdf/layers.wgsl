@@ -1,7 +1,6 @@
 // Parameters of a principled surface that few scenes use, textures applied: read from the record where they
 // are needed, so that the others do not carry them.
 
-#import "bsdf/gloss.wgsl"
 #import "bsdf/scatter.wgsl"
 #import "scene/records.wgsl"
 #import "scene/texture.wgsl"
@@ -18,12 +17,12 @@ fn layers_transmission(s: Scatter) -> f32 {
     return load_material_transmission(s.material) * texel.x;
 }
 
-// Share under a clear coat, and the alpha of that coat.
+// Share under a clear coat, and the perceptual roughness of that coat.
 fn layers_coat(s: Scatter) -> vec2f {
     let share = load_material_coat(s.material);
     if (share <= 0.0) {
         return vec2f(0.0, 1.0);
     }
     let texel = texture_fetch(load_material_coat_texture(s.material), s.uv);
-    return vec2f(share * texel.x, gloss_alpha(load_material_coat_roughness(s.material) * texel.y));
+    return vec2f(share * texel.x, load_material_coat_roughness(s.material) * texel.y);
 }

@@ -1,10 +1,12 @@
 // A rough surface that is not metal: Lambert's reflection, a share of gloss from a GGX lobe without Fresnel, and
 // for thin things Lambert's transmission to the other side:
-//   above  f = base / pi + gloss D G2 / (4 cos_o cos_i),     below  f = through / pi.
-// Reciprocal, as every term is. Energy: base + through + gloss E(cos_o), where E <= 1 is what one bounce off the
-// microfacets keeps; so at most 1 where base + through + gloss <= 1.
+//   above  f = base / pi + gloss (D G2 / (4 cos_o cos_i) + M_o M_i / (pi mean M)),     below  f = through / pi.
+// M is what one reflection off the microfacets does not give back (`brushed_albedo.wgsl`).
+// Reciprocal, as every term is. Energy: base + through + gloss.
 
+#import "bsdf/brushed_albedo.wgsl"
 #import "bsdf/diffuse.wgsl"
+#import "bsdf/ggx_albedo.wgsl"
 #import "bsdf/ggx_anisotropic.wgsl"
 #import "bsdf/scatter.wgsl"
 #import "math/basis.wgsl"
@@ -14,8 +16,11 @@
 struct Matte {
     // World frame; z is the shading normal.
     basis: Basis,
-    // Widths of the lobe along x and y, in 1e-3 ..= 1.
+    // Widths of the lobe along x and y, 1e-3 or more.
     alpha: vec2f,
+    // Perceptual roughness of the gloss, and how much wider it is along x than along y.
+    roughness: f32,
+    anisotropy: f32,
     // Share of the light that becomes gloss.
     gloss: f32,
     // Lambert's reflectance and transmittance.
@@ -23,36 +28,88 @@ struct Matte {
     through: vec3f,
 }
 
+// The gloss seen from one direction.
+struct MatteGloss {
+    // `wo` in the local frame.
+    o: vec3f,
+    albedo: BrushedAlbedo,
+    // M_o; 0 without gloss.
+    missing: f32,
+    // Square of the width that stands for both, at most 1.
+    a2: f32,
+}
+
+// The gloss from `wo`, above the surface.
+fn matte_gloss(m: Matte, wo: vec3f) -> MatteGloss {
+    let o = basis_local_from_world(m.basis, wo);
+    if (m.gloss <= 0.0) {
+        var none: MatteGloss;
+        none.missing = 0.0;
+        return none;
+    }
+    let albedo = brushed_albedo_at(m.roughness, m.anisotropy, m.alpha);
+    let missing = brushed_albedo_missing(albedo, vec3f(o.xy * m.alpha, o.z));
+    return MatteGloss(o, albedo, missing, min(0.5 * dot(m.alpha, m.alpha), 1.0));
+}
+
 // Samples `wi`. `u`: direction, `v`: which term, each with its share of the albedo; all in [0, 1 - 2^-24].
 fn matte_sample(s: Scatter, m: Matte, wo: vec3f, u: vec2f, v: f32) -> Scattered {
-    let share = matte_shares(m);
-    let total = share.x + share.y + share.z;
-    if (total <= 0.0 || dot(s.ns, wo) <= 0.0) {
+    if (dot(s.ns, wo) <= 0.0) {
         return scatter_absorb();
     }
-    let at = v * total - share.x;
-    var wi: vec3f;
-    if (at < 0.0) {
-        let o = basis_local_from_world(m.basis, wo);
-        wi = vector_unit(basis_world_from_local(m.basis, ggx_anisotropic_sample(o, m.alpha, u)));
-    } else {
-        wi = diffuse_direction(select(-s.ns, s.ns, at < share.y), u);
+    let gloss = matte_gloss(m, wo);
+    let share = matte_shares(m, gloss);
+    let facets = share.x + share.y;
+    let total = facets + share.z + share.w;
+    if (total <= 0.0) {
+        return scatter_absorb();
     }
-    let pdf = matte_pdf(s, m, wo, wi);
+    let at = v * total;
+    var wi: vec3f;
+    if (at < facets) {
+        wi = matte_gloss_direction(m, gloss, u, at < share.x);
+    } else {
+        wi = diffuse_direction(select(-s.ns, s.ns, at < facets + share.z), u);
+    }
+    let pdf = matte_density(s, m, gloss, wi);
     // A reflection that falls below the surface is lost: it is no transmission.
-    let lost = at < 0.0 && dot(s.ns, wi) <= 0.0;
+    let lost = at < facets && dot(s.ns, wi) <= 0.0;
     if (lost || pdf <= 0.0) {
         return scatter_absorb();
     }
-    return Scattered(wi, pdf, matte_eval(s, m, wo, wi) / pdf, 1.0);
+    return Scattered(wi, pdf, matte_value(s, m, gloss, wi) / pdf, 1.0);
+}
+
+// A direction of the gloss after one reflection off the microfacets, `once`, or after several.
+fn matte_gloss_direction(m: Matte, gloss: MatteGloss, u: vec2f, once: bool) -> vec3f {
+    var i: vec3f;
+    if (once) {
+        i = ggx_anisotropic_sample(gloss.o, m.alpha, u);
+    } else {
+        i = ggx_albedo_sample(gloss.a2, u);
+    }
+    return vector_unit(basis_world_from_local(m.basis, i));
 }
 
 // f |cos|.
 fn matte_eval(s: Scatter, m: Matte, wo: vec3f, wi: vec3f) -> vec3f {
-    let cos_i = dot(s.ns, wi);
     if (dot(s.ns, wo) <= 0.0) {
         return vec3f(0.0);
     }
+    return matte_value(s, m, matte_gloss(m, wo), wi);
+}
+
+// Density of `matte_sample` over all terms, per steradian of `wi`.
+fn matte_pdf(s: Scatter, m: Matte, wo: vec3f, wi: vec3f) -> f32 {
+    if (dot(s.ns, wo) <= 0.0) {
+        return 0.0;
+    }
+    return matte_density(s, m, matte_gloss(m, wo), wi);
+}
+
+// `matte_eval` where the other direction is above the surface.
+fn matte_value(s: Scatter, m: Matte, gloss: MatteGloss, wi: vec3f) -> vec3f {
+    let cos_i = dot(s.ns, wi);
     if (cos_i < 0.0 && dot(s.ng, wi) < 0.0) {
         return m.through * (-cos_i * INV_PI);
     }
@@ -63,33 +120,35 @@ fn matte_eval(s: Scatter, m: Matte, wo: vec3f, wi: vec3f) -> vec3f {
     if (m.gloss <= 0.0) {
         return base;
     }
-    let o = basis_local_from_world(m.basis, wo);
     let i = basis_local_from_world(m.basis, wi);
-    return base + vec3f(m.gloss * ggx_anisotropic_eval(o, i, m.alpha));
+    let missing = brushed_albedo_missing(gloss.albedo, vec3f(i.xy * m.alpha, i.z));
+    let several = gloss.missing * missing / gloss.albedo.mean * (i.z * INV_PI);
+    return base + vec3f(m.gloss * (ggx_anisotropic_eval(gloss.o, i, m.alpha) + several));
 }
 
-// Density of `matte_sample` over all terms, per steradian of `wi`.
-fn matte_pdf(s: Scatter, m: Matte, wo: vec3f, wi: vec3f) -> f32 {
-    let share = matte_shares(m);
-    let total = share.x + share.y + share.z;
+// `matte_pdf` where the other direction is above the surface.
+fn matte_density(s: Scatter, m: Matte, gloss: MatteGloss, wi: vec3f) -> f32 {
+    let share = matte_shares(m, gloss);
+    let total = share.x + share.y + share.z + share.w;
     let cos_i = dot(s.ns, wi);
-    if (total <= 0.0 || dot(s.ns, wo) <= 0.0) {
+    if (total <= 0.0) {
         return 0.0;
     }
     if (cos_i <= 0.0) {
-        return share.z * (-cos_i * INV_PI) / total;
+        return share.w * (-cos_i * INV_PI) / total;
     }
-    let base = share.y * (cos_i * INV_PI);
-    if (share.x <= 0.0) {
+    let base = share.z * (cos_i * INV_PI);
+    if (m.gloss <= 0.0) {
         return base / total;
     }
-    let o = basis_local_from_world(m.basis, wo);
     let i = basis_local_from_world(m.basis, wi);
-    return (base + share.x * ggx_anisotropic_pdf(o, i, m.alpha)) / total;
+    let once = share.x * ggx_anisotropic_pdf(gloss.o, i, m.alpha);
+    let several = share.y * ggx_albedo_pdf(gloss.a2, max(i.z, 0.0));
+    return (base + (once + several)) / total;
 }
 
-// Albedos of gloss, reflection, transmission, up to masking: in these proportions the terms are sampled, so
-// that no weight exceeds their sum.
-fn matte_shares(m: Matte) -> vec3f {
-    return vec3f(m.gloss, vector_max(m.base), vector_max(m.through));
+// The proportions in which the terms are sampled: one reflection off the microfacets, several, diffuse reflection,
+// transmission. One reflection counts with all of the gloss: its values are below its density, its albedo is not.
+fn matte_shares(m: Matte, gloss: MatteGloss) -> vec4f {
+    return vec4f(m.gloss, m.gloss * gloss.missing, vector_max(m.base), vector_max(m.through));
 }

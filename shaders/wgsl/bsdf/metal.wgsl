@@ -32,6 +32,18 @@ fn metal_direction(r: vec3f, fuzz: f32, u: vec2f, v: f32) -> vec3f {
     return select(vector_unit(d), r, dot(d, d) < 1e-12);
 }
 
+// `d`, or where it is below the plane of the normal `n` its mirror image: what the ball sends below the surface
+// comes out again.
+fn metal_folded(d: vec3f, n: vec3f) -> vec3f {
+    return d - n * (2.0 * min(dot(d, n), 0.0));
+}
+
+// Density of `metal_folded` directions around `r`, per steradian of `wi` above the plane.
+fn metal_folded_density(wi: vec3f, r: vec3f, n: vec3f, fuzz: f32) -> f32 {
+    let below = vector_unit(wi - n * (2.0 * dot(wi, n)));
+    return metal_density(wi, r, fuzz) + metal_density(below, r, fuzz);
+}
+
 // f |cos|: the colour times the density, 0 below the surface. 0 for a mirror.
 fn metal_eval(s: Scatter, wo: vec3f, wi: vec3f) -> vec3f {
     if (s.fuzz < METAL_SMOOTH || !scatter_above(s, wi)) {

@@ -12,7 +12,6 @@
 // for any function of the direction. The weight of a sample is what the walk brings, not `petal_eval` over that.
 // Only the slab is reciprocal: the lobes of fuzz and wax are not.
 
-#import "bsdf/diffuse.wgsl"
 #import "bsdf/fresnel.wgsl"
 #import "bsdf/hg.wgsl"
 #import "bsdf/metal.wgsl"
@@ -150,21 +149,12 @@ fn petal_wax(s: Scatter, slab: Slab, wo: vec3f) -> vec3f {
 // A direction of the lobe of radius `radius`, above the shading normal. `u`, `v`: as in `metal_sample`.
 fn petal_ball_direction(s: Scatter, wo: vec3f, radius: f32, u: vec2f, v: f32) -> vec3f {
     let d = metal_direction(scatter_mirror(s, wo), radius, u, v);
-    return petal_folded(s, d, dot(s.ns, d) < 0.0);
+    return metal_folded(d, s.ns);
 }
 
 // Density of `petal_ball_direction` for `wi` above the shading normal: that of `wi` and of its image below.
 fn petal_ball(s: Scatter, wo: vec3f, wi: vec3f, radius: f32) -> f32 {
-    let r = scatter_mirror(s, wo);
-    return metal_density(wi, r, radius) + metal_density(petal_folded(s, wi, true), r, radius);
-}
-
-// `d` mirrored at the plane of the shading normal if `folds`, unit.
-fn petal_folded(s: Scatter, d: vec3f, folds: bool) -> vec3f {
-    if (!folds) {
-        return d;
-    }
-    return vector_unit(d - s.ns * (2.0 * dot(s.ns, d)));
+    return metal_folded_density(wi, scatter_mirror(s, wo), s.ns, radius);
 }
 
 // What a ray keeps that goes straight through, from either side.

@@ -1,57 +1,121 @@
-// Metallic-roughness: a GGX lobe over a Lambert base.
-//   f = F(wo.h) D G2 / (4 cos_o cos_i) + (1 - t) (1 - metallic) color / pi (1 - E(cos_o)) (1 - E(cos_i))
+// Metallic-roughness: a GGX lobe over a Lambert base, both under what coat there is.
+//   f = min(T_o, T_i) F(wo.h) D G2 / (4 cos_o cos_i)
+//     + (1 - t) (1 - metallic) color e_o e_i / (pi mean e)            e = T (1 - E)
+//     + metallic K n_o n_i / (pi mean n)                              n = T - (what white facets give back)
 // with Schlick's F from f0 = color for a metal, w c ((ior - 1) / (ior + 1))^2 for a dielectric, to 1 and w: w and c
-// are the specular factor and colour, 1 unless a material says otherwise. E is F with the largest channel
-// of c, so that what a tinted interface does not reflect does not tint the base. t, the share that goes
-// through a thin sheet, is what `thin.wgsl` adds on the other side.
-// Reciprocal: both terms are symmetric in wo and wi.
-// Energy: let s = (1 - cos_o)^5 and A the mean of (1 - wo.h)^5 over the visible normals. For w = 1 the base reflects
-// (1 - f0)^2 (20 / 21) (1 - s) at most, the lobe G (f0 + (1 - f0) A) with G <= 1 the unmasked share; their sum
-// is at most 1 where G A <= 1/21 + (20/21) s. That holds at both ends: A = s for a mirror, G A <= E / 10 with
-// E = 1 - ln 2 at normal incidence for alpha = 1. In between it was measured: 1,320 combinations of roughness
-// 0 ..= 1, metallic 0 ..= 1, ior 1 ..= 4 and cosine 0.005 ..= 1, white, reflect at most 1 within three standard errors.
-// For other w the sum is 1 + w (L - a - b) + w^2 a b with L, a, b that do not depend on w: convex, and at most 1
-// at both ends.
+// are the specular factor and colour, 1 unless a material says otherwise. E is the directional albedo of the lobe
+// with the largest channel of c, so that what a tinted interface does not reflect does not tint the base
+// (`gloss_albedo.wgsl`): the base gets what the lobe does not give back, and a white surface returns everything.
+// A metal returns what white microfacets do not give back tinted by K, as `conductor.wgsl` does. T is what the coat
+// lets through, 1 without one. t, the share that goes through a thin sheet, is what `thin.wgsl` adds on the other side.
+// Without compensation M = 0, E = F at the normal, mean e = 1: the textbook's base, which is too dark.
+// Reciprocal: every term is symmetric in wo and wi.
+// Energy: min(T_o, T_i) loses what goes out flatter than it came in, which is part of n, and with the share that F
+// has of it of e.
 
 #import "bsdf/diffuse.wgsl"
 #import "bsdf/fresnel.wgsl"
 #import "bsdf/gloss.wgsl"
+#import "bsdf/gloss_albedo.wgsl"
 #import "bsdf/scatter.wgsl"
 #import "math/vector.wgsl"
 #import "scene/layers.wgsl"
+#import "scene/records.wgsl"
 
-// What a surface is made of, textures applied.
+// What a surface is made of, textures applied, and how it looks from `wo`.
 struct Principled {
     // Reflectance of the interface at normal incidence.
     f0: vec3f,
     // At grazing incidence.
     f90: f32,
-    // `f0` of the interface where it lets light in: without the hue of the specular colour.
-    entry: vec3f,
-    // Width of the lobe.
-    alpha: f32,
-    // Colour of the base, less what is metal or goes through.
+    // The same of its dielectric part, without the hue of the specular colour.
+    entry: vec2f,
+    // The lobe.
+    gloss: GlossAlbedo,
+    // Colour of the base, over pi times the mean of e.
     base: vec3f,
     // Colour of what goes through, less what is metal or scattered.
     clear: vec3f,
-    // Share under a clear coat, and the width of its lobe.
+    // Colour of what a metal returns after several reflections, over pi times the mean of n.
+    metal: vec3f,
+    // 1 over pi times the mean of n.
+    several: f32,
+    // Share under a clear coat, and its perceptual roughness.
     coat: vec2f,
+    // Several reflections count.
+    on: bool,
+    // T, e and n at `wo`.
+    o: PrincipledSide,
+    // Albedos at `wo`: of the lobe, of what is diffuse, of what goes through. The largest channel of each.
+    albedo: vec3f,
 }
 
-// What the surface at `s` is made of.
-fn principled_at(s: Scatter) -> Principled {
+// The shares of one direction.
+struct PrincipledSide {
+    through: f32,
+    enters: f32,
+    missing: f32,
+}
+
+// What the surface at `s` is made of, seen from `wo`.
+fn principled_at(s: Scatter, wo: vec3f) -> Principled {
+    let on = load_material_compensation(s.material) > 0.0;
     let r = s.ior_minus_1 / (s.ior + 1.0);
     let dielectric = 1.0 - s.metallic;
     let specular = dispatch_specular(s);
     let metal = s.color * s.metallic;
     let f0 = min(specular.xyz * (r * r), vec3f(1.0)) * (specular.w * dielectric) + metal;
-    let entry = min(vector_max(specular.xyz) * (r * r), 1.0) * (specular.w * dielectric);
+    let f90 = specular.w * dielectric + s.metallic;
+    let entry = vec2f(min(vector_max(specular.xyz) * (r * r), 1.0) * specular.w, specular.w);
     let through = dispatch_transmission(s);
     let inside = s.color * dielectric;
-    return Principled(
-        f0, specular.w * dielectric + s.metallic, vec3f(entry) + metal,
-        gloss_alpha(s.roughness), inside * (1.0 - through), inside * through, dispatch_coat(s),
+    let coat = dispatch_coat(s);
+    let gloss = gloss_albedo_at(s.roughness, gloss_alpha(s.roughness), on);
+    let cos_o = clamp(dot(s.ns, wo), 0.0, 1.0);
+    let shares = gloss_albedo_shares(gloss, cos_o);
+    let flattened = dispatch_coat_flattened(coat, gloss, cos_o);
+    let o = principled_shares(shares, entry, dispatch_under_coat(coat, on, cos_o), flattened);
+    var entering = 1.0;
+    var several = 0.0;
+    var tint = vec3f(0.0);
+    if (on) {
+        let kept = dispatch_coat_keeps(coat, gloss, s.roughness, entry);
+        // Where nothing enters, e is 0 everywhere.
+        entering = max(1.0 - gloss_albedo_mean(gloss, entry.x, entry.y) - kept, 1e-3);
+    }
+    if (gloss.rough) {
+        several = INV_PI / dispatch_coat_missing(coat, gloss, s.roughness);
+        // The mean of Schlick's term: the integral of 2 c (1 - c)^5 is 1/21.
+        let mean = s.color + (vec3f(1.0) - s.color) * 0.047619048;
+        tint = mean * mean * ((1.0 - gloss.mean_missing) * s.metallic) / (vec3f(1.0) - mean * gloss.mean_missing);
+    }
+    let base = inside * (1.0 - through);
+    let clear = inside * through;
+    let lobe = o.through * vector_max(f0 * (1.0 - shares.missing) + (vec3f(f90) - f0) * shares.schlick);
+    let albedo = vec3f(
+        lobe,
+        vector_max(base) * o.enters + vector_max(tint) * o.missing,
+        vector_max(clear) * o.enters,
     );
+    return Principled(
+        f0, f90, entry, gloss, base * (INV_PI / entering), clear, tint * several, several, coat, on, o, albedo,
+    );
+}
+
+// T, e and n from the lobe's shares, from T, and from what the lobe loses under the coat.
+fn principled_shares(shares: GlossShares, entry: vec2f, through: f32, flattened: f32) -> PrincipledSide {
+    let reflected = gloss_albedo_reflected(shares, entry.x, entry.y);
+    let mean_fresnel = reflected / max(1.0 - shares.missing, 1e-6);
+    let enters = max(through * (1.0 - reflected) + flattened * mean_fresnel, 0.0);
+    return PrincipledSide(through, enters, through * shares.missing + flattened);
+}
+
+// T, e and n at cosine `c` > 0 to the normal.
+fn principled_side(p: Principled, c: f32) -> PrincipledSide {
+    let cosine = min(c, 1.0);
+    let through = dispatch_under_coat(p.coat, p.on, cosine);
+    let flattened = dispatch_coat_flattened(p.coat, p.gloss, cosine);
+    return principled_shares(gloss_albedo_shares(p.gloss, cosine), p.entry, through, flattened);
 }
 
 // Share of light that the interface reflects at cosine `c`.
@@ -59,25 +123,13 @@ fn principled_fresnel(p: Principled, c: f32) -> vec3f {
     return fresnel_schlick_to(p.f0, p.f90, c);
 }
 
-// Share of light that the interface keeps from entering at cosine `c`.
-fn principled_entry(p: Principled, c: f32) -> vec3f {
-    return fresnel_schlick_to(p.entry, p.f90, c);
-}
-
-// Share of the base that gets through the interface at cosine `c`, times its colour.
-fn principled_base(p: Principled, c: f32) -> vec3f {
-    return p.base * (vec3f(1.0) - principled_entry(p, c));
-}
-
-// Probability of sampling the lobe rather than the base. A function of wo alone, so that both sides of
+// Probability of sampling the lobe rather than what is diffuse. A function of wo alone, so that both sides of
 // multiple importance sampling see the same density.
-fn principled_lobe_share(p: Principled, cos_o: f32) -> f32 {
-    let lobe = vector_max(principled_fresnel(p, cos_o));
-    let base = vector_max(principled_base(p, cos_o));
-    if (base <= 0.0) {
+fn principled_lobe_share(p: Principled) -> f32 {
+    if (p.albedo.y <= 0.0) {
         return 1.0;
     }
-    return clamp(lobe / (lobe + base), 0.1, 0.9);
+    return max(p.albedo.x / (p.albedo.x + p.albedo.y), 0.1);
 }
 
 // A direction to scatter into. `u`: direction, `v`: which lobe; all in [0, 1 - 2^-24]. Deltas have their weight;
@@ -87,14 +139,14 @@ fn principled_direction(s: Scatter, p: Principled, wo: vec3f, u: vec2f, v: f32) 
     if (cos_o <= 0.0) {
         return scatter_absorb();
     }
-    let share = principled_lobe_share(p, cos_o);
+    let share = principled_lobe_share(p);
     var wi: vec3f;
     if (v >= share) {
         wi = diffuse_direction(s.ns, u);
-    } else if (p.alpha < GLOSS_SMOOTH) {
-        return Scattered(scatter_mirror(s, wo), 0.0, principled_fresnel(p, cos_o) / share, 1.0);
+    } else if (p.gloss.alpha < GLOSS_SMOOTH) {
+        return Scattered(scatter_mirror(s, wo), 0.0, principled_fresnel(p, cos_o) * (p.o.through / share), 1.0);
     } else {
-        wi = gloss_sample(s.ns, wo, p.alpha, u);
+        wi = gloss_sample(s.ns, wo, p.gloss.alpha, u);
     }
     if (!scatter_above(s, wi)) {
         return scatter_absorb();
@@ -121,12 +173,13 @@ fn principled_pdf(s: Scatter, p: Principled, wo: vec3f, wi: vec3f) -> f32 {
 // `principled_eval` for directions above the surface.
 fn principled_value(s: Scatter, p: Principled, wo: vec3f, wi: vec3f) -> vec3f {
     let cos_i = dot(s.ns, wi);
-    let in_and_out = principled_base(p, dot(s.ns, wo)) * (vec3f(1.0) - principled_entry(p, cos_i));
-    let base = in_and_out * (cos_i * INV_PI);
-    if (p.alpha < GLOSS_SMOOTH) {
-        return base;
+    let i = principled_side(p, cos_i);
+    let diffuse = (p.base * (p.o.enters * i.enters) + p.metal * (p.o.missing * i.missing)) * cos_i;
+    if (p.gloss.alpha < GLOSS_SMOOTH) {
+        return diffuse;
     }
-    return base + principled_fresnel(p, gloss_cosine(wo, wi)) * gloss_eval(s.ns, wo, wi, p.alpha);
+    let lobe = gloss_eval(s.ns, wo, wi, p.gloss.alpha) * min(p.o.through, i.through);
+    return diffuse + principled_fresnel(p, gloss_cosine(wo, wi)) * lobe;
 }
 
 // `principled_pdf` where `wo` is above the surface.
@@ -135,10 +188,10 @@ fn principled_density(s: Scatter, p: Principled, wo: vec3f, wi: vec3f) -> f32 {
     if (cos_i <= 0.0) {
         return 0.0;
     }
-    let share = principled_lobe_share(p, dot(s.ns, wo));
+    let share = principled_lobe_share(p);
     let base = (1.0 - share) * (cos_i * INV_PI);
-    if (p.alpha < GLOSS_SMOOTH) {
+    if (p.gloss.alpha < GLOSS_SMOOTH) {
         return base;
     }
-    return base + share * gloss_pdf(s.ns, wo, wi, p.alpha);
+    return base + share * gloss_pdf(s.ns, wo, wi, p.gloss.alpha);
 }

@@ -1,19 +1,35 @@
-// A rough interface between two clear media: microfacets that reflect and refract like smooth glass.
-// Walter et al. 2007, with the exact Fresnel term at the facet. Light that meets a second facet is lost: at
-// an index of 1.5, from the outside at cosines 1, 0.6 and 0.2, there is left 0.999, 0.996 and 0.957 at roughness
-// 0.3; 0.983, 0.946 and 0.859 at 0.6; 0.893, 0.728 and 0.489 at 1.
+// A rough interface between two clear media: microfacets that reflect and refract like smooth glass, and the light
+// that meets several of them.
+// Walter et al. 2007, with the exact Fresnel term at the facet, and both lobes masked by Smith's form with correlated
+// heights (Heitz 2014, JCGT 3(2)). Light that meets a second facet is given back diffusely on both sides
+// (`glass_albedo.wgsl`), so that a clear interface keeps all light; without compensation it is lost.
 
 #import "bsdf/dielectric.wgsl"
+#import "bsdf/diffuse.wgsl"
 #import "bsdf/fresnel.wgsl"
 #import "bsdf/ggx.wgsl"
 #import "bsdf/ggx_transmission.wgsl"
+#import "bsdf/glass_albedo.wgsl"
 #import "bsdf/scatter.wgsl"
 #import "math/basis.wgsl"
 #import "math/vector.wgsl"
+#import "scene/records.wgsl"
 
 // Below this product of alpha and |eta - 1| refraction is narrower than directions in single precision
 // resolve, and the interface counts as smooth; as does an index of 1.
 const ROUGH_DIELECTRIC_NARROW: f32 = 1e-4;
+
+// What light does that meets several facets, seen from `wo`.
+struct RoughDielectricSeveral {
+    // M at `wo`: the probability of sampling it. 0 without compensation.
+    missing: f32,
+    // Of that, the share that is transmitted.
+    transmitted: f32,
+    // Its means, on the side of `wo` and behind it.
+    near: f32,
+    far: f32,
+    albedo: GlassAlbedo,
+}
 
 // Index behind the surface over that before it, as the path comes, and the same less one.
 fn rough_dielectric_eta(s: Scatter) -> vec2f {
@@ -26,70 +42,132 @@ fn rough_dielectric_is_smooth(s: Scatter) -> bool {
     return alpha < GGX_SMOOTH || alpha * abs(rough_dielectric_eta(s).y) < ROUGH_DIELECTRIC_NARROW;
 }
 
-// Samples `wi`. `u`: facet, `v`: reflection or refraction; all in [0, 1 - 2^-24].
+// What several facets do for light seen at cosine `cos_o` > 0.
+fn rough_dielectric_several(s: Scatter, cos_o: f32) -> RoughDielectricSeveral {
+    var several: RoughDielectricSeveral;
+    several.missing = 0.0;
+    if (load_material_compensation(s.material) <= 0.0) {
+        return several;
+    }
+    let albedo = glass_albedo_at(s.roughness, s.roughness * s.roughness, s.ior, s.ior_minus_1);
+    let missing = glass_albedo_missing(albedo, cos_o);
+    let transmitted = glass_albedo_transmitted(albedo, s.ior);
+    several.missing = select(missing.y, missing.x, s.front);
+    several.transmitted = select(transmitted.y, transmitted.x, s.front);
+    several.near = select(albedo.mean.y, albedo.mean.x, s.front);
+    several.far = select(albedo.mean.x, albedo.mean.y, s.front);
+    several.albedo = albedo;
+    return several;
+}
+
+// Samples `wi`. `u`: facet, `v`: which lobe; all in [0, 1 - 2^-24].
 fn rough_dielectric_sample(s: Scatter, wo: vec3f, u: vec2f, v: f32) -> Scattered {
     if (rough_dielectric_is_smooth(s)) {
         return dielectric_sample(s, wo, v);
     }
-    let alpha = s.roughness * s.roughness;
-    let eta = rough_dielectric_eta(s);
-    let basis = basis_around(s.ns);
-    let o = basis_local_from_world(basis, wo);
-    if (o.z <= 0.0) {
+    let cos_o = dot(s.ns, wo);
+    if (cos_o <= 0.0) {
         return scatter_absorb();
     }
-    let h = ggx_transmission_normal(o, alpha, u);
-    let c = min(dot(o, h), 1.0);
-    let reflects = v < fresnel_dielectric(c, eta.x, eta.y);
-    var i: vec3f;
-    if (reflects) {
-        i = h * (2.0 * c) - o;
+    let eta = rough_dielectric_eta(s);
+    let several = rough_dielectric_several(s, cos_o);
+    var wi: vec3f;
+    var reflects: bool;
+    if (v < several.missing) {
+        reflects = v >= several.missing * several.transmitted;
+        wi = diffuse_direction(select(-s.ns, s.ns, reflects), u);
     } else {
-        i = dielectric_refract(h, o, eta.x, eta.y);
+        let basis = basis_around(s.ns);
+        let o = basis_local_from_world(basis, wo);
+        let h = ggx_transmission_normal(o, s.roughness * s.roughness, u);
+        let c = min(dot(o, h), 1.0);
+        reflects = (v - several.missing) < fresnel_dielectric(c, eta.x, eta.y) * (1.0 - several.missing);
+        var i: vec3f;
+        if (reflects) {
+            i = h * (2.0 * c) - o;
+        } else {
+            i = dielectric_refract(h, o, eta.x, eta.y);
+        }
+        wi = vector_unit(basis_world_from_local(basis, i));
     }
-    let wi = vector_unit(basis_world_from_local(basis, i));
     if (!select(scatter_below(s, wi), scatter_above(s, wi), reflects)) {
         return scatter_absorb();
     }
-    let pdf = rough_dielectric_pdf(s, wo, wi);
+    let pdf = rough_dielectric_density(s, wo, wi, several);
     if (pdf <= 0.0) {
         return scatter_absorb();
     }
     let eta2 = select(eta.x * eta.x, 1.0, reflects);
-    return Scattered(wi, pdf, rough_dielectric_eval(s, wo, wi) / pdf, eta2);
+    return Scattered(wi, pdf, rough_dielectric_value(s, wo, wi, several) / pdf, eta2);
 }
 
 // f |cos|, for `wi` on either side of the surface; 0 where the interface is smooth.
 fn rough_dielectric_eval(s: Scatter, wo: vec3f, wi: vec3f) -> vec3f {
-    if (rough_dielectric_is_smooth(s) || dot(s.ns, wo) <= 0.0) {
+    let cos_o = dot(s.ns, wo);
+    if (rough_dielectric_is_smooth(s) || cos_o <= 0.0) {
         return vec3f(0.0);
     }
+    return rough_dielectric_value(s, wo, wi, rough_dielectric_several(s, cos_o));
+}
+
+// Density of `rough_dielectric_sample` over all lobes, per steradian of `wi`; 0 where the interface is smooth.
+fn rough_dielectric_pdf(s: Scatter, wo: vec3f, wi: vec3f) -> f32 {
+    let cos_o = dot(s.ns, wo);
+    if (rough_dielectric_is_smooth(s) || cos_o <= 0.0) {
+        return 0.0;
+    }
+    return rough_dielectric_density(s, wo, wi, rough_dielectric_several(s, cos_o));
+}
+
+// `rough_dielectric_eval` of a rough interface, `wo` above it.
+fn rough_dielectric_value(s: Scatter, wo: vec3f, wi: vec3f, several: RoughDielectricSeveral) -> vec3f {
+    let above = scatter_above(s, wi);
+    if (!above && !scatter_below(s, wi)) {
+        return vec3f(0.0);
+    }
+    let diffuse = rough_dielectric_diffuse(s, abs(dot(s.ns, wi)), above, several);
     let alpha = s.roughness * s.roughness;
     let eta = rough_dielectric_eta(s);
     let basis = basis_around(s.ns);
     let o = basis_local_from_world(basis, wo);
     let i = basis_local_from_world(basis, wi);
-    if (scatter_above(s, wi)) {
+    if (above) {
         let h = o + i;
         let f = fresnel_dielectric(min(0.5 * sqrt(dot(h, h)), 1.0), eta.x, eta.y);
-        return vec3f(f * ggx_eval(o, i, alpha));
-    }
-    if (!scatter_below(s, wi)) {
-        return vec3f(0.0);
+        return vec3f(f * ggx_eval(o, i, alpha) + diffuse);
     }
     let h = ggx_transmission_facet(o, i, eta.y);
     if (h.z <= 0.0) {
-        return vec3f(0.0);
+        return vec3f(diffuse);
     }
     let f = fresnel_dielectric(min(dot(o, h), 1.0), eta.x, eta.y);
-    return vec3f((1.0 - f) * ggx_transmission_eval(o, i, h, alpha, eta.y));
+    return vec3f((1.0 - f) * ggx_transmission_eval(o, i, h, alpha, eta.y) + diffuse);
 }
 
-// Density of `rough_dielectric_sample` over both lobes, per steradian of `wi`; 0 where the interface is smooth.
-fn rough_dielectric_pdf(s: Scatter, wo: vec3f, wi: vec3f) -> f32 {
-    if (rough_dielectric_is_smooth(s) || dot(s.ns, wo) <= 0.0) {
+// f |cos| of what several facets do, at cosine `cos_i` > 0 on the side of `wo` (`above`) or behind it.
+fn rough_dielectric_diffuse(s: Scatter, cos_i: f32, above: bool, several: RoughDielectricSeveral) -> f32 {
+    if (several.missing <= 0.0) {
         return 0.0;
     }
+    let missing = glass_albedo_missing(several.albedo, cos_i);
+    let there = select(missing.y, missing.x, s.front == above) * (cos_i * INV_PI);
+    if (above) {
+        return (1.0 - several.transmitted) * several.missing * there / several.near;
+    }
+    let eta = rough_dielectric_eta(s).x;
+    return several.transmitted * several.missing * there / (several.far * (eta * eta));
+}
+
+// `rough_dielectric_pdf` of a rough interface, `wo` above it.
+fn rough_dielectric_density(s: Scatter, wo: vec3f, wi: vec3f, several: RoughDielectricSeveral) -> f32 {
+    let cos_i = dot(s.ns, wi);
+    let side = select(several.transmitted, 1.0 - several.transmitted, cos_i > 0.0);
+    let diffuse = select(0.0, several.missing * side * (abs(cos_i) * INV_PI), several.missing > 0.0);
+    return (1.0 - several.missing) * rough_dielectric_once(s, wo, wi) + diffuse;
+}
+
+// Density of sampling `wi` by one facet.
+fn rough_dielectric_once(s: Scatter, wo: vec3f, wi: vec3f) -> f32 {
     let alpha = s.roughness * s.roughness;
     let eta = rough_dielectric_eta(s);
     let basis = basis_around(s.ns);

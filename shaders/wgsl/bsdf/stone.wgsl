@@ -59,7 +59,7 @@ fn stone_body(bands: vec3f) -> f32 {
 fn stone_matte(s: Scatter) -> Matte {
     let gloss = load_material_gloss(s.material);
     let alpha = s.roughness * s.roughness;
-    return Matte(basis_around(s.ns), vec2f(alpha), gloss, s.color * (1.0 - gloss), vec3f(0.0));
+    return Matte(basis_around(s.ns), vec2f(alpha), s.roughness, 0.0, gloss, s.color * (1.0 - gloss), vec3f(0.0));
 }
 
 // Samples `wi`. `u`: direction, `v`: which lobe; all in [0, 1 - 2^-24].

@@ -1,6 +1,7 @@
 // Wood: a field that changes quickly across the grain and slowly along it gives it bumps, roughness and growth
 // rings; the gloss is stretched along the grain. Coordinates are metres of the object times the pattern's scale.
 
+#import "bsdf/ggx_anisotropic.wgsl"
 #import "bsdf/matte.wgsl"
 #import "bsdf/scatter.wgsl"
 #import "math/basis.wgsl"
@@ -78,20 +79,18 @@ fn wood_late(bands: vec3f) -> f32 {
     return clamp(rise + (bands.z - 0.5) * 1.2 + (bands.y - 0.5) * 0.6, 0.0, 1.0);
 }
 
-// The rough surface with what the pattern found. Across the grain the lobe is narrower by `anisotropy` (Burley 2012,
-// "Physically-Based Shading at Disney": aspect sqrt(1 - 0.9 anisotropy)); end grain, where the grain leaves the
-// surface, has no direction.
+// The rough surface with what the pattern found. Across the grain the lobe is narrower by `anisotropy`; end grain,
+// where the grain leaves the surface, has no direction.
 fn wood_matte(s: Scatter) -> Matte {
     let gloss = load_material_gloss(s.material);
-    let alpha = s.roughness * s.roughness;
     // Square of the sine between grain and normal.
     let lies = min(dot(s.tangent, s.tangent), 1.0);
-    let aspect = sqrt(1.0 - 0.9 * load_material_anisotropy(s.material) * lies);
+    let anisotropy = load_material_anisotropy(s.material) * lies;
     let around = basis_around(s.ns);
     let t = vector_unit_or(s.tangent, around.t);
     let basis = Basis(t, vector_cross(s.ns, t), s.ns);
-    let widths = vec2f(min(alpha / aspect, 1.0), alpha * aspect);
-    return Matte(basis, widths, gloss, s.color * (1.0 - gloss), vec3f(0.0));
+    let widths = ggx_anisotropic_alpha(s.roughness, anisotropy);
+    return Matte(basis, widths, s.roughness, anisotropy, gloss, s.color * (1.0 - gloss), vec3f(0.0));
 }
 
 // Samples `wi`. `u`: direction, `v`: which lobe; all in [0, 1 - 2^-24].

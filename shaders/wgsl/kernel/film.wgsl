@@ -10,8 +10,8 @@ fn film_empty() -> FilmPixel {
     return FilmPixel(vec3f(0.0), 0u, 0u, 0.0, 0u, 0u);
 }
 
-// Adds sample number `sample` of the dispatch. A sample that is not finite adds 0, still counts, and is remembered: leaving
-// it out of the count would weigh the rest more.
+// Adds sample number `sample` of the dispatch. A sample that is not finite adds 0, still counts, and is remembered:
+// leaving it out of the count would weigh the rest more.
 fn film_add(film: ptr<function, FilmPixel>, radiance: vec3f, sample: u32, segments: u32) {
     if (film_finite(radiance.x) && film_finite(radiance.y) && film_finite(radiance.z)) {
         (*film).sum += radiance;

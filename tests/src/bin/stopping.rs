@@ -182,6 +182,10 @@ fn stopping(name: &str, goal: f64, runs: &[Run]) -> String {
 
 /// Of sorted values.
 fn quantile(values: &[f64], share: f64) -> f64 {
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "a share of a length is at most the length"
+    )]
     let rank = ((values.len() as f64 * share).ceil() as usize).clamp(1, values.len());
     values[rank - 1]
 }

@@ -41,8 +41,10 @@ pub struct Lobe {
     pub ior: f64,
     /// Brushed along the tangent, 0 ..= 1.
     pub anisotropy: f32,
-    /// Share of a second lobe; the light of several reflections of a conductor.
+    /// Share of a second lobe.
     pub weight: f32,
+    /// 1 with the light of several reflections, 0 without.
+    pub compensation: f32,
     /// Geometric and shading normal, unit.
     pub normal: DVec3,
     /// The path comes from the front side.
@@ -71,7 +73,8 @@ impl Lobe {
             metallic: 0.0,
             ior: 1.5,
             anisotropy: 0.0,
-            weight: if kind == MaterialKind::Conductor { 1.0 } else { 0.0 },
+            weight: 0.0,
+            compensation: 1.0,
             normal: DVec3::new(0.36, -0.48, 0.8),
             front: true,
             uv: DVec2::new(0.3, 0.6),
@@ -96,6 +99,7 @@ impl Lobe {
             ior_minus_1: (self.ior - 1.0) as f32,
             anisotropy: self.anisotropy,
             weight: self.weight,
+            compensation: self.compensation,
             gloss: self.gloss,
             tint: [1.0; 3],
             specular: mean_from_within(self.ior) as f32,

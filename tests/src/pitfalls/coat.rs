@@ -48,7 +48,7 @@ pub fn ours(c: f64, base: f64) -> [f64; 2] {
     let mut kernel = bench.single();
     let lobe = Lobe { normal: DVec3::Z, color: base as f32, ..Lobe::principled(0.0, 0.0) };
     let (scatter, wo) = (lobe.single(), lobe.at_cosine(c).as_vec3());
-    let surface = kernel.principled_at(scatter);
+    let surface = kernel.principled_at(scatter, wo);
     let highlight = f64::from(kernel.principled_fresnel(surface, c as f32).x);
     let n = 4000;
     let at = |i: i32| (f64::from(i) + 0.5) / f64::from(n);

@@ -1,8 +1,9 @@
 //! Hemispherical albedo.
 
 use glam::DVec3;
-use pack::abi::MaterialKind;
+use pack::abi::{Material, MaterialKind};
 use tests::kernel::{Bench, Lobe};
+use tests::layers::Layers;
 use tests::statistics::Mean;
 use tests::statistics::grid::{Grid, Shape};
 
@@ -27,9 +28,15 @@ fn diffuse_reflects_its_colour() {
     }
 }
 
-/// White, black metal, every corner of the parameters and between.
+/// Without the light of several reflections.
+fn once() -> Bench {
+    let record = Material { compensation: 0.0, ..Material::from(Layers::PLAIN) };
+    Bench::new().materials(&[record])
+}
+
+/// White: every corner of the parameters and between.
 #[test]
-fn principled_never_reflects_more_than_it_gets() {
+fn principled_returns_everything() {
     let bench = Bench::new();
     let mut kernel = bench.double();
     let mut largest: f64 = 0.0;
@@ -37,9 +44,10 @@ fn principled_never_reflects_more_than_it_gets() {
         for metallic in [0.0, 0.3, 1.0] {
             for ior in [1.0, 1.0001, 1.5, 2.5, 4.0] {
                 let lobe = Lobe { ior, ..Lobe::principled(roughness, metallic) };
-                for mu in MU {
-                    let e = albedo(&mut kernel, &lobe, lobe.at_cosine(mu), 4);
-                    assert!(e > 0.0 && e < 1.0 + SLACK, "{lobe:?} at {mu}: {e}");
+                // The tables of directional albedo are made for cosines down to 0.02.
+                for mu in MU.into_iter().filter(|mu| *mu > 0.02) {
+                    let e = albedo(&mut kernel, &lobe, lobe.at_cosine(mu), 8);
+                    assert!((e - 1.0).abs() < 0.015, "{lobe:?} at {mu}: {e}");
                     largest = largest.max(e);
                 }
             }
@@ -64,7 +72,7 @@ fn principled_without_colour_reflects_the_interface_only() {
 /// incidence that is ln 2 exactly.
 #[test]
 fn ggx_at_its_roughest_returns_one_less_ln_2() {
-    let bench = Bench::new();
+    let bench = once();
     let mut kernel = bench.double();
     let lobe = Lobe::principled(1.0, 1.0);
     let e = albedo(&mut kernel, &lobe, lobe.normal, 16);
@@ -74,7 +82,7 @@ fn ggx_at_its_roughest_returns_one_less_ln_2() {
 
 #[test]
 fn ggx_tends_to_a_mirror() {
-    let bench = Bench::new();
+    let bench = once();
     let mut kernel = bench.double();
     for mu in [1.0, 0.5, 0.2] {
         let mut last = 0.0;

@@ -13,6 +13,8 @@ use tests::statistics::stream::Stream;
 const MU: [f64; 6] = [1.0, 0.8, 0.5, 0.2, 0.05, 0.01];
 /// Rounding of the kernel's constants, and quadrature.
 const SLACK: f64 = 1e-4;
+/// The light that a white surface gives back, with the errors of the tables of directional albedo.
+const MOST: f64 = 1.015;
 
 /// A white surface and its layers.
 #[derive(Clone, Copy, Debug)]
@@ -73,24 +75,22 @@ impl Case {
         let (mut near, mut far) = (rough(false), rough(true));
         let mut kernel = bench.double();
         let coat = kernel.layers_coat(s);
-        let coated = kernel.coat_fresnel(coat.x, mu);
-        let seen = (1.0 - coated) * (1.0 - coated);
-        if coat.y < double::GLOSS_SMOOTH {
-            near += coated;
+        if coat.y * coat.y < double::GLOSS_SMOOTH {
+            near += kernel.coat_fresnel(coat.x, mu);
         }
-        let p = kernel.principled_at(s);
-        if p.alpha < double::GLOSS_SMOOTH {
-            near += kernel.principled_fresnel(p, mu).x * seen;
-            far += kernel.thin_clear(p, mu).x * seen;
+        let p = kernel.principled_at(s, wo);
+        if p.gloss.alpha < double::GLOSS_SMOOTH {
+            near += kernel.principled_fresnel(p, mu).x * p.o.through;
+            far += kernel.thin_clear(p, mu).x * p.o.through;
         }
         [near, far]
     }
 
-    /// [`Case::shares`], with finer cells until they agree where there is a doubt about the sum being below 1.
+    /// [`Case::shares`], with finer cells until they agree where there is a doubt about the sum being below [`MOST`].
     fn converged(&self, wo: DVec3) -> [f64; 2] {
         let mut fine = 2;
         let mut shares = self.shares(wo, fine);
-        while shares[0] + shares[1] > 1.0 - SLACK && fine < 128 {
+        while shares[0] + shares[1] > MOST && fine < 128 {
             fine *= 2;
             let finer = self.shares(wo, fine);
             let change = finer[0] + finer[1] - shares[0] - shares[1];
@@ -147,11 +147,11 @@ fn layers_never_give_more_light_than_they_get() {
             }
         }
     }
-    assert!(largest.0 < 1.0 + SLACK, "{}", largest.1);
+    assert!(largest.0 < MOST, "{}", largest.1);
     assert!(largest.0 > 1.0 - SLACK, "something white is in it: {}", largest.1);
 }
 
-/// What a white, smooth, clear sheet does not reflect goes through.
+/// What a white, smooth, clear sheet does not reflect goes through; a metal's part lets nothing in, and reflects all.
 #[test]
 fn a_clear_pane_keeps_all_light() {
     for ior in [1.0, 1.5, 2.4] {
@@ -161,10 +161,7 @@ fn a_clear_pane_keeps_all_light() {
             case.lobe.ior = ior;
             for mu in MU {
                 let [near, far] = case.shares(case.lobe.at_cosine(mu), 1);
-                let clear = f64::from(1.0 - metallic);
-                // The metal's part of the interface lets nothing in.
-                let least = near + clear * (1.0 - near);
-                assert!((near + far - least).abs() < 1e-6, "{case:?} at {mu}: {near} + {far}");
+                assert!((near + far - 1.0).abs() < 1e-6, "{case:?} at {mu}: {near} + {far}");
             }
         }
     }
@@ -172,7 +169,7 @@ fn a_clear_pane_keeps_all_light() {
 
 /// A rough sheet gives to both sides together what its interface would give back if it were a perfect metal.
 #[test]
-fn a_rough_pane_loses_only_what_is_masked() {
+fn a_rough_pane_gives_both_sides_what_metal_gives_one() {
     for roughness in [0.2, 0.5, 1.0] {
         let pane = Case::new(roughness, 0.0, Layers { transmission: 1.0, ..Layers::PLAIN });
         let metal = Case::new(roughness, 1.0, Layers::PLAIN);

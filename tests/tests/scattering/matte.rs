@@ -66,14 +66,16 @@ fn both_sides(kernel: &mut double::Kernel<'_>, lobe: &Lobe, wo: DVec3) -> [f64; 
 }
 
 #[test]
-fn a_rough_surface_never_scatters_more_than_it_gets() {
+fn a_rough_surface_scatters_what_it_does_not_absorb() {
     for lobe in lobes() {
         let bench = lobe.bench();
         let mut kernel = bench.double();
         for mu in [1.0, 0.7, 0.3, 0.05, 0.01] {
             let wo = lobe.at_cosine(mu);
             let [above, below] = both_sides(&mut kernel, &lobe, wo);
-            assert!(above + below <= 1.0 + 1e-4, "{lobe:?} at {mu}: {above} + {below}");
+            let (color, gloss) = (f64::from(lobe.color), f64::from(lobe.gloss));
+            let kept = color * (1.0 - gloss) + gloss;
+            assert!((above + below - kept).abs() < 0.015, "{lobe:?} at {mu}: {above} + {below}");
             // What is not gloss is Lambert's, to both sides, exactly.
             let matte = f64::from(lobe.color) * (1.0 - f64::from(lobe.gloss));
             let through = matte * f64::from(lobe.weight);
@@ -129,8 +131,10 @@ fn weights_are_values_over_densities_and_average_to_the_albedo() {
                         (out.weight.x * out.pdf - f).abs() <= 1e-5 * f,
                         "{lobe:?}: {out:?}, f {f}"
                     );
-                    // In proportion to the albedos, so that there are no fireflies.
-                    assert!(out.weight.x <= 1.0 + 1e-4, "{lobe:?} at {mu}: {out:?}");
+                    // No fireflies. Weights that average to 1 cannot all be below it: the light of several
+                    // reflections is sampled by a density that is only near its own.
+                    let most = if lobe.gloss > 0.0 { 1.85 } else { 1.0 + 1e-4 };
+                    assert!(out.weight.x <= most, "{lobe:?} at {mu}: {out:?}");
                     let pdf = single.dispatch_pdf(lobe.single(), wo.as_vec3(), out.wi);
                     assert!((pdf / out.pdf - 1.0).abs() < 1e-4, "{lobe:?}: {} {pdf}", out.pdf);
                 }

@@ -34,7 +34,7 @@ fn shares(lobe: &Lobe, record: Material, mu: f64, test: usize, n: usize) -> [Mea
 }
 
 #[test]
-fn a_leaf_never_gives_more_than_it_gets() {
+fn a_white_leaf_gives_all_it_gets() {
     for (weight, forward, g) in
         [(0.0, 0.5, 0.6), (0.3, 0.0, 0.6), (0.5, 0.5, 0.6), (1.0, 1.0, 0.95), (1.0, 1.0, -0.9)]
     {
@@ -54,10 +54,7 @@ fn a_leaf_never_gives_more_than_it_gets() {
             sums[1] += above.iter().sum::<f64>();
             let reflected = 1.0 - f64::from(weight);
             assert!((sums[1] - reflected).abs() < 2e-3, "{weight} {mu}: {sums:?}");
-            assert!(sums[0] < 1.0 + 2e-3, "{weight} {forward} {g} at {mu}: {sums:?}");
-            if forward == 0.0 {
-                assert!((sums[0] - 1.0).abs() < 2e-3, "{sums:?}");
-            }
+            assert!((sums[0] - 1.0).abs() < 0.015, "{weight} {forward} {g} at {mu}: {sums:?}");
         }
     }
 }

@@ -62,7 +62,7 @@ fn two_widths_generalise_one() {
 
 #[test]
 fn a_rough_conductor_without_compensation_loses_ln_2() {
-    let lobe = Lobe { weight: 0.0, ..Lobe::conductor(1.0, 0.0) };
+    let lobe = Lobe { compensation: 0.0, ..Lobe::conductor(1.0, 0.0) };
     let e = albedo(&mut lobe.bench().double(), &lobe, lobe.normal, 16);
     assert!((e - (1.0 - std::f64::consts::LN_2)).abs() < 1e-4, "{e}");
 }
@@ -96,7 +96,7 @@ fn returned(lobe: &Lobe, o: DVec3, n: usize) -> f64 {
             let (sin, cos) = (at(j, cells) * std::f64::consts::TAU).sin_cos();
             let flat = (1.0 - z * z).sqrt();
             let i = DVec3::new(flat * cos * shape.alpha.x, flat * sin * shape.alpha.y, z);
-            let missing = kernel.ggx_albedo_missing(shape.fit, i);
+            let missing = kernel.brushed_albedo_missing(shape.albedo, i);
             more += 2.0 * shape.extra.x * missing * z * dz / cells as f64;
         }
     }
@@ -127,21 +127,16 @@ fn a_white_conductor_returns_everything() {
 
 /// Seen along the brushing, across it and between.
 #[test]
-fn a_brushed_conductor_never_returns_more_than_it_gets() {
+fn a_brushed_conductor_returns_everything() {
     for anisotropy in [0.1, 0.3, 0.6, 1.0] {
         for roughness in [0.2, 0.4, 0.6, 0.8, 1.0] {
             let lobe = Lobe::conductor(roughness, anisotropy);
-            let mut least: f64 = 1.0;
             for mu in [1.0, 0.7, 0.3, 0.1, 0.02] {
                 for turn in [0.0, 0.25, 0.5, 0.75, 1.0] {
                     let e = returned(&lobe, local(mu, turn), 64);
-                    assert!(e < 1.0 + 1e-3, "{lobe:?} at {mu}, {turn}: {e}");
-                    least = least.min(e);
+                    assert!((e - 1.0).abs() < 0.015, "{lobe:?} at {mu}, {turn}: {e}");
                 }
             }
-            // Where the wider width exceeds 1 the table of widths ends, and light is lost.
-            let wide = roughness > 0.9 || (roughness > 0.7 && anisotropy > 0.9);
-            assert!(least > if wide { 0.47 } else { 0.93 }, "{lobe:?}: {least}");
         }
     }
 }
@@ -219,19 +214,20 @@ fn shares(lobe: &Lobe, mu: f64, fine: usize) -> (f64, f64) {
     (reflected, sum(axis, -n, alpha * (eta - 1.0).abs().min(1.0)) * eta * eta)
 }
 
-/// What is lost is light that meets the surface twice: next to nothing up to a roughness of 0.3 unless light
-/// grazes.
+/// Both sides together keep all light.
 #[test]
-fn rough_glass_never_returns_more_than_it_gets() {
-    for (roughness, least) in [(0.1, 0.97), (0.3, 0.80), (0.6, 0.44), (1.0, 0.16)] {
+fn rough_glass_returns_everything() {
+    for roughness in [0.1, 0.3, 0.6, 1.0] {
         for ior in [1.1, 1.5, 2.4] {
             for front in [true, false] {
                 for mu in [1.0, 0.6, 0.2, 0.05] {
                     let lobe = Lobe::rough_dielectric(roughness, ior, front);
                     let (reflected, transmitted) = shares(&lobe, mu, 8);
                     let e = reflected + transmitted;
-                    assert!(e < 1.0 + 1e-3, "{lobe:?} at {mu}: {reflected} + {transmitted}");
-                    assert!(e > least, "{lobe:?} at {mu}: {reflected} + {transmitted}");
+                    assert!(
+                        (e - 1.0).abs() < 0.015,
+                        "{lobe:?} at {mu}: {reflected} + {transmitted}"
+                    );
                 }
             }
         }

@@ -7,7 +7,7 @@ use lang::material::{
 use lang::scene::{self, Color, MaterialModel, Scalar};
 use pack::abi::{self, MaterialKind, NONE, material_flag};
 
-use super::table::{MaterialTable, blank, factor, set_normal_map, with_ior};
+use super::table::{MaterialTable, blank, factor, set_normal_map, switch, with_ior};
 use crate::lower::fresnel;
 use crate::lower::medium::Water;
 
@@ -90,7 +90,7 @@ impl MaterialTable<'_> {
             roughness: factor(from.roughness),
             metallic_roughness_texture: self.roughness_texture(from.roughness),
             anisotropy: from.anisotropy as f32,
-            weight: if from.compensation { 1.0 } else { 0.0 },
+            compensation: switch(from.compensation),
             flags: if from.anisotropy > 0.0 { material_flag::TANGENT } else { 0 },
             ..blank(MaterialKind::Conductor)
         }
@@ -135,6 +135,7 @@ impl MaterialTable<'_> {
             abi::Material {
                 roughness: factor(roughness),
                 metallic_roughness_texture: self.roughness_texture(roughness),
+                compensation: switch(from.compensation),
                 ..with_ior(blank(MaterialKind::RoughDielectric), from.ior)
             }
         };

@@ -3,7 +3,7 @@
 use lang::scene::{Color, ColorSpace, Principled, Scalar, Wrap};
 use pack::abi::{self, MaterialKind, NONE, material_flag};
 
-use super::table::{MaterialTable, blank, channel, cutting, factor, image_of, with_ior};
+use super::table::{MaterialTable, blank, channel, cutting, factor, image_of, switch, with_ior};
 use crate::import::{ImportedMaterial, MapUse};
 use crate::lower::files::ImageRef;
 use crate::lower::texture::Channel;
@@ -30,6 +30,7 @@ impl MaterialTable<'_> {
             metallic: factor(from.metallic),
             metallic_roughness_texture: self.channels(metallic_roughness, wrap),
             flags: material_flag::EMIT_BOTH_SIDES,
+            compensation: switch(from.compensation),
             ..with_ior(blank(MaterialKind::Principled), from.ior)
         };
         self.specular(&mut record, from);

@@ -190,6 +190,7 @@ pub(in crate::lower) fn blank(kind: MaterialKind) -> abi::Material {
         normal_strength: 1.0,
         medium: NONE,
         specular: 1.0,
+        compensation: 1.0,
         tint: if kind == MaterialKind::Principled { [1.0; 3] } else { [0.0; 3] },
         specular_texture: NONE,
         coat_texture: NONE,
@@ -219,6 +220,11 @@ pub(super) fn set_normal_map(material: &mut abi::Material, image: u32, strength:
 
 pub(in crate::lower) fn with_ior(material: abi::Material, ior: f64) -> abi::Material {
     abi::Material { ior: ior as f32, ior_minus_1: (ior - 1.0) as f32, ..material }
+}
+
+/// What a record holds for `on` and `off`.
+pub(in crate::lower) fn switch(on: bool) -> f32 {
+    if on { 1.0 } else { 0.0 }
 }
 
 pub(in crate::lower) fn factor(scalar: Scalar) -> f32 {

@@ -68,5 +68,7 @@ abi_struct! {
         pub _pad1: u32,
         /// Unused.
         pub _pad2: u32,
+        /// First heap word of each `AlbedoTable`; `NONE` for those that no material reads.
+        pub albedo_at: [u32; 4],
     }
 }

@@ -209,8 +209,7 @@ abi_struct! {
         pub priority: u32,
         /// Second colour: what a coat reflects, the specular colour, veins of stone, late wood.
         pub tint: [f32; 3],
-        /// Share of a second lobe: surface fuzz, translucency. Conductor: 1 with the light of several
-    /// reflections, 0 without.
+        /// Share of a second lobe: surface fuzz, translucency.
         pub weight: f32,
         /// Stretches a pattern: pattern coordinates are metres of the object times this.
         pub pattern_scale: f32,
@@ -247,8 +246,8 @@ abi_struct! {
         pub coat_texture: u32,
         /// `Texture` id or `NONE`; transmission in red.
         pub transmission_texture: u32,
-        /// Unused.
-        pub _pad0: u32,
+        /// Conductor, rough dielectric, principled: 1 with the light of several reflections, 0 without.
+        pub compensation: f32,
     }
 }
 

@@ -211,7 +211,7 @@ rules! { pack;
         coat: unit_range(),
         coat_roughness: unit_range(),
         transmission: unit_range(),
-        _pad0: unused(),
+        compensation: unit_range(),
     }
     // `child` is `light_tree`'s; so is `trail` of lights.
     LightNode {

@@ -8,10 +8,10 @@
 pub(crate) mod sound;
 
 use pack::abi::{
-    Camera, ChildRef, Instance, LIGHT_LEAF, Light, LightKind, LightNode, MOVES, Material,
-    MaterialKind, Medium, NONE, Node, OBJECT_OF_INSTANCE, Object, RenderSettings, Sky, SkyKind,
-    Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap, TriShade, Triangle, WideNode, Wrap,
-    f64_bits, material_flag,
+    AlbedoTable, Camera, ChildRef, Instance, LIGHT_LEAF, Light, LightKind, LightNode, MOVES,
+    Material, MaterialKind, Medium, NONE, Node, OBJECT_OF_INSTANCE, Object, RenderSettings, Sky,
+    SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap, TriShade, Triangle, WideNode,
+    Wrap, f64_bits, material_flag,
 };
 use pack::manifest::Named;
 use pack::{Kind, Manifest, PackWriter};
@@ -36,6 +36,7 @@ pub(crate) struct Scene {
     pub(crate) texels: Vec<[u32; 4]>,
     pub(crate) srgb: Option<[f32; 256]>,
     pub(crate) sky_table: Vec<[f32; 4]>,
+    pub(crate) albedo: Vec<[f32; 4]>,
     pub(crate) kernel: String,
     pub(crate) manifest: Option<Manifest>,
 }
@@ -308,9 +309,24 @@ impl Scene {
             texels: vec![[0x3c00_3800; 4]; 5],
             srgb: Some(srgb()),
             sky_table: Vec::new(),
+            albedo: Vec::new(),
             kernel: "// kernel\nfn main() {}\n".to_owned(),
             manifest: Some(manifest()),
         }
+    }
+
+    /// The same, with materials that read the first and the last table of directional albedo.
+    pub(crate) fn and_albedo(mut self) -> Self {
+        for material in &mut self.materials {
+            match MaterialKind::from_tag(material.kind) {
+                Some(MaterialKind::Principled) => material.compensation = 1.0,
+                Some(MaterialKind::Leaf) => (material.weight, material.forward) = (0.5, 0.5),
+                _ => {}
+            }
+        }
+        let words = AlbedoTable::Gloss.words() + AlbedoTable::Leaf.words();
+        self.albedo = vec![[0.5, -0.25, 0.0, 1.0]; words];
+        self
     }
 
     /// The example with wide nodes: three, four and two children.
@@ -458,6 +474,7 @@ impl Scene {
             .records(&self.textures)
             .texels(&self.texels)
             .sky_table(&self.sky_table)
+            .albedo(&self.albedo)
             .kernel(&self.kernel)
             .recipe_id([7; 32]);
         if let Some(sky) = &self.sky {
