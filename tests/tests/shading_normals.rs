@@ -210,12 +210,14 @@ fn steep_normal_maps_lose_no_light() {
         image::Rgba([r, g, 200, 255])
     });
     image.save(dir.path().join("map.png")).expect("an image can be written");
-    // What a flat surface of these keeps at any cosine; principled is not yet white itself.
+    // What a flat surface of these keeps at any cosine.
     let kinds = [
         ("diffuse { color = linear(1)", 0.999),
         ("metal { color = linear(1), fuzz = 0", 0.999),
         ("conductor { color = linear(1), roughness = 0.3", 0.99),
-        ("principled { color = linear(1), metallic = 1, roughness = 0.3", 0.9),
+        ("principled { color = linear(1), metallic = 1, roughness = 0.3", 0.99),
+        ("principled { color = linear(1), roughness = 0.3", 0.99),
+        ("principled { color = linear(1), roughness = 0.8, coat.weight = 1", 0.99),
     ];
     for (kind, least) in kinds {
         for strength in [1, 4, 10] {
