@@ -46,7 +46,7 @@ fn every_kind_has_its_functions() {
         let (stem, traits) = (kind.stem(), kind.traits());
         let mut functions = Vec::new();
         if !traits.generated {
-            functions = named(&stem, &["sample", "eval", "pdf"]);
+            functions = named(&stem, &["sample", "eval"]);
         }
         if traits.pattern {
             functions.push(format!("{stem}_pattern"));

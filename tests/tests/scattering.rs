@@ -45,7 +45,7 @@ fn grid(lobe: &Lobe, wo: DVec3) -> Grid {
 fn albedo(kernel: &mut double::Kernel<'_>, lobe: &Lobe, wo: DVec3, fine: usize) -> f64 {
     let s = lobe.double();
     let rough =
-        grid(lobe, wo).integrate_above(fine, lobe.normal, |wi| kernel.dispatch_eval(s, wo, wi).x);
+        grid(lobe, wo).integrate_above(fine, lobe.normal, |wi| kernel.dispatch_eval(s, wo, wi).f.x);
     let mut sum: f64 = rough.iter().sum();
     let smooth = s.roughness * s.roughness < double::GLOSS_SMOOTH;
     if lobe.kind == MaterialKind::Principled && smooth {

@@ -13,8 +13,8 @@ struct Row {
     tag: String,
     /// Beginning of the functions' names.
     stem: String,
-    /// Arguments of its sample, eval and pdf.
-    arguments: [String; 3],
+    /// Arguments of its sample and eval.
+    arguments: [String; 2],
 }
 
 fn row(kind: MaterialKind) -> Row {
@@ -39,7 +39,7 @@ fn row(kind: MaterialKind) -> Row {
     Row {
         tag: tag("MATERIAL", &stem),
         stem: if traits.generated { format!("dispatch_{stem}") } else { stem },
-        arguments: [sample.join(", "), value.to_owned(), value.to_owned()],
+        arguments: [sample.join(", "), value.to_owned()],
     }
 }
 
@@ -90,7 +90,7 @@ fn phase_row() -> Row {
     Row {
         tag: "PHASE_KIND".to_owned(),
         stem: "phase".to_owned(),
-        arguments: [sample, "s, wo, wi", "s, wo, wi"].map(str::to_owned),
+        arguments: [sample, "s, wo, wi"].map(str::to_owned),
     }
 }
 
@@ -102,11 +102,16 @@ fn module_of(stem: &str) -> String {
     }
 }
 
-/// The three functions of a scattering model: name, parameters, result, what there is without a model, comment.
-const FUNCTIONS: [[&str; 5]; 3] = [
+/// The functions of a scattering model: name, parameters, result, what there is without a model, comment.
+const FUNCTIONS: [[&str; 5]; 2] = [
     ["sample", "wo: vec3f, key: SampleKey", "Scattered", "scatter_absorb()", "Samples `wi`."],
-    ["eval", "wo: vec3f, wi: vec3f", "vec3f", "vec3f(0.0)", "f |cos|, delta lobes left out."],
-    ["pdf", "wo: vec3f, wi: vec3f", "f32", "0.0", "Density of `model_sample`, per steradian."],
+    [
+        "eval",
+        "wo: vec3f, wi: vec3f",
+        "Evaluated",
+        "scatter_nothing()",
+        "f |cos| and the density of `model_sample`, delta lobes left out.",
+    ],
 ];
 
 /// The models, as they are without regard to the sides of the surface.

@@ -44,10 +44,9 @@ pub(crate) fn layers(features: &FeatureSet) -> String {
 }
 
 /// The functions of a layer and of all that is under it, without their prefix.
-const FUNCTIONS: [(&str, &str, &str, &str, &str); 4] = [
+const FUNCTIONS: [(&str, &str, &str, &str, &str); 3] = [
     ("direction", ", u: vec2f, v: f32", ", u, v", "Scattered", "As `principled_direction`."),
-    ("eval", ", wi: vec3f", ", wi", "vec3f", "f |cos|, delta lobes left out."),
-    ("pdf", ", wi: vec3f", ", wi", "f32", "Density of `wi`, per steradian."),
+    ("eval", ", wi: vec3f", ", wi", "Evaluated", "f |cos| and the density, delta lobes left out."),
     ("straight", "", "", "vec3f", "Share of light that goes straight through."),
 ];
 
@@ -88,7 +87,7 @@ pub(crate) fn outer(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: the principled surface with all its layers.\n\n");
     let module = format!("bsdf/{stem}.wgsl");
     text += &imports(["bsdf/principled.wgsl", "bsdf/scatter.wgsl", &module]);
-    let [direction, eval, pdf, straight] =
+    let [direction, eval, straight] =
         FUNCTIONS.map(|(function, _, arguments, _, _)| call(stem, function, arguments));
     let _ = write!(
         text,
@@ -98,14 +97,13 @@ pub(crate) fn outer(features: &FeatureSet) -> String {
          let to = {direction};\n    \
          if (to.pdf <= 0.0) {{\n        return to;\n    }}\n    \
          let wi = to.wi;\n    \
-         let pdf = {pdf};\n    \
-         if (pdf <= 0.0) {{\n        return scatter_absorb();\n    }}\n    \
-         return Scattered(wi, pdf, {eval} / pdf, 1.0);\n}}\n"
+         let e = {eval};\n    \
+         if (e.pdf <= 0.0) {{\n        return scatter_absorb();\n    }}\n    \
+         return Scattered(wi, e.pdf, e.f / e.pdf, 1.0);\n}}\n"
     );
     for (name, parameters, result, called, comment) in [
-        ("eval", ", wi: vec3f", "vec3f", eval.as_str(), FUNCTIONS[1].4),
-        ("pdf", ", wi: vec3f", "f32", &pdf, FUNCTIONS[2].4),
-        ("straight", "", "vec3f", &straight, FUNCTIONS[3].4),
+        ("eval", ", wi: vec3f", "Evaluated", eval.as_str(), FUNCTIONS[1].4),
+        ("straight", "", "vec3f", &straight, FUNCTIONS[2].4),
     ] {
         let _ = write!(
             text,

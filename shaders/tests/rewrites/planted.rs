@@ -10,11 +10,7 @@ fn forms_planted_in_the_kernel_are_found() {
     let text = link(&FeatureSet::full()).expect("the modules link").text;
     let plants = [
         ("ggx_normals", "(k * INV_PI) * k", "k * k * INV_PI"),
-        (
-            "principled_density",
-            "(1.0 - share) * (cos_i * INV_PI)",
-            "(1.0 - share) * cos_i * INV_PI",
-        ),
+        ("principled_eval", "(1.0 - share) * (cos_i * INV_PI)", "(1.0 - share) * cos_i * INV_PI"),
         ("sphere_light_sample", "d2 * sin2_t", "distance * distance * sin2_t"),
     ];
     for (function, good, bad) in plants {

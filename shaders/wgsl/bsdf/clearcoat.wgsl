@@ -53,41 +53,29 @@ fn clearcoat_sample(s: Scatter, wo: vec3f, u: vec2f, v: f32, w: f32) -> Scattere
     } else {
         wi = diffuse_direction(s.ns, u);
     }
-    let pdf = clearcoat_pdf(s, wo, wi);
-    if (pdf <= 0.0 || !scatter_above(s, wi)) {
+    let to = clearcoat_eval(s, wo, wi);
+    if (to.pdf <= 0.0 || !scatter_above(s, wi)) {
         return scatter_absorb();
     }
-    return Scattered(wi, pdf, clearcoat_eval(s, wo, wi) / pdf, 1.0);
+    return Scattered(wi, to.pdf, to.f / to.pdf, 1.0);
 }
 
-// f |cos|, a mirror's part left out.
-fn clearcoat_eval(s: Scatter, wo: vec3f, wi: vec3f) -> vec3f {
-    let cos_o = dot(s.ns, wo);
-    let cos_i = dot(s.ns, wi);
-    if (cos_o <= 0.0 || !scatter_above(s, wi)) {
-        return vec3f(0.0);
-    }
-    let f = clearcoat_fresnel(s, cos_o);
-    let through = (1.0 - f) * (1.0 - clearcoat_fresnel(s, cos_i)) / (s.ior * s.ior);
-    let base = clearcoat_base(s) * (through * (cos_i * INV_PI));
-    if (s.fuzz < METAL_SMOOTH) {
-        return base;
-    }
-    return base + load_material_tint(s.material) * (f * metal_folded_density(wi, scatter_mirror(s, wo), s.ns, s.fuzz));
-}
-
-// Density of `clearcoat_sample` over both lobes, per steradian of `wi`, the mirror part left out.
-fn clearcoat_pdf(s: Scatter, wo: vec3f, wi: vec3f) -> f32 {
+// f |cos| and the density of `clearcoat_sample` over both lobes, the mirror's part left out.
+fn clearcoat_eval(s: Scatter, wo: vec3f, wi: vec3f) -> Evaluated {
     let cos_o = dot(s.ns, wo);
     let cos_i = dot(s.ns, wi);
     if (cos_o <= 0.0 || cos_i <= 0.0) {
-        return 0.0;
+        return scatter_nothing();
     }
-    let share = clearcoat_share(s, clearcoat_fresnel(s, cos_o));
+    let f = clearcoat_fresnel(s, cos_o);
+    let share = clearcoat_share(s, f);
     let even = cos_i * INV_PI;
-    let base = (1.0 - share) * even;
+    let through = (1.0 - f) * (1.0 - clearcoat_fresnel(s, cos_i)) / (s.ior * s.ior);
+    let base = Evaluated(clearcoat_base(s) * (through * even), (1.0 - share) * even);
     if (s.fuzz < METAL_SMOOTH) {
-        return base;
+        return scatter_only(base, scatter_above(s, wi));
     }
-    return base + share * metal_folded_density(wi, scatter_mirror(s, wo), s.ns, s.fuzz);
+    let coat = metal_folded_density(wi, scatter_mirror(s, wo), s.ns, s.fuzz);
+    let value = base.f + load_material_tint(s.material) * (f * coat);
+    return scatter_only(Evaluated(value, base.pdf + share * coat), scatter_above(s, wi));
 }

@@ -56,28 +56,19 @@ fn coat_straight(s: Scatter, p: Principled, wo: vec3f) -> vec3f {
     return dispatch_bare_straight(s, p, wo);
 }
 
-// f |cos|, the mirror part left out.
-fn coat_eval(s: Scatter, p: Principled, wo: vec3f, wi: vec3f) -> vec3f {
+// f |cos| and the density over all lobes, the mirror parts left out.
+fn coat_eval(s: Scatter, p: Principled, wo: vec3f, wi: vec3f) -> Evaluated {
     let bare = dispatch_bare_eval(s, p, wo, wi);
-    let alpha = gloss_alpha(p.coat.y);
-    let no_lobe = p.coat.x <= 0.0 || alpha < GLOSS_SMOOTH;
-    if (no_lobe || dot(s.ns, wo) <= 0.0 || !scatter_above(s, wi)) {
-        return bare;
-    }
-    return bare + vec3f(coat_fresnel(p.coat.x, gloss_cosine(wo, wi)) * gloss_eval(s.ns, wo, wi, alpha));
-}
-
-// Density of `wi` over all lobes, per steradian, the mirror parts left out.
-fn coat_pdf(s: Scatter, p: Principled, wo: vec3f, wi: vec3f) -> f32 {
-    let bare = dispatch_bare_pdf(s, p, wo, wi);
     if (p.coat.x <= 0.0 || dot(s.ns, wo) <= 0.0) {
         return bare;
     }
     let share = coat_probability(s, p);
-    let rest = (1.0 - share) * bare;
+    let rest = (1.0 - share) * bare.pdf;
     let alpha = gloss_alpha(p.coat.y);
     if (alpha < GLOSS_SMOOTH || dot(s.ns, wi) <= 0.0) {
-        return rest;
+        return Evaluated(bare.f, rest);
     }
-    return rest + share * gloss_pdf(s.ns, wo, wi, alpha);
+    let lobe = gloss_eval(s.ns, wo, wi, alpha);
+    let value = bare.f + vec3f(coat_fresnel(p.coat.x, gloss_cosine(wo, wi)) * lobe.x);
+    return scatter_only(Evaluated(value, rest + share * lobe.y), scatter_above(s, wi));
 }

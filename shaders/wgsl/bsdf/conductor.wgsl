@@ -71,27 +71,19 @@ fn conductor_sample(s: Scatter, wo: vec3f, u: vec2f, v: f32) -> Scattered {
     if (!scatter_above(s, wi)) {
         return scatter_absorb();
     }
-    let pdf = conductor_density(lobe, wi);
-    if (pdf <= 0.0) {
+    let to = conductor_toward(s, lobe, wi);
+    if (to.pdf <= 0.0) {
         return scatter_absorb();
     }
-    return Scattered(wi, pdf, conductor_value(s, lobe, wi) / pdf, 1.0);
+    return Scattered(wi, to.pdf, to.f / to.pdf, 1.0);
 }
 
-// f |cos|, a mirror's left out.
-fn conductor_eval(s: Scatter, wo: vec3f, wi: vec3f) -> vec3f {
-    if (conductor_is_smooth(s) || dot(s.ns, wo) <= 0.0 || !scatter_above(s, wi)) {
-        return vec3f(0.0);
-    }
-    return conductor_value(s, conductor_lobe(s, wo), wi);
-}
-
-// Density of `conductor_sample` over both lobes, per steradian of `wi`; 0 for a mirror.
-fn conductor_pdf(s: Scatter, wo: vec3f, wi: vec3f) -> f32 {
+// f |cos| and the density of `conductor_sample` over both lobes; nothing for a mirror.
+fn conductor_eval(s: Scatter, wo: vec3f, wi: vec3f) -> Evaluated {
     if (conductor_is_smooth(s) || dot(s.ns, wo) <= 0.0 || dot(s.ns, wi) <= 0.0) {
-        return 0.0;
+        return scatter_nothing();
     }
-    return conductor_density(conductor_lobe(s, wo), wi);
+    return scatter_only(conductor_toward(s, conductor_lobe(s, wo), wi), scatter_above(s, wi));
 }
 
 // Too smooth for a lobe: a mirror.
@@ -99,25 +91,17 @@ fn conductor_is_smooth(s: Scatter) -> bool {
     return s.roughness * s.roughness < GGX_SMOOTH;
 }
 
-// f |cos| towards `wi`, above the surface.
-fn conductor_value(s: Scatter, lobe: ConductorLobe, wi: vec3f) -> vec3f {
+// The same towards `wi`, above the surface.
+fn conductor_toward(s: Scatter, lobe: ConductorLobe, wi: vec3f) -> Evaluated {
     let i = basis_local_from_world(lobe.basis, wi);
     // cos(wo, h) = |wo + wi| / 2.
     let h = lobe.o + i;
     let once = fresnel_schlick_to(s.color, 1.0, 0.5 * sqrt(dot(h, h))) * ggx_anisotropic_eval(lobe.o, i, lobe.alpha);
+    let once_pdf = (1.0 - lobe.share) * ggx_anisotropic_pdf(lobe.o, i, lobe.alpha);
     if (lobe.share <= 0.0) {
-        return once;
+        return Evaluated(once, once_pdf);
     }
     let missing = brushed_albedo_missing(lobe.albedo, vec3f(i.xy * lobe.alpha, i.z));
-    return once + lobe.extra * (missing * (i.z * INV_PI));
-}
-
-// Density towards `wi`, above the shading normal's surface.
-fn conductor_density(lobe: ConductorLobe, wi: vec3f) -> f32 {
-    let i = basis_local_from_world(lobe.basis, wi);
-    let once = (1.0 - lobe.share) * ggx_anisotropic_pdf(lobe.o, i, lobe.alpha);
-    if (lobe.share <= 0.0) {
-        return once;
-    }
-    return once + lobe.share * ggx_albedo_pdf(lobe.a2, i.z);
+    let several = lobe.extra * (missing * (i.z * INV_PI));
+    return Evaluated(once + several, once_pdf + lobe.share * ggx_albedo_pdf(lobe.a2, i.z));
 }

@@ -1,5 +1,5 @@
 // A smooth interface between two clear media: reflects or refracts, never both.
-// Both lobes are deltas, so `dielectric_eval` and `dielectric_pdf` are 0 everywhere.
+// Both lobes are deltas, so `dielectric_eval` is 0 everywhere.
 
 #import "bsdf/fresnel.wgsl"
 #import "bsdf/scatter.wgsl"
@@ -36,12 +36,7 @@ fn dielectric_refract(n: vec3f, wo: vec3f, eta: f32, eta_minus_1: f32) -> vec3f 
     return vector_unit(-wo - n * (e2 / (c + sqrt(g2))));
 }
 
-// f |cos|: 0, as for any delta.
-fn dielectric_eval() -> vec3f {
-    return vec3f(0.0);
-}
-
-// Density of `dielectric_sample`: 0, as for any delta.
-fn dielectric_pdf() -> f32 {
-    return 0.0;
+// Nothing, as for any delta.
+fn dielectric_eval() -> Evaluated {
+    return scatter_nothing();
 }

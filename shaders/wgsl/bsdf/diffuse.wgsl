@@ -19,18 +19,11 @@ fn diffuse_sample(s: Scatter, u: vec2f) -> Scattered {
     if (!scatter_above(s, wi)) {
         return scatter_absorb();
     }
-    return Scattered(wi, diffuse_pdf(s, wi), s.color, 1.0);
+    return Scattered(wi, diffuse_eval(s, wi).pdf, s.color, 1.0);
 }
 
-// f |cos|.
-fn diffuse_eval(s: Scatter, wi: vec3f) -> vec3f {
-    if (!scatter_above(s, wi)) {
-        return vec3f(0.0);
-    }
-    return s.color * (dot(s.ns, wi) * INV_PI);
-}
-
-// Density of `diffuse_sample`, per steradian of `wi`.
-fn diffuse_pdf(s: Scatter, wi: vec3f) -> f32 {
-    return max(dot(s.ns, wi), 0.0) * INV_PI;
+// f |cos|, and the density of `diffuse_sample`.
+fn diffuse_eval(s: Scatter, wi: vec3f) -> Evaluated {
+    let even = max(dot(s.ns, wi), 0.0) * INV_PI;
+    return scatter_only(Evaluated(s.color * even, even), scatter_above(s, wi));
 }

@@ -7,12 +7,7 @@ fn emissive_sample() -> Scattered {
     return scatter_absorb();
 }
 
-// f |cos|: 0.
-fn emissive_eval() -> vec3f {
-    return vec3f(0.0);
-}
-
-// Density of `emissive_sample`: 0.
-fn emissive_pdf() -> f32 {
-    return 0.0;
+// Nothing is scattered.
+fn emissive_eval() -> Evaluated {
+    return scatter_nothing();
 }

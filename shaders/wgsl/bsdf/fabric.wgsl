@@ -47,12 +47,7 @@ fn fabric_sample(s: Scatter, wo: vec3f, u: vec2f, v: f32) -> Scattered {
     return matte_sample(s, fabric_matte(s), wo, u, v);
 }
 
-// f |cos|, on both sides.
-fn fabric_eval(s: Scatter, wo: vec3f, wi: vec3f) -> vec3f {
+// f |cos|, on both sides, and the density of `fabric_sample`.
+fn fabric_eval(s: Scatter, wo: vec3f, wi: vec3f) -> Evaluated {
     return matte_eval(s, fabric_matte(s), wo, wi);
-}
-
-// Density of `fabric_sample`, per steradian of `wi`.
-fn fabric_pdf(s: Scatter, wo: vec3f, wi: vec3f) -> f32 {
-    return matte_pdf(s, fabric_matte(s), wo, wi);
 }

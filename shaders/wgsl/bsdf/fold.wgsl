@@ -49,43 +49,28 @@ fn fold_sample(s: Scatter, wo: vec3f, key: SampleKey) -> Scattered {
         next.wi = mirrored;
     }
     if (next.pdf > 0.0 && fold_leads(s, other, next.wi)) {
-        next.pdf += model_pdf(seen, wo, other);
+        next.pdf += model_eval(seen, wo, other).pdf;
     }
     return next;
 }
 
-// f |cos|, delta lobes left out. A loop, because compilers for GPUs copy a model to every place that calls it.
-fn fold_eval(s: Scatter, wo: vec3f, wi: vec3f) -> vec3f {
+// f |cos| and the density of `fold_sample`, delta lobes left out. A loop, because compilers for GPUs copy a model to
+// every place that calls it.
+fn fold_eval(s: Scatter, wo: vec3f, wi: vec3f) -> Evaluated {
     let seen = fold_seen(s);
     let tilted = fold_is_tilted(s);
-    var f = vec3f(0.0);
+    var sum = scatter_nothing();
     var from_dir = wi;
     var k = 0u;
     loop {
         if (!tilted || fold_leads(s, from_dir, wi)) {
-            f += model_eval(seen, wo, from_dir);
+            let e = model_eval(seen, wo, from_dir);
+            sum.f += e.f;
+            sum.pdf += e.pdf;
         }
         k += 1u;
         if (!tilted || k == 2u) { break; }
         from_dir = fold_mirrored(s, wi);
     }
-    return f;
-}
-
-// Density of `fold_sample`, per steradian.
-fn fold_pdf(s: Scatter, wo: vec3f, wi: vec3f) -> f32 {
-    let seen = fold_seen(s);
-    let tilted = fold_is_tilted(s);
-    var pdf = 0.0;
-    var from_dir = wi;
-    var k = 0u;
-    loop {
-        if (!tilted || fold_leads(s, from_dir, wi)) {
-            pdf += model_pdf(seen, wo, from_dir);
-        }
-        k += 1u;
-        if (!tilted || k == 2u) { break; }
-        from_dir = fold_mirrored(s, wi);
-    }
-    return pdf;
+    return sum;
 }

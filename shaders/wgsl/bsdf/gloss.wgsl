@@ -19,16 +19,13 @@ fn gloss_sample(ns: vec3f, wo: vec3f, alpha: f32, u: vec2f) -> vec3f {
     return vector_unit(basis_world_from_local(basis, ggx_sample(basis_local_from_world(basis, wo), alpha, u)));
 }
 
-// The lobe without Fresnel, times the cosine of `wi`. Both directions are above the surface.
-fn gloss_eval(ns: vec3f, wo: vec3f, wi: vec3f, alpha: f32) -> f32 {
+// The lobe without Fresnel, times the cosine of `wi`; and the density of `gloss_sample`, per steradian of `wi`. Both
+// directions are above the shading normal's surface.
+fn gloss_eval(ns: vec3f, wo: vec3f, wi: vec3f, alpha: f32) -> vec2f {
     let basis = basis_around(ns);
-    return ggx_eval(basis_local_from_world(basis, wo), basis_local_from_world(basis, wi), alpha);
-}
-
-// Density of `gloss_sample`, per steradian of `wi`.
-fn gloss_pdf(ns: vec3f, wo: vec3f, wi: vec3f, alpha: f32) -> f32 {
-    let basis = basis_around(ns);
-    return ggx_pdf(basis_local_from_world(basis, wo), basis_local_from_world(basis, wi), alpha);
+    let o = basis_local_from_world(basis, wo);
+    let i = basis_local_from_world(basis, wi);
+    return vec2f(ggx_eval(o, i, alpha), ggx_pdf(o, i, alpha));
 }
 
 // Cosine between `wo` and the normal that reflects it into `wi`: |wo + wi| / 2.

@@ -41,11 +41,11 @@ fn leaf_even(s: Scatter, wo: vec3f, t: f32) -> LeafEven {
     return LeafEven(t * ((1.0 - forward) + forward * missing), missing, max(found.y, 1e-6));
 }
 
-// The forward lobe without its colour, times |cos_i|.
-fn leaf_forward(s: Scatter, wo: vec3f, wi: vec3f, even: LeafEven) -> f32 {
+// The forward lobe without its colour, times |cos_i|; `phase`: the phase function.
+fn leaf_forward(s: Scatter, wo: vec3f, wi: vec3f, even: LeafEven, phase: f32) -> f32 {
     let cos_i = abs(dot(s.ns, wi));
     let ratio = cos_i / max(dot(s.ns, wo), 1e-6);
-    let lobe = hg_pdf(-wo, load_material_g(s.material), wi) * min(ratio, 1.0);
+    let lobe = phase * min(ratio, 1.0);
     if (even.missing <= 0.0) {
         return lobe;
     }
@@ -65,35 +65,35 @@ fn leaf_sample(s: Scatter, wo: vec3f, u: vec2f, v: f32) -> Scattered {
     } else {
         wi = hg_sample(-wo, load_material_g(s.material), u);
     }
-    let pdf = leaf_pdf(s, wo, wi);
-    if (pdf <= 0.0) {
+    let to = leaf_toward(s, wo, wi, even);
+    if (to.pdf <= 0.0) {
         return scatter_absorb();
     }
-    return Scattered(wi, pdf, leaf_eval(s, wo, wi) / pdf, 1.0);
+    return Scattered(wi, to.pdf, to.f / to.pdf, 1.0);
 }
 
-// f |cos|.
-fn leaf_eval(s: Scatter, wo: vec3f, wi: vec3f) -> vec3f {
+// f |cos|, and the density of `leaf_sample`.
+fn leaf_eval(s: Scatter, wo: vec3f, wi: vec3f) -> Evaluated {
+    return leaf_toward(s, wo, wi, leaf_even(s, wo, load_material_weight(s.material)));
+}
+
+// `leaf_eval` for the even part seen from `wo`.
+fn leaf_toward(s: Scatter, wo: vec3f, wi: vec3f, even: LeafEven) -> Evaluated {
     let t = load_material_weight(s.material);
+    let c = dot(s.ns, wi) * INV_PI;
+    let phase = hg_pdf(-wo, load_material_g(s.material), wi);
+    let flat_pdf = select(even.share * -c, (1.0 - t) * c, c >= 0.0);
+    let pdf = flat_pdf + max(t - even.share, 0.0) * phase;
     if (scatter_above(s, wi)) {
-        return s.color * ((1.0 - t) * (dot(s.ns, wi) * INV_PI));
+        return Evaluated(s.color * ((1.0 - t) * c), pdf);
     }
     if (!scatter_below(s, wi)) {
-        return vec3f(0.0);
+        return Evaluated(vec3f(0.0), pdf);
     }
     let forward = load_material_forward(s.material);
-    var lobes = (1.0 - forward) * (-dot(s.ns, wi) * INV_PI);
+    var lobes = (1.0 - forward) * -c;
     if (t * forward > 0.0) {
-        lobes += forward * leaf_forward(s, wo, wi, leaf_even(s, wo, t));
+        lobes += forward * leaf_forward(s, wo, wi, even, phase);
     }
-    return leaf_tint(s) * (t * lobes);
-}
-
-// Density of `leaf_sample`, per steradian of `wi`.
-fn leaf_pdf(s: Scatter, wo: vec3f, wi: vec3f) -> f32 {
-    let t = load_material_weight(s.material);
-    let even = leaf_even(s, wo, t);
-    let c = dot(s.ns, wi) * INV_PI;
-    let flat = select(even.share * -c, (1.0 - t) * c, c >= 0.0);
-    return flat + max(t - even.share, 0.0) * hg_pdf(-wo, load_material_g(s.material), wi);
+    return Evaluated(leaf_tint(s) * (t * lobes), pdf);
 }

@@ -71,13 +71,13 @@ fn matte_sample(s: Scatter, m: Matte, wo: vec3f, u: vec2f, v: f32) -> Scattered 
     } else {
         wi = diffuse_direction(select(-s.ns, s.ns, at < facets + share.z), u);
     }
-    let pdf = matte_density(s, m, gloss, wi);
+    let to = matte_toward(s, m, gloss, wi);
     // A reflection that falls below the surface is lost: it is no transmission.
     let lost = at < facets && dot(s.ns, wi) <= 0.0;
-    if (lost || pdf <= 0.0) {
+    if (lost || to.pdf <= 0.0) {
         return scatter_absorb();
     }
-    return Scattered(wi, pdf, matte_value(s, m, gloss, wi) / pdf, 1.0);
+    return Scattered(wi, to.pdf, to.f / to.pdf, 1.0);
 }
 
 // A direction of the gloss after one reflection off the microfacets, `once`, or after several.
@@ -91,60 +91,38 @@ fn matte_gloss_direction(m: Matte, gloss: MatteGloss, u: vec2f, once: bool) -> v
     return vector_unit(basis_world_from_local(m.basis, i));
 }
 
-// f |cos|.
-fn matte_eval(s: Scatter, m: Matte, wo: vec3f, wi: vec3f) -> vec3f {
+// f |cos|, and the density of `matte_sample` over all terms.
+fn matte_eval(s: Scatter, m: Matte, wo: vec3f, wi: vec3f) -> Evaluated {
     if (dot(s.ns, wo) <= 0.0) {
-        return vec3f(0.0);
+        return scatter_nothing();
     }
-    return matte_value(s, m, matte_gloss(m, wo), wi);
-}
-
-// Density of `matte_sample` over all terms, per steradian of `wi`.
-fn matte_pdf(s: Scatter, m: Matte, wo: vec3f, wi: vec3f) -> f32 {
-    if (dot(s.ns, wo) <= 0.0) {
-        return 0.0;
-    }
-    return matte_density(s, m, matte_gloss(m, wo), wi);
+    return matte_toward(s, m, matte_gloss(m, wo), wi);
 }
 
 // `matte_eval` where the other direction is above the surface.
-fn matte_value(s: Scatter, m: Matte, gloss: MatteGloss, wi: vec3f) -> vec3f {
+fn matte_toward(s: Scatter, m: Matte, gloss: MatteGloss, wi: vec3f) -> Evaluated {
+    let share = matte_shares(m, gloss);
+    let total = share.x + share.y + share.z + share.w;
+    if (total <= 0.0) {
+        return scatter_nothing();
+    }
     let cos_i = dot(s.ns, wi);
-    if (cos_i < 0.0 && dot(s.ng, wi) < 0.0) {
-        return m.through * (-cos_i * INV_PI);
+    let even = abs(cos_i) * INV_PI;
+    if (cos_i <= 0.0) {
+        return scatter_only(Evaluated(m.through * even, share.w * even / total), scatter_below(s, wi));
     }
-    if (!scatter_above(s, wi)) {
-        return vec3f(0.0);
-    }
-    let base = m.base * (cos_i * INV_PI);
+    let above = scatter_above(s, wi);
+    let base = share.z * even;
     if (m.gloss <= 0.0) {
-        return base;
+        return scatter_only(Evaluated(m.base * even, base / total), above);
     }
     let i = basis_local_from_world(m.basis, wi);
     let missing = brushed_albedo_missing(gloss.albedo, vec3f(i.xy * m.alpha, i.z));
     let several = gloss.missing * missing / gloss.albedo.mean * (i.z * INV_PI);
-    return base + vec3f(m.gloss * (ggx_anisotropic_eval(gloss.o, i, m.alpha) + several));
-}
-
-// `matte_pdf` where the other direction is above the surface.
-fn matte_density(s: Scatter, m: Matte, gloss: MatteGloss, wi: vec3f) -> f32 {
-    let share = matte_shares(m, gloss);
-    let total = share.x + share.y + share.z + share.w;
-    let cos_i = dot(s.ns, wi);
-    if (total <= 0.0) {
-        return 0.0;
-    }
-    if (cos_i <= 0.0) {
-        return share.w * (-cos_i * INV_PI) / total;
-    }
-    let base = share.z * (cos_i * INV_PI);
-    if (m.gloss <= 0.0) {
-        return base / total;
-    }
-    let i = basis_local_from_world(m.basis, wi);
-    let once = share.x * ggx_anisotropic_pdf(gloss.o, i, m.alpha);
-    let several = share.y * ggx_albedo_pdf(gloss.a2, max(i.z, 0.0));
-    return (base + (once + several)) / total;
+    let value = m.base * even + vec3f(m.gloss * (ggx_anisotropic_eval(gloss.o, i, m.alpha) + several));
+    let once_pdf = share.x * ggx_anisotropic_pdf(gloss.o, i, m.alpha);
+    let several_pdf = share.y * ggx_albedo_pdf(gloss.a2, max(i.z, 0.0));
+    return scatter_only(Evaluated(value, (base + (once_pdf + several_pdf)) / total), above);
 }
 
 // The proportions in which the terms are sampled: one reflection off the microfacets, several, diffuse reflection,

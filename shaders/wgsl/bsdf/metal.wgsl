@@ -44,20 +44,13 @@ fn metal_folded_density(wi: vec3f, r: vec3f, n: vec3f, fuzz: f32) -> f32 {
     return metal_density(wi, r, fuzz) + metal_density(below, r, fuzz);
 }
 
-// f |cos|: the colour times the density, 0 below the surface. 0 for a mirror.
-fn metal_eval(s: Scatter, wo: vec3f, wi: vec3f) -> vec3f {
-    if (s.fuzz < METAL_SMOOTH || !scatter_above(s, wi)) {
-        return vec3f(0.0);
-    }
-    return s.color * metal_density(wi, scatter_mirror(s, wo), s.fuzz);
-}
-
-// Density of `metal_sample`, per steradian of `wi`; 0 for a mirror.
-fn metal_pdf(s: Scatter, wo: vec3f, wi: vec3f) -> f32 {
+// f |cos|, the colour times the density, 0 below the surface; and the density of `metal_sample`. Nothing for a mirror.
+fn metal_eval(s: Scatter, wo: vec3f, wi: vec3f) -> Evaluated {
     if (s.fuzz < METAL_SMOOTH) {
-        return 0.0;
+        return scatter_nothing();
     }
-    return metal_density(wi, scatter_mirror(s, wo), s.fuzz);
+    let density = metal_density(wi, scatter_mirror(s, wo), s.fuzz);
+    return scatter_only(Evaluated(s.color * density, density), scatter_above(s, wi));
 }
 
 // Density per steradian of d = unit(r + a xi), xi uniform in the unit ball. With c = cos(d, r) the ray

@@ -7,9 +7,10 @@
 // A ball is the lobe of `metal.wgsl`, and what would go below the horizon is mirrored at it: each lobe integrates to
 // its share, and a white petal reflects and lets through all it gets.
 // Light that goes through the slab unscattered keeps its direction: a delta lobe, and what a shadow ray finds.
-// `petal_eval` is an unbiased estimate. `petal_sample` leaves the slab as a random walk does, with a density that
-// nobody knows; `petal_pdf` stands in for it where light samples and directions share their weights, which sum to 1
-// for any function of the direction. The weight of a sample is what the walk brings, not `petal_eval` over that.
+// The value of `petal_eval` is an unbiased estimate. `petal_sample` leaves the slab as a random walk does, with a
+// density that nobody knows; `petal_density` stands in for it where light samples and directions share their weights,
+// which sum to 1 for any function of the direction. The weight of a sample is what the walk brings, not that value
+// over the density.
 // Only the slab is reciprocal: the lobes of fuzz and wax are not.
 
 #import "bsdf/fresnel.wgsl"
@@ -77,7 +78,7 @@ fn petal_sample(s: Scatter, wo: vec3f, u: vec2f, v: f32, w: f32) -> Scattered {
     }
     let fuzzy = v < p.fuzz;
     let wi = petal_ball_direction(s, wo, petal_radius(select(s.roughness, s.fuzz, fuzzy)), u, w);
-    let pdf = petal_pdf(s, wo, wi);
+    let pdf = petal_density(s, slab, p, wo, wi);
     if (pdf <= 0.0 || !scatter_above(s, wi)) {
         return scatter_absorb();
     }
@@ -95,7 +96,7 @@ fn petal_sample_slab(s: Scatter, slab: Slab, p: PetalShares, wo: vec3f, u: vec2f
         return scatter_absorb();
     }
     let wi = vector_unit(basis_world_from_local(basis, exit.dir));
-    let pdf = petal_pdf(s, wo, wi);
+    let pdf = petal_density(s, slab, p, wo, wi);
     if (pdf <= 0.0 || !(scatter_above(s, wi) || scatter_below(s, wi))) {
         return scatter_absorb();
     }
@@ -105,31 +106,31 @@ fn petal_sample_slab(s: Scatter, slab: Slab, p: PetalShares, wo: vec3f, u: vec2f
     return Scattered(wi, pdf, s.color * exit.share * (inner / max(p.slab, least)), 1.0);
 }
 
-// f |cos|, what goes through unscattered left out; an unbiased estimate.
-fn petal_eval(s: Scatter, wo: vec3f, wi: vec3f) -> vec3f {
+// f |cos|, an unbiased estimate, and the density that stands for that of `petal_sample`; what goes through unscattered
+// left out.
+fn petal_eval(s: Scatter, wo: vec3f, wi: vec3f) -> Evaluated {
     let slab = petal_slab(s);
-    let fuzz = load_material_weight(s.material);
+    let p = petal_shares(s, slab, wo);
+    let pdf = petal_density(s, slab, p, wo, wi);
     let above = scatter_above(s, wi);
     var sum = vec3f(0.0);
     if (above) {
         let wax = petal_wax(s, slab, wo) * petal_ball(s, wo, wi, petal_radius(s.roughness));
-        sum = vec3f(fuzz * petal_ball(s, wo, wi, petal_radius(s.fuzz))) + wax;
+        sum = vec3f(p.fuzz * petal_ball(s, wo, wi, petal_radius(s.fuzz))) + wax;
     }
     if (above || scatter_below(s, wi)) {
         let basis = basis_around(-s.ns);
         let o = basis_local_from_world(basis, wo);
         let i = basis_local_from_world(basis, wi);
-        let inner = (1.0 - fuzz) * (1.0 - petal_fresnel(s, wo));
+        let inner = (1.0 - p.fuzz) * (1.0 - petal_fresnel(s, wo));
         sum += s.color * slab_scattered(slab, o, i, s.key) * inner;
     }
-    return sum;
+    return Evaluated(sum, pdf);
 }
 
 // Density that stands for that of `petal_sample`, per steradian of `wi`, the delta left out: exact for fuzz and wax;
 // for the slab half of it as even as Lambert's on both sides, and half forward.
-fn petal_pdf(s: Scatter, wo: vec3f, wi: vec3f) -> f32 {
-    let slab = petal_slab(s);
-    let p = petal_shares(s, slab, wo);
+fn petal_density(s: Scatter, slab: Slab, p: PetalShares, wo: vec3f, wi: vec3f) -> f32 {
     var skin = 0.0;
     if (dot(s.ns, wi) > 0.0) {
         skin = p.fuzz * petal_ball(s, wo, wi, petal_radius(s.fuzz))

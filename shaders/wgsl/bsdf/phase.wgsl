@@ -34,16 +34,12 @@ fn phase_sample(s: Scatter, wo: vec3f, u: vec2f) -> Scattered {
     return Scattered(wi, hg_pdf(-wo, g, wi), vec3f(1.0), 1.0);
 }
 
-// The phase function, per steradian; 0 where it is a delta.
-fn phase_eval(s: Scatter, wo: vec3f, wi: vec3f) -> vec3f {
-    return vec3f(phase_pdf(s, wo, wi));
-}
-
-// Density of `phase_sample`: the phase function itself.
-fn phase_pdf(s: Scatter, wo: vec3f, wi: vec3f) -> f32 {
+// The phase function, per steradian, which is the density of `phase_sample` too; nothing where it is a delta.
+fn phase_eval(s: Scatter, wo: vec3f, wi: vec3f) -> Evaluated {
     let g = load_medium_g(s.material);
     if (abs(g) >= PHASE_DELTA) {
-        return 0.0;
+        return scatter_nothing();
     }
-    return hg_pdf(-wo, g, wi);
+    let density = hg_pdf(-wo, g, wi);
+    return Evaluated(vec3f(density), density);
 }

@@ -154,44 +154,21 @@ fn principled_direction(s: Scatter, p: Principled, wo: vec3f, u: vec2f, v: f32) 
     return scatter_toward(wi);
 }
 
-// f |cos|, the mirror part left out.
-fn principled_eval(s: Scatter, p: Principled, wo: vec3f, wi: vec3f) -> vec3f {
-    if (dot(s.ns, wo) <= 0.0 || !scatter_above(s, wi)) {
-        return vec3f(0.0);
-    }
-    return principled_value(s, p, wo, wi);
-}
-
-// Density of `wi` over both lobes, per steradian, the mirror part left out.
-fn principled_pdf(s: Scatter, p: Principled, wo: vec3f, wi: vec3f) -> f32 {
-    if (dot(s.ns, wo) <= 0.0 || dot(s.ns, wi) <= 0.0) {
-        return 0.0;
-    }
-    return principled_density(s, p, wo, wi);
-}
-
-// `principled_eval` for directions above the surface.
-fn principled_value(s: Scatter, p: Principled, wo: vec3f, wi: vec3f) -> vec3f {
+// f |cos| and the density over both lobes, the mirror part left out.
+fn principled_eval(s: Scatter, p: Principled, wo: vec3f, wi: vec3f) -> Evaluated {
     let cos_i = dot(s.ns, wi);
+    if (dot(s.ns, wo) <= 0.0 || cos_i <= 0.0) {
+        return scatter_nothing();
+    }
+    let above = scatter_above(s, wi);
     let i = principled_side(p, cos_i);
     let diffuse = (p.base * (p.o.enters * i.enters) + p.metal * (p.o.missing * i.missing)) * cos_i;
-    if (p.gloss.alpha < GLOSS_SMOOTH) {
-        return diffuse;
-    }
-    let lobe = gloss_eval(s.ns, wo, wi, p.gloss.alpha) * min(p.o.through, i.through);
-    return diffuse + principled_fresnel(p, gloss_cosine(wo, wi)) * lobe;
-}
-
-// `principled_pdf` where `wo` is above the surface.
-fn principled_density(s: Scatter, p: Principled, wo: vec3f, wi: vec3f) -> f32 {
-    let cos_i = dot(s.ns, wi);
-    if (cos_i <= 0.0) {
-        return 0.0;
-    }
     let share = principled_lobe_share(p);
     let base = (1.0 - share) * (cos_i * INV_PI);
     if (p.gloss.alpha < GLOSS_SMOOTH) {
-        return base;
+        return scatter_only(Evaluated(diffuse, base), above);
     }
-    return base + share * gloss_pdf(s.ns, wo, wi, p.gloss.alpha);
+    let lobe = gloss_eval(s.ns, wo, wi, p.gloss.alpha);
+    let value = diffuse + principled_fresnel(p, gloss_cosine(wo, wi)) * (lobe.x * min(p.o.through, i.through));
+    return scatter_only(Evaluated(value, base + share * lobe.y), above);
 }

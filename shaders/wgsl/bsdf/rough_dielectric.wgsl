@@ -93,55 +93,35 @@ fn rough_dielectric_sample(s: Scatter, wo: vec3f, u: vec2f, v: f32) -> Scattered
     if (!select(scatter_below(s, wi), scatter_above(s, wi), reflects)) {
         return scatter_absorb();
     }
-    let pdf = rough_dielectric_density(s, wo, wi, several);
-    if (pdf <= 0.0) {
+    let to = rough_dielectric_toward(s, wo, wi, several);
+    if (to.pdf <= 0.0) {
         return scatter_absorb();
     }
     let eta2 = select(eta.x * eta.x, 1.0, reflects);
-    return Scattered(wi, pdf, rough_dielectric_value(s, wo, wi, several) / pdf, eta2);
+    return Scattered(wi, to.pdf, to.f / to.pdf, eta2);
 }
 
-// f |cos|, for `wi` on either side of the surface; 0 where the interface is smooth.
-fn rough_dielectric_eval(s: Scatter, wo: vec3f, wi: vec3f) -> vec3f {
+// f |cos| and the density of `rough_dielectric_sample` over all lobes, for `wi` on either side of the surface; nothing
+// where the interface is smooth.
+fn rough_dielectric_eval(s: Scatter, wo: vec3f, wi: vec3f) -> Evaluated {
     let cos_o = dot(s.ns, wo);
     if (rough_dielectric_is_smooth(s) || cos_o <= 0.0) {
-        return vec3f(0.0);
+        return scatter_nothing();
     }
-    return rough_dielectric_value(s, wo, wi, rough_dielectric_several(s, cos_o));
-}
-
-// Density of `rough_dielectric_sample` over all lobes, per steradian of `wi`; 0 where the interface is smooth.
-fn rough_dielectric_pdf(s: Scatter, wo: vec3f, wi: vec3f) -> f32 {
-    let cos_o = dot(s.ns, wo);
-    if (rough_dielectric_is_smooth(s) || cos_o <= 0.0) {
-        return 0.0;
-    }
-    return rough_dielectric_density(s, wo, wi, rough_dielectric_several(s, cos_o));
+    return rough_dielectric_toward(s, wo, wi, rough_dielectric_several(s, cos_o));
 }
 
 // `rough_dielectric_eval` of a rough interface, `wo` above it.
-fn rough_dielectric_value(s: Scatter, wo: vec3f, wi: vec3f, several: RoughDielectricSeveral) -> vec3f {
-    let above = scatter_above(s, wi);
-    if (!above && !scatter_below(s, wi)) {
-        return vec3f(0.0);
-    }
-    let diffuse = rough_dielectric_diffuse(s, abs(dot(s.ns, wi)), above, several);
-    let alpha = s.roughness * s.roughness;
-    let eta = rough_dielectric_eta(s);
-    let basis = basis_around(s.ns);
-    let o = basis_local_from_world(basis, wo);
-    let i = basis_local_from_world(basis, wi);
-    if (above) {
-        let h = o + i;
-        let f = fresnel_dielectric(min(0.5 * sqrt(dot(h, h)), 1.0), eta.x, eta.y);
-        return vec3f(f * ggx_eval(o, i, alpha) + diffuse);
-    }
-    let h = ggx_transmission_facet(o, i, eta.y);
-    if (h.z <= 0.0) {
-        return vec3f(diffuse);
-    }
-    let f = fresnel_dielectric(min(dot(o, h), 1.0), eta.x, eta.y);
-    return vec3f((1.0 - f) * ggx_transmission_eval(o, i, h, alpha, eta.y) + diffuse);
+fn rough_dielectric_toward(s: Scatter, wo: vec3f, wi: vec3f, several: RoughDielectricSeveral) -> Evaluated {
+    let cos_i = dot(s.ns, wi);
+    let above = cos_i > 0.0;
+    let once = rough_dielectric_once(s, wo, wi, above);
+    let diffuse = rough_dielectric_diffuse(s, abs(cos_i), above, several);
+    let side = select(several.transmitted, 1.0 - several.transmitted, above);
+    let diffuse_pdf = select(0.0, several.missing * side * (abs(cos_i) * INV_PI), several.missing > 0.0);
+    let pdf = (1.0 - several.missing) * once.y + diffuse_pdf;
+    let reached = select(scatter_below(s, wi), scatter_above(s, wi), above);
+    return scatter_only(Evaluated(vec3f(once.x + diffuse), pdf), reached);
 }
 
 // f |cos| of what several facets do, at cosine `cos_i` > 0 on the side of `wo` (`above`) or behind it.
@@ -158,30 +138,25 @@ fn rough_dielectric_diffuse(s: Scatter, cos_i: f32, above: bool, several: RoughD
     return several.transmitted * several.missing * there / (several.far * (eta * eta));
 }
 
-// `rough_dielectric_pdf` of a rough interface, `wo` above it.
-fn rough_dielectric_density(s: Scatter, wo: vec3f, wi: vec3f, several: RoughDielectricSeveral) -> f32 {
-    let cos_i = dot(s.ns, wi);
-    let side = select(several.transmitted, 1.0 - several.transmitted, cos_i > 0.0);
-    let diffuse = select(0.0, several.missing * side * (abs(cos_i) * INV_PI), several.missing > 0.0);
-    return (1.0 - several.missing) * rough_dielectric_once(s, wo, wi) + diffuse;
-}
-
-// Density of sampling `wi` by one facet.
-fn rough_dielectric_once(s: Scatter, wo: vec3f, wi: vec3f) -> f32 {
+// f |cos| of one facet, and the density of sampling `wi` by it.
+fn rough_dielectric_once(s: Scatter, wo: vec3f, wi: vec3f, above: bool) -> vec2f {
     let alpha = s.roughness * s.roughness;
     let eta = rough_dielectric_eta(s);
     let basis = basis_around(s.ns);
     let o = basis_local_from_world(basis, wo);
     let i = basis_local_from_world(basis, wi);
-    if (dot(s.ns, wi) > 0.0) {
+    if (above) {
         let h = o + i;
         let f = fresnel_dielectric(min(0.5 * sqrt(dot(h, h)), 1.0), eta.x, eta.y);
-        return f * ggx_transmission_mirror_pdf(o, vector_unit(h), alpha);
+        return vec2f(f * ggx_eval(o, i, alpha), f * ggx_transmission_mirror_pdf(o, vector_unit(h), alpha));
     }
     let h = ggx_transmission_facet(o, i, eta.y);
     if (h.z <= 0.0) {
-        return 0.0;
+        return vec2f(0.0);
     }
-    let f = fresnel_dielectric(min(dot(o, h), 1.0), eta.x, eta.y);
-    return (1.0 - f) * ggx_transmission_pdf(o, i, h, alpha, eta.y);
+    let through = 1.0 - fresnel_dielectric(min(dot(o, h), 1.0), eta.x, eta.y);
+    return vec2f(
+        through * ggx_transmission_eval(o, i, h, alpha, eta.y),
+        through * ggx_transmission_pdf(o, i, h, alpha, eta.y),
+    );
 }

@@ -50,6 +50,14 @@ struct Scattered {
     eta2: f32,
 }
 
+// What a model says of two directions, delta lobes left out.
+struct Evaluated {
+    // f |cos|.
+    f: vec3f,
+    // Density of its samples, per steradian of `wi`.
+    pdf: f32,
+}
+
 // The parameters of material `m` at `s`; `key`: the vertex.
 fn scatter_at(m: Material, s: Surface, key: SampleKey) -> Scatter {
     let color = m.color * texture_fetch(m.color_texture, s.uv).xyz;
@@ -60,6 +68,16 @@ fn scatter_at(m: Material, s: Surface, key: SampleKey) -> Scatter {
         m.roughness * mr.y, m.metallic * mr.z,
         m.ior, m.ior_minus_1, s.front, key,
     );
+}
+
+// No light goes from one direction to the other, and none is sampled.
+fn scatter_nothing() -> Evaluated {
+    return Evaluated(vec3f(0.0), 0.0);
+}
+
+// `e` where `reached`, as far as light is concerned: the density counts what is sampled and lost.
+fn scatter_only(e: Evaluated, reached: bool) -> Evaluated {
+    return Evaluated(select(vec3f(0.0), e.f, reached), e.pdf);
 }
 
 // No direction: the path ends here.

@@ -67,12 +67,7 @@ fn stone_sample(s: Scatter, wo: vec3f, u: vec2f, v: f32) -> Scattered {
     return matte_sample(s, stone_matte(s), wo, u, v);
 }
 
-// f |cos|.
-fn stone_eval(s: Scatter, wo: vec3f, wi: vec3f) -> vec3f {
+// f |cos|, and the density of `stone_sample`.
+fn stone_eval(s: Scatter, wo: vec3f, wi: vec3f) -> Evaluated {
     return matte_eval(s, stone_matte(s), wo, wi);
-}
-
-// Density of `stone_sample`, per steradian of `wi`.
-fn stone_pdf(s: Scatter, wo: vec3f, wi: vec3f) -> f32 {
-    return matte_pdf(s, stone_matte(s), wo, wi);
 }

@@ -75,36 +75,24 @@ fn thin_straight(s: Scatter, p: Principled, wo: vec3f) -> vec3f {
     return thin_clear(p, cos_o) * p.o.through;
 }
 
-// f |cos|, the mirror and the straight part left out.
-fn thin_eval(s: Scatter, p: Principled, wo: vec3f, wi: vec3f) -> vec3f {
+// f |cos| and the density over all lobes, the mirror and the straight part left out.
+fn thin_eval(s: Scatter, p: Principled, wo: vec3f, wi: vec3f) -> Evaluated {
+    let far = thin_probability(p);
     if (dot(s.ns, wi) >= 0.0) {
-        return principled_eval(s, p, wo, wi);
+        let near = principled_eval(s, p, wo, wi);
+        return Evaluated(near.f, (1.0 - far) * near.pdf);
     }
-    if (p.gloss.alpha < GLOSS_SMOOTH || dot(s.ns, wo) <= 0.0 || !scatter_below(s, wi)) {
-        return vec3f(0.0);
+    if (p.gloss.alpha < GLOSS_SMOOTH || dot(s.ns, wo) <= 0.0) {
+        return scatter_nothing();
     }
     let j = thin_mirrored(s, wi);
     let cos_j = dot(s.ns, j);
     let side = principled_side(p, cos_j);
-    let lobe = gloss_eval(s.ns, wo, j, p.gloss.alpha) * min(p.o.through, side.through);
-    let even = p.several * (p.o.missing * side.missing) * cos_j;
-    return thin_clear(p, gloss_cosine(wo, j)) * lobe + p.clear * even;
-}
-
-// Density of `wi` over all lobes, per steradian, the mirror and the straight part left out.
-fn thin_pdf(s: Scatter, p: Principled, wo: vec3f, wi: vec3f) -> f32 {
-    let cos_o = dot(s.ns, wo);
-    if (cos_o <= 0.0) {
-        return 0.0;
-    }
-    let far = thin_probability(p);
-    if (dot(s.ns, wi) >= 0.0) {
-        return (1.0 - far) * principled_pdf(s, p, wo, wi);
-    }
-    if (p.gloss.alpha < GLOSS_SMOOTH) {
-        return 0.0;
-    }
+    let gloss = gloss_eval(s.ns, wo, j, p.gloss.alpha);
+    let lobe = gloss.x * min(p.o.through, side.through);
+    let several = p.several * (p.o.missing * side.missing) * cos_j;
+    let value = thin_clear(p, gloss_cosine(wo, j)) * lobe + p.clear * several;
     let even = thin_even(p);
-    let lobe = (1.0 - even) * gloss_pdf(s.ns, wo, thin_mirrored(s, wi), p.gloss.alpha);
-    return far * (lobe + even * (-dot(s.ns, wi) * INV_PI));
+    let pdf = far * ((1.0 - even) * gloss.y + even * (-dot(s.ns, wi) * INV_PI));
+    return scatter_only(Evaluated(value, pdf), scatter_below(s, wi));
 }

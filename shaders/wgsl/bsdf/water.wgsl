@@ -15,14 +15,9 @@ fn water_sample(s: Scatter, wo: vec3f, u: f32) -> Scattered {
     return dielectric_sample(waved, wo, u);
 }
 
-// f |cos|: 0, as for any delta.
-fn water_eval() -> vec3f {
-    return vec3f(0.0);
-}
-
-// Density of `water_sample`: 0, as for any delta.
-fn water_pdf() -> f32 {
-    return 0.0;
+// Nothing, as for any delta.
+fn water_eval() -> Evaluated {
+    return scatter_nothing();
 }
 
 // Normal of the waves on the side of `wo`, unit.

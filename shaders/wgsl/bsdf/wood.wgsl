@@ -98,12 +98,7 @@ fn wood_sample(s: Scatter, wo: vec3f, u: vec2f, v: f32) -> Scattered {
     return matte_sample(s, wood_matte(s), wo, u, v);
 }
 
-// f |cos|.
-fn wood_eval(s: Scatter, wo: vec3f, wi: vec3f) -> vec3f {
+// f |cos|, and the density of `wood_sample`.
+fn wood_eval(s: Scatter, wo: vec3f, wi: vec3f) -> Evaluated {
     return matte_eval(s, wood_matte(s), wo, wi);
-}
-
-// Density of `wood_sample`, per steradian of `wi`.
-fn wood_pdf(s: Scatter, wo: vec3f, wi: vec3f) -> f32 {
-    return matte_pdf(s, wood_matte(s), wo, wi);
 }

@@ -47,20 +47,20 @@ fn direct_sample(
     if (to.pdf <= 0.0) {
         return;
     }
-    let f = dispatch_eval(scatter, wo, to.wi);
-    if (vector_max(f) <= 0.0) {
+    let e = dispatch_eval(scatter, wo, to.wi);
+    if (vector_max(e.f) <= 0.0) {
         return;
     }
     let radiance = dispatch_light_radiance(light, rest, to);
     if (vector_max(radiance) <= 0.0) {
         return;
     }
-    let pb = select(dispatch_pdf(scatter, wo, to.wi), 0.0, load_frame_estimator() == DIRECT_LIGHT_ONLY);
+    let pb = select(e.pdf, 0.0, load_frame_estimator() == DIRECT_LIGHT_ONLY);
     let aim = direct_aim(ray_offset, to);
     (*path).shadow_dir = aim.xyz;
     // The light itself is skipped by its index; 2^-18 keeps off what lies in its plane.
     (*path).shadow_t = aim.w * 0.9999962;
-    (*path).shadow_radiance = (*path).throughput * f * radiance / direct_divisor(choice.pmf * to.pdf, pb);
+    (*path).shadow_radiance = (*path).throughput * e.f * radiance / direct_divisor(choice.pmf * to.pdf, pb);
     (*path).shadow_light = choice.index;
 }
 

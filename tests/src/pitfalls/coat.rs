@@ -55,7 +55,7 @@ pub fn ours(c: f64, base: f64) -> [f64; 2] {
     // The base depends on the cosine alone.
     let mut eval = |mu: f64| {
         let wi = Vec3::new((1.0 - mu * mu).sqrt() as f32, 0.0, mu as f32);
-        f64::from(kernel.dispatch_principled_eval(scatter, wo, wi).x)
+        f64::from(kernel.dispatch_principled_eval(scatter, wo, wi).f.x)
     };
     let diffuse = (0..n).map(|i| eval(at(i))).sum::<f64>() * std::f64::consts::TAU / f64::from(n);
     [highlight + diffuse, highlight]

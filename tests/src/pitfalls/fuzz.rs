@@ -49,8 +49,8 @@ pub fn small_light(fuzz: f32, half_angle: f32, n: u64) -> [Mean; 2] {
         let next = sample(&mut kernel, fuzz, wo, &mut stream);
         let hit = next.pdf > 0.0 && 0.5 * (next.wi - origin).length_squared() <= cone;
         let to = kernel.sphere_light_sample(light, Vec3::ZERO, stream.pair24());
-        let f = kernel.metal_eval(metal(fuzz), wo, to.wi).x;
-        let pb = kernel.metal_pdf(metal(fuzz), wo, to.wi);
+        let f = kernel.metal_eval(metal(fuzz), wo, to.wi).f.x;
+        let pb = kernel.metal_eval(metal(fuzz), wo, to.wi).pdf;
         let found = if hit { next.pdf / (pl + next.pdf) } else { 0.0 };
         alone.add(if hit { 1.0 / truth } else { 0.0 });
         both.add(f64::from(f / (to.pdf + pb) + found) / truth);
@@ -82,7 +82,7 @@ pub fn furnace(fuzz: f32, n: u64) -> [Mean; 2] {
     let [mut cosine, mut own] = [Mean::default(); 2];
     for _ in 0..n {
         let next = sample(&mut kernel, fuzz, Vec3::Z, &mut stream);
-        let f = kernel.metal_eval(metal(fuzz), Vec3::Z, next.wi).x;
+        let f = kernel.metal_eval(metal(fuzz), Vec3::Z, next.wi).f.x;
         cosine.add(f64::from(f * PI / next.wi.z));
         own.add(f64::from(f / next.pdf));
     }

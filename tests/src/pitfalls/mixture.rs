@@ -66,12 +66,12 @@ pub fn measure(setting: Setting, n: u64) -> Weighted {
     let mut sums = Weighted::default();
     for _ in 0..n {
         let to = kernel.sphere_light_sample(light, Vec3::ZERO, stream.pair24());
-        let f = f64::from(kernel.diffuse_eval(lobe, to.wi).x) / setting.truth();
-        let l = [f, f64::from(to.pdf), f64::from(kernel.diffuse_pdf(lobe, to.wi))];
+        let f = f64::from(kernel.diffuse_eval(lobe, to.wi).f.x) / setting.truth();
+        let l = [f, f64::from(to.pdf), f64::from(kernel.diffuse_eval(lobe, to.wi).pdf)];
         let next = kernel.diffuse_sample(lobe, stream.pair24());
         // |wi - c|^2 / 2 = 1 - cos for unit vectors.
         let hit = 0.5 * (next.wi - light.origin).as_dvec3().length_squared() <= cone;
-        let f = f64::from(kernel.diffuse_eval(lobe, next.wi).x) / setting.truth();
+        let f = f64::from(kernel.diffuse_eval(lobe, next.wi).f.x) / setting.truth();
         let b = [if hit { f } else { 0.0 }, if hit { pl } else { 0.0 }, f64::from(next.pdf)];
         sums.add(l, b, stream.unit() < 0.5);
     }

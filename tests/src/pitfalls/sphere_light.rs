@@ -127,7 +127,7 @@ pub fn ours(setting: Setting, lobe: &Lobe, wo: Vec3, truth: f64, n: u64) -> Mean
     let mut mean = Mean::default();
     for _ in 0..n {
         let to = kernel.sphere_light_sample(light, Vec3::ZERO, stream.pair24());
-        let f = kernel.dispatch_eval(scatter, wo, to.wi).x;
+        let f = kernel.dispatch_eval(scatter, wo, to.wi).f.x;
         mean.add(f64::from(f / to.pdf) / truth);
     }
     mean

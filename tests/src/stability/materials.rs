@@ -261,7 +261,7 @@ twins! {
         let reach = FRAC_PI_2;
         let shape = grid::Shape { reach, ring_scale: reach, ..grid::Shape::SPHERE };
         let cells = grid::Grid::new(mirror, lobe.normal, shape);
-        let shares = cells.integrate_above(16, lobe.normal, |wi| truth.metal_pdf(d, wo, wi));
+        let shares = cells.integrate_above(16, lobe.normal, |wi| truth.metal_eval(d, wo, wi).pdf);
         let lost = (1.0 - shares.iter().sum::<f64>()).max(0.0);
         let expected = shares.into_iter().chain([lost]).map(|x| x * f64::from(n)).collect();
         let mut counts = Counts::new(expected);

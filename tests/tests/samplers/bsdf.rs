@@ -111,7 +111,7 @@ fn compare_lobe(test: usize, lobe: Lobe, mu: f64, grid: Grid) -> f64 {
             let out = single.dispatch_sample(scatter, wo.as_vec3(), key(test, i));
             (out.weight.x > 0.0 && out.pdf > 0.0).then(|| out.wi.as_dvec3().normalize())
         },
-        pdf: |d| double.dispatch_pdf(truth, wo, d),
+        pdf: |d| double.dispatch_eval(truth, wo, d).pdf,
     })
 }
 
@@ -233,8 +233,8 @@ fn layered_directions_have_their_density() {
         let grid = lobe_grid(lobe.mirror(wo), lobe.normal, alpha, mu);
         let across = |d: DVec3| (d - lobe.normal * (2.0 * d.dot(lobe.normal))).normalize();
         let mut shares =
-            grid.integrate_above(FINE, lobe.normal, |d| double.dispatch_pdf(truth, wo, d));
-        let far = |d| double.dispatch_pdf(truth, wo, across(d));
+            grid.integrate_above(FINE, lobe.normal, |d| double.dispatch_eval(truth, wo, d).pdf);
+        let far = |d| double.dispatch_eval(truth, wo, across(d)).pdf;
         shares.extend(grid.integrate_above(FINE, lobe.normal, far));
         let sum: f64 = shares.iter().sum();
         assert!(sum < 1.001, "{layers:?}: the density integrates to {sum}");
@@ -333,7 +333,7 @@ fn a_sample_carries_the_density_of_its_direction() {
             for k in 0..2000 {
                 let out = kernel.dispatch_sample(lobe.single(), wo, key(600 + i, k));
                 if out.pdf > 0.0 {
-                    let pdf = kernel.dispatch_pdf(lobe.single(), wo, out.wi);
+                    let pdf = kernel.dispatch_eval(lobe.single(), wo, out.wi).pdf;
                     let off = (pdf / out.pdf - 1.0).abs();
                     assert!(off < 1e-4, "{lobe:?} mu {mu}: {} and {pdf}", out.pdf);
                 }
@@ -364,7 +364,7 @@ fn densities_are_those_of_double_precision() {
                 // At the rim of the ball the density goes to 0 as a root, at the horizon linearly.
                 if out.pdf > 0.0 && up > 0.01 && !near_rim(&lobe, wo, out.wi) {
                     let (o, d) = (wo.as_dvec3().normalize(), out.wi.as_dvec3().normalize());
-                    let truth = double.dispatch_pdf(lobe.double(), o, d);
+                    let truth = double.dispatch_eval(lobe.double(), o, d).pdf;
                     worst = worst.max((f64::from(out.pdf) / truth - 1.0).abs());
                 }
             }

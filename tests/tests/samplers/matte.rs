@@ -39,7 +39,7 @@ fn directions_of_rough_surfaces_have_their_density() {
         let truth = lobe.double();
         let shares: Vec<f64> = grids
             .iter()
-            .flat_map(|grid| grid.integrate(FINE, |d| double.dispatch_pdf(truth, wo, d)))
+            .flat_map(|grid| grid.integrate(FINE, |d| double.dispatch_eval(truth, wo, d).pdf))
             .collect();
         let rest = 1.0 - shares.iter().sum::<f64>();
         let mut counts = Counts::new(shares.iter().map(|share| share * N as f64).collect());

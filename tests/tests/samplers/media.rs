@@ -41,7 +41,7 @@ fn scattered_directions_have_their_density() {
         let likely = if g < 0.0 { WO } else { -WO };
         let ring_scale = (1.0 - f64::from(g.abs())).max(0.01) * PI;
         let grid = Grid::new(likely, DVec3::X, Shape { ring_scale, ..Shape::SPHERE });
-        let shares = grid.integrate(16, |d| double.dispatch_pdf(truth, WO, d));
+        let shares = grid.integrate(16, |d| double.dispatch_eval(truth, WO, d).pdf);
         let sum: f64 = shares.iter().sum();
         assert!((sum - 1.0).abs() < 1e-3, "g {g}: the density integrates to {sum}");
         let mut counts = Counts::new(shares.iter().map(|share| share * N as f64).collect());
@@ -50,9 +50,9 @@ fn scattered_directions_have_their_density() {
             let out = single.dispatch_sample(scatter, WO.as_vec3(), key(300 + i, sample));
             let d = out.wi.as_dvec3();
             assert!((d.length() - 1.0).abs() < 3e-7 && out.weight == Vec3::ONE, "g {g}: {d}");
-            let pdf = single.dispatch_pdf(scatter, WO.as_vec3(), out.wi);
+            let pdf = single.dispatch_eval(scatter, WO.as_vec3(), out.wi).pdf;
             assert_eq!(out.pdf, pdf, "g {g}");
-            let f = single.dispatch_eval(scatter, WO.as_vec3(), out.wi);
+            let f = single.dispatch_eval(scatter, WO.as_vec3(), out.wi).f;
             assert_eq!(f, Vec3::splat(pdf), "g {g}");
             cosine.add(-d.dot(WO));
             counts.add(grid.cell(d.normalize()).expect("the grid is a whole sphere"));
@@ -74,7 +74,7 @@ fn extreme_mean_cosines_are_finite_and_close_to_their_limits() {
             assert!((out.wi.length() - 1.0).abs() < 3e-7 && out.pdf.is_finite(), "{g}, {u}");
             if g.abs() > 0.999_999 {
                 assert_eq!((out.wi, out.pdf), (-WO.as_vec3() * g.signum(), 0.0), "{g}");
-                assert_eq!(kernel.phase_eval(scatter, WO.as_vec3(), out.wi), Vec3::ZERO);
+                assert_eq!(kernel.phase_eval(scatter, WO.as_vec3(), out.wi).f, Vec3::ZERO);
             }
         }
     }
@@ -93,9 +93,9 @@ fn the_phase_function_is_that_of_the_paper() {
             let d = stream.direction();
             let (g, c) = (f64::from(g), -d.dot(WO));
             let paper = (1.0 - g * g) / (4.0 * PI * (1.0 + g * g - 2.0 * g * c).powf(1.5));
-            let ours = double.phase_pdf(truth, WO, d);
+            let ours = double.phase_eval(truth, WO, d).pdf;
             assert!((ours / paper - 1.0).abs() < 1e-6, "g {g}, cosine {c}: {ours} {paper}");
-            let ours = f64::from(single.phase_pdf(scatter, WO.as_vec3(), d.as_vec3()));
+            let ours = f64::from(single.phase_eval(scatter, WO.as_vec3(), d.as_vec3()).pdf);
             assert!((ours / paper - 1.0).abs() < 2e-5, "g {g}, cosine {c}: {ours} {paper}");
         }
     }

@@ -39,7 +39,7 @@ fn compare(test: usize, lobe: Lobe, record: Material, mu: f64) {
     let wo = lobe.at_cosine(mu);
     let (scatter, truth) = (lobe.single(), lobe.double());
     let grid = Grid::new(lobe.mirror(wo), lobe.normal, Shape::SPHERE);
-    let shares = grid.integrate(FINE, |d| double.dispatch_pdf(truth, wo, d));
+    let shares = grid.integrate(FINE, |d| double.dispatch_eval(truth, wo, d).pdf);
     let sum: f64 = shares.iter().sum();
     assert!(sum < 1.001, "{record:?}: the density integrates to {sum}");
     let mut counts = Counts::new(shares.iter().map(|share| share * N as f64).collect());

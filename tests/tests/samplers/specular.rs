@@ -88,7 +88,7 @@ fn compare_side(test: usize, lobe: &Lobe, mu: f64, grid: Grid, up: DVec3) -> f64
             let d = out.wi.as_dvec3().normalize();
             (out.weight.x > 0.0 && out.pdf > 0.0 && d.dot(up) > 0.0).then_some(d)
         },
-        pdf: |d| double.dispatch_pdf(truth, wo, d),
+        pdf: |d| double.dispatch_eval(truth, wo, d).pdf,
     })
 }
 
@@ -196,10 +196,10 @@ fn samples_carry_their_density_and_weight() {
             for k in 0..1000 {
                 let out = kernel.dispatch_sample(s, wo, key(900 + i, k));
                 if out.pdf > 0.0 {
-                    let pdf = kernel.dispatch_pdf(s, wo, out.wi);
+                    let pdf = kernel.dispatch_eval(s, wo, out.wi).pdf;
                     let off = (pdf / out.pdf - 1.0).abs();
                     assert!(off < 1e-4, "{lobe:?} mu {mu}: {} and {pdf}", out.pdf);
-                    let f = kernel.dispatch_eval(s, wo, out.wi).x;
+                    let f = kernel.dispatch_eval(s, wo, out.wi).f.x;
                     let off = (out.weight.x * out.pdf - f).abs();
                     assert!(off <= 1e-4 * f, "{lobe:?} mu {mu}: {out:?}, f {f}");
                 }

@@ -115,7 +115,7 @@ fn metal_loses_what_goes_below_the_horizon() {
             let cells = Grid::new(lobe.mirror(wo), lobe.normal, shape).integrate_above(
                 16,
                 lobe.normal,
-                |wi| double.dispatch_eval(s, wo, wi).x,
+                |wi| double.dispatch_eval(s, wo, wi).f.x,
             );
             let e: f64 = cells.iter().sum();
             assert!((e - truth).abs() < 3e-4, "fuzz {fuzz} at {mu}: {e}, not {truth}");

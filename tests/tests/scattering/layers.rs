@@ -69,7 +69,7 @@ impl Case {
         let cells = self.grid(wo);
         let mut rough = |far: bool| -> f64 {
             let to = |d| if far { self.across(d) } else { d };
-            let f = |d| kernel.dispatch_eval(s, wo, to(d)).x;
+            let f = |d| kernel.dispatch_eval(s, wo, to(d)).f.x;
             cells.integrate_above(fine, up, f).iter().sum()
         };
         let (mut near, mut far) = (rough(false), rough(true));
@@ -198,7 +198,7 @@ fn light_goes_both_ways_through_layers() {
         let mut stream = Stream::new(47, i as u64);
         let mut value = |a: DVec3, b: DVec3| {
             let seen = if a.dot(case.lobe.normal) > 0.0 { case } else { case.behind() };
-            let f = kernel.dispatch_eval(seen.lobe.double(), a, b).x;
+            let f = kernel.dispatch_eval(seen.lobe.double(), a, b).f.x;
             f / b.dot(case.lobe.normal).abs()
         };
         for _ in 0..300 {
@@ -253,8 +253,8 @@ fn a_weight_is_value_over_density_through_layers() {
                 let out = kernel.dispatch_sample(case.lobe.single(), wo, key);
                 assert!(out.weight.is_finite() && out.weight.min_element() >= 0.0, "{case:?}");
                 if out.pdf > 0.0 && out.weight.x > 0.0 {
-                    let f = kernel.dispatch_eval(case.lobe.single(), wo, out.wi).x;
-                    let pdf = kernel.dispatch_pdf(case.lobe.single(), wo, out.wi);
+                    let f = kernel.dispatch_eval(case.lobe.single(), wo, out.wi).f.x;
+                    let pdf = kernel.dispatch_eval(case.lobe.single(), wo, out.wi).pdf;
                     assert!((pdf / out.pdf - 1.0).abs() < 1e-4, "{case:?} {mu}: {out:?}, {pdf}");
                     let off = (out.weight.x * out.pdf - f).abs();
                     assert!(off <= 1e-4 * f, "{case:?} at {mu}: {out:?}, f {f}");

@@ -51,13 +51,13 @@ fn both_sides(kernel: &mut double::Kernel<'_>, lobe: &Lobe, wo: DVec3) -> [f64; 
     let mut matte = matte.double();
     let kept = 1.0 - f64::from(lobe.gloss);
     let mut gloss =
-        |wi| kernel.dispatch_eval(s, wo, wi).x - kept * matte.dispatch_eval(s, wo, wi).x;
+        |wi| kernel.dispatch_eval(s, wo, wi).f.x - kept * matte.dispatch_eval(s, wo, wi).f.x;
     let mirror = Grid::new(lobe.mirror(wo), lobe.normal, shape);
     let gloss: f64 = mirror.integrate_above(16, lobe.normal, &mut gloss).iter().sum();
     let mut sum = |up: DVec3| -> f64 {
         let grid = Grid::new(up, wo, Shape::HEMISPHERE);
         kept * grid
-            .integrate_above(16, up, |wi| matte.dispatch_eval(s, wo, wi).x)
+            .integrate_above(16, up, |wi| matte.dispatch_eval(s, wo, wi).f.x)
             .iter()
             .sum::<f64>()
     };
@@ -105,8 +105,8 @@ fn light_goes_both_ways_over_and_through() {
             let (from_a, from_b) = (toward(a), toward(b));
             // The tangent of the lobe's frame is the same from both sides.
             let from_b = double::Scatter { tangent: from_a.tangent, ..from_b };
-            let there = kernel.dispatch_eval(from_a, a, b).x / b.dot(lobe.normal).abs();
-            let back = kernel.dispatch_eval(from_b, b, a).x / a.dot(lobe.normal).abs();
+            let there = kernel.dispatch_eval(from_a, a, b).f.x / b.dot(lobe.normal).abs();
+            let back = kernel.dispatch_eval(from_b, b, a).f.x / a.dot(lobe.normal).abs();
             assert!((there - back).abs() <= 1e-9 * there.abs(), "{lobe:?} {a} {b}: {there} {back}");
         }
     }
@@ -126,7 +126,7 @@ fn weights_are_values_over_densities_and_average_to_the_albedo() {
                 let out = single.dispatch_sample(lobe.single(), wo.as_vec3(), key);
                 mean.add(f64::from(out.weight.x));
                 if out.pdf > 0.0 {
-                    let f = single.dispatch_eval(lobe.single(), wo.as_vec3(), out.wi).x;
+                    let f = single.dispatch_eval(lobe.single(), wo.as_vec3(), out.wi).f.x;
                     assert!(
                         (out.weight.x * out.pdf - f).abs() <= 1e-5 * f,
                         "{lobe:?}: {out:?}, f {f}"
@@ -135,7 +135,7 @@ fn weights_are_values_over_densities_and_average_to_the_albedo() {
                     // reflections is sampled by a density that is only near its own.
                     let most = if lobe.gloss > 0.0 { 1.85 } else { 1.0 + 1e-4 };
                     assert!(out.weight.x <= most, "{lobe:?} at {mu}: {out:?}");
-                    let pdf = single.dispatch_pdf(lobe.single(), wo.as_vec3(), out.wi);
+                    let pdf = single.dispatch_eval(lobe.single(), wo.as_vec3(), out.wi).pdf;
                     assert!((pdf / out.pdf - 1.0).abs() < 1e-4, "{lobe:?}: {} {pdf}", out.pdf);
                 }
             }
@@ -159,7 +159,7 @@ fn between_the_normals_there_is_no_light() {
             s.ns = (lobe.normal + tilt * 0.9).normalize().as_vec3();
             let (o, d) = (wo.as_vec3(), wi.as_vec3());
             let (shading, geometric) = (s.ns.dot(d), s.ng.dot(d));
-            let value = kernel.dispatch_eval(s, o, d).x;
+            let value = kernel.dispatch_eval(s, o, d).f.x;
             if shading * geometric <= 0.0 {
                 assert_eq!(value, 0.0, "{lobe:?} {wi}");
             }

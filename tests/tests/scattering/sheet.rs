@@ -47,10 +47,10 @@ fn a_white_leaf_gives_all_it_gets() {
             let s = lobe.double();
             let grid = Grid::new(-wo, lobe.normal, Shape::SPHERE);
             let mut sums = [0.0; 2];
-            let cells = grid.integrate(32, |wi| kernel.dispatch_eval(s, wo, wi).x);
+            let cells = grid.integrate(32, |wi| kernel.dispatch_eval(s, wo, wi).f.x);
             sums[0] += cells.iter().sum::<f64>();
             let above =
-                grid.integrate_above(32, lobe.normal, |wi| kernel.dispatch_eval(s, wo, wi).x);
+                grid.integrate_above(32, lobe.normal, |wi| kernel.dispatch_eval(s, wo, wi).f.x);
             sums[1] += above.iter().sum::<f64>();
             let reflected = 1.0 - f64::from(weight);
             assert!((sums[1] - reflected).abs() < 2e-3, "{weight} {mu}: {sums:?}");
@@ -70,8 +70,8 @@ fn a_leaf_is_reciprocal_on_both_sides() {
     for _ in 0..4000 {
         let (a, b) = (stream.direction(), stream.direction());
         let side = |d: DVec3| if d.dot(front.normal) > 0.0 { front } else { back };
-        let there = kernel.dispatch_eval(side(a).double(), a, b).x / b.dot(front.normal).abs();
-        let here = kernel.dispatch_eval(side(b).double(), b, a).x / a.dot(front.normal).abs();
+        let there = kernel.dispatch_eval(side(a).double(), a, b).f.x / b.dot(front.normal).abs();
+        let here = kernel.dispatch_eval(side(b).double(), b, a).f.x / a.dot(front.normal).abs();
         assert!((there / here - 1.0).abs() < 1e-8, "{a} {b}: {there} {here}");
     }
 }
@@ -127,7 +127,7 @@ fn a_petals_samples_bring_what_its_value_says() {
             let scatter = runtime::kernel::f32::Scatter { key, ..lobe.single() };
             let out = kernel.dispatch_sample(scatter, wo.as_vec3(), key);
             let wi = stream.direction();
-            let value = kernel.dispatch_eval(scatter, wo.as_vec3(), wi.as_vec3());
+            let value = kernel.dispatch_eval(scatter, wo.as_vec3(), wi.as_vec3()).f;
             // Unscattered light is no part of the value.
             let weight = if out.pdf > 0.0 { out.weight } else { glam::Vec3::ZERO };
             let bands = [band(&lobe, wo, out.wi.as_dvec3()), band(&lobe, wo, wi)];

@@ -152,12 +152,12 @@ fn conductors_reflect_the_same_both_ways() {
             for _ in 0..2000 {
                 let (a, b) = (above(&mut stream, &lobe), above(&mut stream, &lobe));
                 let s = lobe.double();
-                let there = double.dispatch_eval(s, a, b).x / b.dot(lobe.normal);
-                let back = double.dispatch_eval(s, b, a).x / a.dot(lobe.normal);
+                let there = double.dispatch_eval(s, a, b).f.x / b.dot(lobe.normal);
+                let back = double.dispatch_eval(s, b, a).f.x / a.dot(lobe.normal);
                 assert!((there / back - 1.0).abs() < 1e-9, "{lobe:?}: {there} {back}");
                 let (a, b, s) = (a.as_vec3(), b.as_vec3(), lobe.single());
-                let there = single.dispatch_eval(s, a, b).x / s.ns.dot(b);
-                let back = single.dispatch_eval(s, b, a).x / s.ns.dot(a);
+                let there = single.dispatch_eval(s, a, b).f.x / s.ns.dot(b);
+                let back = single.dispatch_eval(s, b, a).f.x / s.ns.dot(a);
                 let narrow = f64::from(roughness).powi(2) * (1.0 - 0.69 * f64::from(anisotropy));
                 let bound = 1e-4 + 4e-7 / narrow.max(1e-3);
                 assert!(f64::from((there / back - 1.0).abs()) < bound, "{lobe:?}: {there} {back}");
@@ -180,11 +180,11 @@ fn rough_glass_is_the_same_both_ways() {
             for _ in 0..2000 {
                 let (a, b) = (above(&mut stream, &lobe), above(&mut stream, &lobe));
                 let (mu_a, mu_b) = (a.dot(lobe.normal), b.dot(lobe.normal));
-                let there = kernel.dispatch_eval(lobe.double(), a, b).x / mu_b;
-                let back = kernel.dispatch_eval(lobe.double(), b, a).x / mu_a;
+                let there = kernel.dispatch_eval(lobe.double(), a, b).f.x / mu_b;
+                let back = kernel.dispatch_eval(lobe.double(), b, a).f.x / mu_a;
                 assert!((there / back - 1.0).abs() < 1e-9, "{lobe:?}: {there} {back}");
-                let down = kernel.dispatch_eval(lobe.double(), a, -b).x / mu_b;
-                let up = kernel.dispatch_eval(from_within.double(), -b, a).x / mu_a;
+                let down = kernel.dispatch_eval(lobe.double(), a, -b).f.x / mu_b;
+                let up = kernel.dispatch_eval(from_within.double(), -b, a).f.x / mu_a;
                 assert!(
                     (down * ior * ior - up).abs() <= 1e-7 * up + 1e-12,
                     "{lobe:?}: {down} {up}"
@@ -206,7 +206,7 @@ fn shares(lobe: &Lobe, mu: f64, fine: usize) -> (f64, f64) {
     let shape = Shape { n_rings: 40, ..Shape::SPHERE };
     let mut sum = |axis: DVec3, up: DVec3, width: f64| -> f64 {
         let grid = Grid::new(axis, n, Shape { ring_scale: (0.5 * width).min(1.0), ..shape });
-        grid.integrate_above(fine, up, |wi| kernel.dispatch_eval(s, wo, wi).x).iter().sum()
+        grid.integrate_above(fine, up, |wi| kernel.dispatch_eval(s, wo, wi).f.x).iter().sum()
     };
     let reflected = sum(lobe.mirror(wo), n, alpha);
     let axis = lobe.bench().double().dielectric_refract(n, wo, eta, eta - 1.0);

@@ -47,12 +47,12 @@ fn light_goes_both_ways() {
             let (a, b) = (above(&mut stream, &lobe), above(&mut stream, &lobe));
             let (mu_a, mu_b) = (a.dot(lobe.normal), b.dot(lobe.normal));
             let s = lobe.double();
-            let there = double.dispatch_eval(s, a, b).x / mu_b;
-            let back = double.dispatch_eval(s, b, a).x / mu_a;
+            let there = double.dispatch_eval(s, a, b).f.x / mu_b;
+            let back = double.dispatch_eval(s, b, a).f.x / mu_a;
             assert!((there / back - 1.0).abs() < 1e-9, "{lobe:?} {a} {b}: {there} {back}");
             let (a, b, s) = (a.as_vec3(), b.as_vec3(), lobe.single());
-            let there = single.dispatch_eval(s, a, b).x / s.ns.dot(b);
-            let back = single.dispatch_eval(s, b, a).x / s.ns.dot(a);
+            let there = single.dispatch_eval(s, a, b).f.x / s.ns.dot(b);
+            let back = single.dispatch_eval(s, b, a).f.x / s.ns.dot(a);
             let bound = 1e-4 + 4e-7 / f64::from(lobe.roughness.max(0.01).powi(2));
             assert!(f64::from((there / back - 1.0).abs()) < bound, "{lobe:?}: {there} {back}");
         }
@@ -65,8 +65,8 @@ fn a_metals_ball_is_not_reciprocal() {
     let mut kernel = bench.double();
     let lobe = Lobe::metal(0.7);
     let (a, b) = (lobe.at_cosine(0.9), lobe.mirror(lobe.at_cosine(0.4)));
-    let there = kernel.dispatch_eval(lobe.double(), a, b).x / b.dot(lobe.normal);
-    let back = kernel.dispatch_eval(lobe.double(), b, a).x / a.dot(lobe.normal);
+    let there = kernel.dispatch_eval(lobe.double(), a, b).f.x / b.dot(lobe.normal);
+    let back = kernel.dispatch_eval(lobe.double(), b, a).f.x / a.dot(lobe.normal);
     assert!((there / back - 1.0).abs() > 0.1, "{there} {back}");
 }
 
@@ -82,7 +82,7 @@ fn a_weight_is_value_over_density() {
             for k in 0..2000 {
                 let out = kernel.dispatch_sample(lobe.single(), wo, key(1000 + i, k));
                 if out.pdf > 0.0 {
-                    let f = kernel.dispatch_eval(lobe.single(), wo, out.wi).x;
+                    let f = kernel.dispatch_eval(lobe.single(), wo, out.wi).f.x;
                     let off = (out.weight.x * out.pdf - f).abs();
                     assert!(off <= 1e-5 * f, "{lobe:?} at {mu}: {out:?}, f {f}");
                 }
@@ -129,14 +129,15 @@ fn nothing_is_reflected_below_the_surface() {
         for _ in 0..500 {
             let (o, i) = (above(&mut stream, &lobe), above(&mut stream, &lobe));
             let (wo, below) = (o.as_vec3(), (-i).as_vec3());
-            assert_eq!(kernel.dispatch_eval(lobe.single(), wo, below).x, 0.0, "{lobe:?}");
+            assert_eq!(kernel.dispatch_eval(lobe.single(), wo, below).f.x, 0.0, "{lobe:?}");
             // A shading normal may be turned so that the geometric one says no.
             let mut bent = lobe.single();
             bent.ng = -bent.ng;
-            assert_eq!(kernel.dispatch_eval(bent, wo, i.as_vec3()).x, 0.0, "{lobe:?}");
+            assert_eq!(kernel.dispatch_eval(bent, wo, i.as_vec3()).f.x, 0.0, "{lobe:?}");
         }
     }
     let glass = Lobe::new(MaterialKind::Dielectric);
-    let eval = kernel.dispatch_eval(glass.single(), glass.normal.as_vec3(), glass.normal.as_vec3());
+    let eval =
+        kernel.dispatch_eval(glass.single(), glass.normal.as_vec3(), glass.normal.as_vec3()).f;
     assert_eq!(eval.x, 0.0, "a delta has no value");
 }

@@ -68,7 +68,11 @@ fn folding_keeps_value_and_density_of_every_model() {
             let (_, s, wo) = tilted(&lobe, tilt);
             let plain = lobe.double();
             let both = |kernel: &mut double::Kernel<'_>, s, d| {
-                DVec3::new(kernel.dispatch_eval(s, wo, d).x, kernel.dispatch_pdf(s, wo, d), 0.0)
+                DVec3::new(
+                    kernel.dispatch_eval(s, wo, d).f.x,
+                    kernel.dispatch_eval(s, wo, d).pdf,
+                    0.0,
+                )
             };
             let known = integral(|d| both(&mut kernel, plain, d));
             let found = integral(|d| both(&mut kernel, s, d));
@@ -85,8 +89,8 @@ fn folded_samples_have_their_density_and_weight() {
         let (mut kernel, mut exact) = (bench.single(), bench.double());
         for tilt in TILTS {
             let (s, truth, wo) = tilted(&lobe, tilt);
-            let density = integral(|d| probes(d) * exact.dispatch_pdf(truth, wo, d));
-            let value = integral(|d| probes(d) * exact.dispatch_eval(truth, wo, d).x);
+            let density = integral(|d| probes(d) * exact.dispatch_eval(truth, wo, d).pdf);
+            let value = integral(|d| probes(d) * exact.dispatch_eval(truth, wo, d).f.x);
             let mut found = [[Mean::default(); 3]; 2];
             for i in 0..N {
                 let at = u32::try_from(i).expect("few samples");
@@ -128,8 +132,9 @@ fn flat_surfaces_keep_every_bit() {
             let key = single::SampleKey { pixel: 3, sample: i, bounce: 0, seed: 5 };
             let (a, b) = (kernel.dispatch_sample(s, wo, key), kernel.model_sample(s, wo, key));
             assert_eq!((a.wi, a.pdf.to_bits(), a.weight), (b.wi, b.pdf.to_bits(), b.weight));
-            assert_eq!(kernel.dispatch_eval(s, wo, a.wi), kernel.model_eval(s, wo, a.wi));
-            let [x, y] = [kernel.dispatch_pdf(s, wo, a.wi), kernel.model_pdf(s, wo, a.wi)];
+            assert_eq!(kernel.dispatch_eval(s, wo, a.wi).f, kernel.model_eval(s, wo, a.wi).f);
+            let [x, y] =
+                [kernel.dispatch_eval(s, wo, a.wi).pdf, kernel.model_eval(s, wo, a.wi).pdf];
             assert_eq!(x.to_bits(), y.to_bits());
         }
     }
