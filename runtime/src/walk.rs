@@ -60,6 +60,8 @@ fn walk(kernel: &mut Kernel<'_>, ray: Ray, uncut: bool) -> Hit {
     let mut walker = Walker::new((kernel.node_words, kernel.tri_words), &walk.ray, walk.inverse);
     let mut sheared = Sheared::new(walk.ray.origin, &walk.leaf);
     let mut stack = Stack::new();
+    // As in `trace/bvh.wgsl`.
+    let t_min = ray.t_min * 0.9999;
     // Such a ray can be hit by every triangle.
     let all = uncut && ray.light == NONE;
     if child == NONE {
@@ -67,7 +69,7 @@ fn walk(kernel: &mut Kernel<'_>, ray: Ray, uncut: bool) -> Hit {
     }
     loop {
         if child & CHILD_INNER != 0 {
-            if let Some(nearest) = walker.visit(child & CHILD_INDEX, hit.t, &mut stack) {
+            if let Some(nearest) = walker.visit(child & CHILD_INDEX, t_min, hit.t, &mut stack) {
                 child = nearest;
                 continue;
             }

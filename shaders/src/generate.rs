@@ -33,6 +33,7 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
     texts.extend([
         ("scene/bare.wgsl", principled::bare(features)),
         ("scene/bindings.wgsl", bindings::text(&features.bindings()?)),
+        ("scene/after.wgsl", traversal::after(features)),
         ("scene/candidate.wgsl", traversal::candidate(features)),
         ("scene/constants.wgsl", constants::text(features)),
         ("scene/crossing.wgsl", media::crossing(features)),

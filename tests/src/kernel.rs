@@ -32,7 +32,17 @@ pub struct Bench {
 pub fn ray(origin: Vec3, dir: Vec3) -> single::Ray {
     let skip = UVec2::splat(NONE);
     let t_max = single::RAY_FAR;
-    single::Ray { origin, t_max, dir, skip, light: NONE, time: 0.0, instance: NONE }
+    single::Ray {
+        origin,
+        t_max,
+        t_min: 0.0,
+        last: skip,
+        dir,
+        skip,
+        light: NONE,
+        time: 0.0,
+        instance: NONE,
+    }
 }
 
 /// As [`ray`], in double precision.
@@ -40,7 +50,17 @@ pub fn ray(origin: Vec3, dir: Vec3) -> single::Ray {
 pub fn ray_double(origin: DVec3, dir: DVec3) -> double::Ray {
     let skip = UVec2::splat(NONE);
     let t_max = double::RAY_FAR;
-    double::Ray { origin, t_max, dir, skip, light: NONE, time: 0.0, instance: NONE }
+    double::Ray {
+        origin,
+        t_max,
+        t_min: 0.0,
+        last: skip,
+        dir,
+        skip,
+        light: NONE,
+        time: 0.0,
+        instance: NONE,
+    }
 }
 
 /// What a ray skips that starts on primitive `prim` of the world.

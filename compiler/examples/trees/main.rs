@@ -79,7 +79,7 @@ fn page(with: &Rows, without: &Rows) -> String {
     ] {
         let _ = writeln!(text, "- `{preset}`: {what}.");
     }
-    text += "\nThe picture is the same with each, to the last bit where nothing lets shadow rays through. A spatial split is looked for where the \
+    text += "\nThe picture is the same with each, to the last bit. A spatial split is looked for where the \
              children of the best other split overlap by 0.1 of their parent's area, is made if it costs 1.5 % less, and takes \
              from a budget of its node alone, which subtrees share by the lengths of their triangles. \
              Triangles that move while the shutter is open are never split.\n";

@@ -109,8 +109,8 @@ macro_rules! precision {
                     let ray = kernel.path_ray(path);
                     let shadow = path.shadow_light != NONE;
                     let throughput = path.throughput;
+                    found.rays += kernel.dispatch_counted_rays(&mut path);
                     let hit = kernel.trace(ray);
-                    found.rays += 1;
                     found.turn([hit.prim, hit.instance, u32::from(shadow)]);
                     kernel.path_advance(&mut path, hit);
                     if keep {

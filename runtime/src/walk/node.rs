@@ -57,11 +57,11 @@ impl<'a> Walker<'a> {
 
     /// The nearest child of node `i` that the ray meets before `t_max`; the others wait on the stack.
     #[inline(always)]
-    pub(super) fn visit(&self, i: u32, t_max: f32, stack: &mut Stack) -> Option<u32> {
+    pub(super) fn visit(&self, i: u32, t_min: f32, t_max: f32, stack: &mut Stack) -> Option<u32> {
         // No pack that passed its checks leads elsewhere.
         let node = self.nodes.get(4 * i as usize..)?.first_chunk::<4>()?;
         self.ask_for_children(node);
-        let met = self.meet(node, t_max);
+        let met = self.meet(node, t_min, t_max);
         let others = met.n.checked_sub(1)?;
         let waiting = |key: u32| Waiting { child: child(node, key), distance: key & DISTANCE };
         let [a, b, c, d] = met.farthest_first();
@@ -90,7 +90,7 @@ impl<'a> Walker<'a> {
     }
 
     #[inline(always)]
-    fn meet(&self, node: &[Row; 4], t_max: f32) -> Met {
+    fn meet(&self, node: &[Row; 4], t_min: f32, t_max: f32) -> Met {
         let a = floats(&node[1]) * self.inverse;
         let b = (floats(&node[0]) - self.origin) * self.inverse;
         let slack = (b.abs() + a.abs() * 256.0) * SLACK;
@@ -98,7 +98,7 @@ impl<'a> Walker<'a> {
         let plane = |word: u32, axis: usize, b: f32x4| bytes(word) * lane(a, axis) + lane(b, axis);
         let near = |axis: usize| plane(node[2 + self.back[axis]][axis], axis, low);
         let far = |axis: usize| plane(node[3 - self.back[axis]][axis], axis, high);
-        let enter = near(0).fast_max(near(1)).fast_max(near(2).fast_max(f32x4::ZERO));
+        let enter = near(0).fast_max(near(1)).fast_max(near(2).fast_max(f32x4::splat(t_min)));
         let leave = far(0).fast_min(far(1)).fast_min(far(2).fast_min(f32x4::splat(t_max)));
         // A box that is inside out can seem to be met from far away.
         let children: i32x4 = cast([node[0][3], node[1][3], node[2][3], node[3][3]]);

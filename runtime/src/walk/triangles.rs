@@ -260,8 +260,9 @@ impl Lanes {
 /// Whether `new`, at a distance above 0, replaces `best`.
 #[inline(always)]
 fn counts(kernel: &mut Kernel<'_>, new: &Hit, best: &Hit, ray: &Ray, all: bool) -> bool {
-    let accepted = new.t < best.t || kernel.triangles_accept(*best, new.t, new.prim, ray.instance);
+    let accepted = new.t < best.t || kernel.order_triangle(*best, new.t, new.prim, ray.instance);
     accepted
-        && !kernel.triangles_skipped(new.prim, *ray)
+        && kernel.dispatch_triangle_after(*ray, new.t, new.prim)
+        && !kernel.order_skipped(new.prim, *ray)
         && (all || kernel.candidate_triangle(new.prim, new.b, *ray))
 }

@@ -20,19 +20,22 @@ pub(crate) fn inside(features: &FeatureSet) -> String {
     } else {
         ("u32", "0u")
     };
-    let (pending, empty) = if features.through {
-        text += &imports(["kernel/pending_ray.wgsl"]);
-        ("PendingRay", "pending_ray_begin(origin)")
+    let (passage, empty) = if features.through {
+        text += &imports(["kernel/passage.wgsl"]);
+        ("Passage", "passage_begin(origin)")
     } else {
         ("u32", "0u")
     };
-    let _ = write!(text, "\nalias Inside = {volume};\n\nalias Pending = {pending};\n");
+    let _ = write!(text, "\nalias Inside = {volume};\n\nalias Passed = {passage};\n");
     let comment = "What a path that leaves the camera is in.";
     let body = format!("    return {begin};\n");
     function(&mut text, comment, "inside_begin() -> Inside", &body);
-    let comment = "No ray is pending; the path leaves the camera at `origin`.";
+    let comment = "No ray has gone through anything; the path leaves the camera at `origin`.";
     let body = format!("    return {empty};\n");
-    function(&mut text, comment, "pending_begin(origin: vec3f) -> Pending", &body);
+    function(&mut text, comment, "passed_begin(origin: vec3f) -> Passed", &body);
+    let comment = "How far the shadow ray has come.";
+    let body = if features.through { "    return passage.t;\n" } else { "    return 0.0;\n" };
+    function(&mut text, comment, "passed_length(passage: Passed) -> f32", body);
     text
 }
 
@@ -107,7 +110,7 @@ pub(crate) fn before(features: &FeatureSet) -> String {
     text += &imports(["surface/surface.wgsl", "trace/ray.wgsl"]);
     let mut body = String::new();
     if features.triangles {
-        text += &imports(["scene/placed.wgsl", "shape/triangle.wgsl", "trace/triangles.wgsl"]);
+        text += &imports(["scene/placed.wgsl", "shape/triangle.wgsl", "trace/order.wgsl"]);
         body += "    if ((hit.prim & PRIM_OTHER) == 0u && !dispatch_is_placed(hit)) {\n        \
                  return triangle_before(hit.prim, dir, hit.t);\n    }\n";
     }
@@ -159,7 +162,7 @@ pub(crate) fn crossing(features: &FeatureSet) -> String {
         "The last vertex at which the path was scattered, or the camera.",
         &format!("dispatch_vertex({path}) -> vec3f"),
         if features.through {
-            "    return (*path).pending.vertex;\n"
+            "    return (*path).passage.vertex;\n"
         } else {
             "    return (*path).point;\n"
         },
@@ -200,9 +203,21 @@ pub(crate) fn shadow(features: &FeatureSet) -> String {
     );
     function(
         &mut text,
-        "The shadow ray has ended: the pending ray is the path's next one again.",
+        "The shadow ray has ended.",
         &format!("dispatch_shadow_end({path})"),
         with("    shadow_ray_end(path);\n", ""),
+    );
+    function(
+        &mut text,
+        "What is left of the path's next ray, which is `ray` in whole, behind what it went through as a shadow ray.",
+        "dispatch_shadow_rest(path: Path, ray: Ray) -> Ray",
+        with("    return shadow_ray_rest(path, ray);\n", "    return ray;\n"),
+    );
+    function(
+        &mut text,
+        "What the path's next ray adds to `FilmPixel::rays`: nothing if it is the rest of a shadow ray.",
+        &format!("dispatch_counted_rays({path}) -> u32"),
+        with("    return select(1u, 0u, (*path).passage.t > 0.0);\n", "    return 1u;\n"),
     );
     text
 }
@@ -239,7 +254,7 @@ pub(crate) fn through(features: &FeatureSet) -> String {
 
 /// What a path remembers of a vertex that it leaves.
 fn depart(text: &mut String, features: &FeatureSet) {
-    let mark = if features.through { "    (*path).pending.vertex = p;\n" } else { "" };
+    let mark = if features.through { "    (*path).passage.vertex = p;\n" } else { "" };
     let sheet = if features.sheets {
         "    if (sheet_passes(path, flags, next)) {\n        // Like a shadow ray, which counts as one segment.\n        \
          (*path).segments -= 1u;\n        return (*path).pdf;\n    }\n"

@@ -30,18 +30,6 @@ pub(crate) fn start(features: &FeatureSet) -> String {
     );
     function(
         &mut text,
-        "The start while a shadow ray is past another surface.",
-        "dispatch_start_held(start: Start) -> Start",
-        with("    return smooth_start_held(start);\n", "    return start;\n"),
-    );
-    function(
-        &mut text,
-        "The start when that ray has ended.",
-        "dispatch_start_resumed(start: Start) -> Start",
-        with("    return smooth_start_resumed(start);\n", "    return start;\n"),
-    );
-    function(
-        &mut text,
         "Where a ray along `dir` starts that leaves `point`.",
         "dispatch_origin(point: vec3f, ray_offset: vec3f, start: Start, dir: vec3f) -> vec3f",
         with(

@@ -1,5 +1,5 @@
-//! `scene/candidate.wgsl`, `scene/leaf.wgsl`, `scene/nodes.wgsl`, `scene/instance_leaf.wgsl`, `scene/placed.wgsl`: what
-//! the traversal does with a primitive, a leaf, a node and an instance.
+//! `scene/after.wgsl`, `scene/candidate.wgsl`, `scene/leaf.wgsl`, `scene/nodes.wgsl`, `scene/instance_leaf.wgsl`,
+//! `scene/placed.wgsl`: what the traversal does with a primitive, a leaf, a node and an instance.
 
 use super::wgsl::imports;
 use crate::{FeatureSet, NodeLayout};
@@ -41,6 +41,29 @@ pub(crate) fn candidate(features: &FeatureSet) -> String {
                  return alpha_exists(sphere.material, uv);\n}\n";
     } else {
         text += "    return true;\n}\n";
+    }
+    text
+}
+
+/// Whether a ray has still to come to what it meets.
+pub(crate) fn after(features: &FeatureSet) -> String {
+    let mut text =
+        String::from("// Generated: whether shadow rays of this scene go through surfaces.\n\n");
+    text += &imports(["trace/order.wgsl", "trace/ray.wgsl"]);
+    for (what, kind, place) in [
+        ("Triangle `i`, in the frame of `ray`,", "triangle", "i"),
+        ("The sphere", "sphere", "prim"),
+    ] {
+        let after = if features.through {
+            format!("t > ray.t_min || (t == ray.t_min && order_{kind}_after(ray, {place}))")
+        } else {
+            "t > 0.0".to_owned()
+        };
+        let _ = write!(
+            text,
+            "\n// {what} at distance `t` is in front of the ray, and none of what the ray has gone through.\n\
+             fn dispatch_{kind}_after(ray: Ray, t: f32, {place}: u32) -> bool {{\n    return {after};\n}}\n"
+        );
     }
     text
 }
@@ -170,10 +193,10 @@ pub(crate) fn nodes(features: &FeatureSet) -> String {
     modules.push("scene/records.wgsl");
     text += &imports(modules);
     let call = |layout: &NodeLayout| {
-        format!("return {}(i, origin, inverse, t_max, n_stack);", visit(layout).1)
+        format!("return {}(i, origin, inverse, t_min, t_max, n_stack);", visit(layout).1)
     };
     text += "\n// The child of node `i` to visit next, or `NONE`; others that the ray meets go on the stack.\n\
-             fn dispatch_node(\n    i: u32, origin: vec3f, inverse: vec3f, t_max: f32, n_stack: ptr<function, u32>,\n\
+             fn dispatch_node(\n    i: u32, origin: vec3f, inverse: vec3f, t_min: f32, t_max: f32, n_stack: ptr<function, u32>,\n\
              ) -> u32 {\n";
     if layouts.len() > 1 {
         let _ = writeln!(

@@ -5,6 +5,7 @@
 #import "kernel/state.wgsl"
 #import "math/beer.wgsl"
 #import "scene/constants.wgsl"
+#import "scene/inside.wgsl"
 #import "scene/records.wgsl"
 
 // Longer than any distance between two points of the scene: the segment leaves it.
@@ -18,6 +19,15 @@ fn fog_start(path: ptr<function, Path>, dir: vec3f) -> f32 {
 // Length of a segment along `dir` whose ray hits at `t`, in what is `reach` deep where there is no hit.
 fn fog_length(path: ptr<function, Path>, dir: vec3f, t: f32, reach: f32) -> f32 {
     return select(t + fog_start(path, dir), reach, t > FOG_LEAVES);
+}
+
+// The same of the shadow ray's length since the last surface that it went through, if it hits at `t`.
+fn fog_shadow_length(path: ptr<function, Path>, t: f32, reach: f32) -> f32 {
+    let passed = passed_length((*path).passage);
+    if (passed == 0.0) {
+        return fog_length(path, (*path).shadow_dir, t, reach);
+    }
+    return select(t - passed, reach, t > FOG_LEAVES);
 }
 
 // Light of colour `color` that takes the place of what is lost at optical depth `tau` along a segment, on which `both`
@@ -61,6 +71,6 @@ fn fog_transmittance(path: ptr<function, Path>, t: f32) -> vec3f {
     if (i == NONE) {
         return vec3f(1.0);
     }
-    let length = fog_length(path, (*path).shadow_dir, t, load_medium_reach(i));
+    let length = fog_shadow_length(path, t, load_medium_reach(i));
     return beer_transmittance(load_medium_sigma_a(i) * length);
 }

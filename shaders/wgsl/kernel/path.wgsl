@@ -27,7 +27,8 @@ fn path_ray(path: Path) -> Ray {
     let t_max = select(RAY_FAR, path.shadow_t, shadow);
     let origin = dispatch_origin(path.point, path.ray_offset, path.start, dir);
     let skip = dispatch_skip(path.skip, path.ray_offset, path.start, dir);
-    return dispatch_probe_ray(path, Ray(origin, t_max, dir, skip, path.shadow_light, path.time, NONE));
+    let ray = dispatch_shadow_rest(path, ray_new(origin, dir, t_max, skip, path.shadow_light, path.time));
+    return dispatch_probe_ray(path, ray);
 }
 
 // Whether there is no ray left.

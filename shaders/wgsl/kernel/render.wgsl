@@ -7,6 +7,7 @@
 #import "sampler/key.wgsl"
 #import "scene/crossing.wgsl"
 #import "scene/records.wgsl"
+#import "scene/shadow.wgsl"
 #import "trace/bvh.wgsl"
 
 @compute @workgroup_size(8, 8, 1)
@@ -23,7 +24,7 @@ fn render(@builtin(global_invocation_id) gid: vec3<u32>) {
     // inside the condition below.
     loop {
         if (path.key.sample == end) { break; }
-        film.rays += 1u;
+        film.rays += dispatch_counted_rays(&path);
         path_advance(&path, trace(path_ray(path)));
         if (path_ended(path)) {
             let sample = path.key.sample;

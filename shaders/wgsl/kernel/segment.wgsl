@@ -76,5 +76,5 @@ fn segment_shadow_transmittance(path: ptr<function, Path>, t: f32) -> vec3f {
         return vec3f(1.0);
     }
     let m = load_medium(i);
-    return beer_transmittance((m.sigma_a + m.sigma_s) * fog_length(path, (*path).shadow_dir, t, m.reach));
+    return beer_transmittance((m.sigma_a + m.sigma_s) * fog_shadow_length(path, t, m.reach));
 }

@@ -1,7 +1,7 @@
 // Shadow rays through transmissive surfaces: thin sheets, and boundaries of media that do not refract. Such a ray
-// takes one turn of the kernel's loop for each surface, while the path's own next ray is pending.
+// takes one turn of the kernel's loop for each surface. It stays the same ray: behind a surface it meets what it would
+// have met without it, in whatever order a tree is walked.
 
-#import "kernel/pending_ray.wgsl"
 #import "kernel/state.wgsl"
 #import "math/vector.wgsl"
 #import "scene/constants.wgsl"
@@ -24,24 +24,21 @@ fn shadow_ray_advance(path: ptr<function, Path>, hit: Hit) -> bool {
     if (vector_max((*path).shadow_radiance) <= 0.0) {
         return false;
     }
-    if (!(*path).pending.used) {
-        (*path).pending = PendingRay(true, (*path).point, (*path).ray_offset, (*path).skip, (*path).pending.vertex);
-    }
-    (*path).point = s.p;
-    (*path).ray_offset = s.ng * s.ray_offset;
-    (*path).skip = ray_skip(hit);
-    (*path).start = dispatch_start_held((*path).start);
-    (*path).shadow_t -= hit.t;
+    (*path).passage.t = hit.t;
+    (*path).passage.last = ray_skip(hit);
     return true;
 }
 
-// The shadow ray has ended: the pending ray is the path's next one again.
+// The part of the shadow ray that is left.
+fn shadow_ray_rest(path: Path, whole: Ray) -> Ray {
+    var ray = whole;
+    ray.t_min = path.passage.t;
+    ray.last = path.passage.last;
+    return ray;
+}
+
+// The shadow ray has ended.
 fn shadow_ray_end(path: ptr<function, Path>) {
-    if ((*path).pending.used) {
-        (*path).point = (*path).pending.point;
-        (*path).ray_offset = (*path).pending.ray_offset;
-        (*path).skip = (*path).pending.skip;
-        (*path).pending.used = false;
-        (*path).start = dispatch_start_resumed((*path).start);
-    }
+    (*path).passage.t = 0.0;
+    (*path).passage.last = vec2u(NONE);
 }

@@ -59,7 +59,7 @@ fn smooth_probe_ray(path: Path, ray: Ray) -> Ray {
     }
     let length = sqrt(dot(path.start.bulge, path.start.bulge));
     let dir = vector_unit_or(path.start.bulge, ray.dir);
-    return Ray(path.point + path.ray_offset, length, dir, path.skip, NONE, path.time, NONE);
+    return ray_new(path.point + path.ray_offset, dir, length, path.skip, NONE, path.time);
 }
 
 // Takes the probe's answer, if the ray was the probe. What it has met hides all that is below the triangle.

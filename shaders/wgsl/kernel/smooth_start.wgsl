@@ -12,8 +12,6 @@ const SMOOTH_START_PLAIN: u32 = 0u;
 const SMOOTH_START_PROBE: u32 = 1u;
 // Nothing is in between.
 const SMOOTH_START_FREE: u32 = 2u;
-// Nothing is in between, but the shadow ray is past another surface by now.
-const SMOOTH_START_HELD: u32 = 3u;
 
 struct SmoothStart {
     // From the ray offset to the smooth surface.
@@ -25,16 +23,6 @@ struct SmoothStart {
 // Rays start at the ray offset.
 fn smooth_start_plain() -> SmoothStart {
     return SmoothStart(vec3f(0.0), SMOOTH_START_PLAIN);
-}
-
-// The start while a shadow ray is past another surface.
-fn smooth_start_held(start: SmoothStart) -> SmoothStart {
-    return SmoothStart(start.bulge, select(start.state, SMOOTH_START_HELD, start.state == SMOOTH_START_FREE));
-}
-
-// The start when that ray has ended.
-fn smooth_start_resumed(start: SmoothStart) -> SmoothStart {
-    return SmoothStart(start.bulge, select(start.state, SMOOTH_START_FREE, start.state == SMOOTH_START_HELD));
 }
 
 // Whether a ray along `dir` starts on the smooth surface. `ray_offset`: as in `Path`.

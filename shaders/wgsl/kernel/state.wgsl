@@ -46,8 +46,8 @@ struct Path {
     shadow_light: u32,
     // Media that the path is in, if the scene has any.
     inside: Inside,
-    // The path's next ray while its shadow ray is traced, if shadow rays pass through surfaces.
-    pending: Pending,
+    // How far the shadow ray has come, if shadow rays go through surfaces.
+    passage: Passed,
     // Of the last vertex at which the path was scattered, if lights are chosen by it.
     receiver: Receiver,
     // When all of it sees the scene: 0 where the shutter opens, 1 where it closes.
@@ -60,6 +60,6 @@ fn state_at_camera(key: SampleKey, ray: CameraRay) -> Path {
         key, vec3f(0.0), 0u, vec3f(0.0), 0u, vec3f(1.0), 1.0,
         ray.origin, 0.0, ray.dir, vec2u(NONE), vec3f(0.0), dispatch_start_plain(), true,
         ray.dir, 0.0, vec3f(0.0), NONE,
-        inside_begin(), pending_begin(ray.origin), receiver_none(), dispatch_time(key),
+        inside_begin(), passed_begin(ray.origin), receiver_none(), dispatch_time(key),
     );
 }

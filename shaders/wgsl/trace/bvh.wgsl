@@ -18,10 +18,12 @@ fn trace(ray: Ray) -> Hit {
     var child = load_frame_root();
     var walk = walk_begin(ray);
     var n_stack = 0u;
+    // A triangle's distance has more roundings than that of its box.
+    let t_min = ray.t_min * 0.9999;
     loop {
         if (child == NONE) { break; }
         if ((child & CHILD_INNER) != 0u) {
-            child = dispatch_node(child & CHILD_INDEX, walk.ray.origin, walk.inverse, hit.t, &n_stack);
+            child = dispatch_node(child & CHILD_INDEX, walk.ray.origin, walk.inverse, t_min, hit.t, &n_stack);
             if (child != NONE) {
                 continue;
             }

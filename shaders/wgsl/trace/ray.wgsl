@@ -13,6 +13,11 @@ struct Ray {
     origin: vec3f,
     // Nothing beyond this distance is hit.
     t_max: f32,
+    // Nothing before this distance is hit, and at it only what comes after `last`: a shadow ray that goes on behind a
+    // surface is the same ray, so that it meets what it would have met. 0 for all others, and nothing is hit at 0.
+    t_min: f32,
+    // The surface at `t_min`, as `skip`, or `NONE`.
+    last: vec2u,
     // Unit in the world.
     dir: vec3f,
     // The primitive that the ray starts on and the instance that it is in, as in `Hit`; or `NONE`. A triangle
@@ -48,8 +53,7 @@ fn ray_skip(hit: Hit) -> vec2u {
     return vec2u(hit.prim, hit.instance);
 }
 
-// Whether a sphere replaces the best hit so far. On equal distance the lower index wins, so that the
-// picture of coinciding surfaces does not depend on the order of traversal.
-fn ray_accepts(best: Hit, t: f32, prim: u32) -> bool {
-    return t > 0.0 && (t < best.t || (t == best.t && prim < best.prim));
+// A ray from `origin` along `dir` up to `t_max`, in the world; `light`, `skip`, `time`: as in `Ray`.
+fn ray_new(origin: vec3f, dir: vec3f, t_max: f32, skip: vec2u, light: u32, time: f32) -> Ray {
+    return Ray(origin, t_max, 0.0, vec2u(NONE), dir, skip, light, time, NONE);
 }

@@ -15,12 +15,12 @@ fn wide_bytes(word: u32) -> vec4f {
 }
 
 // For each child: the bits of the distance at which the ray enters its box, the lowest two replaced by the
-// number of the child, so that sorting them sorts the children; `WIDE_MISS` if it does not before `t_max`.
+// number of the child, so that sorting them sorts the children; `WIDE_MISS` if it is not there from `t_min` to `t_max`.
 //
 // The distance to a plane is steps * a + b, which cancels far from the node: each of its roundings, at
 // most five, is at most 2^-24 (|b| + 256 |a|). The planes are moved apart by 8 of those, so that no box is
 // smaller than it really is, whether products are fused or not. The far end grows as in `box_enter`.
-fn wide_keys(node: WideNode, origin: vec3f, inverse: vec3f, t_max: f32) -> vec4<u32> {
+fn wide_keys(node: WideNode, origin: vec3f, inverse: vec3f, t_min: f32, t_max: f32) -> vec4<u32> {
     let a = node.scale * inverse;
     let b = (node.origin - origin) * inverse;
     let slack = (abs(b) + abs(a) * 256.0) * 4.76837158203125e-7;
@@ -35,7 +35,7 @@ fn wide_keys(node: WideNode, origin: vec3f, inverse: vec3f, t_max: f32) -> vec4<
     let far_x = wide_bytes(last.x) * a.x + high.x;
     let far_y = wide_bytes(last.y) * a.y + high.y;
     let far_z = wide_bytes(last.z) * a.z + high.z;
-    let enter = max(max(near_x, near_y), max(near_z, vec4f(0.0)));
+    let enter = max(max(near_x, near_y), max(near_z, vec4f(t_min)));
     let leave = min(min(far_x, far_y), min(far_z, vec4f(t_max))) * 1.00000095;
     // A box that is inside out can seem to be met from far away.
     let there = vec4<u32>(node.child0, node.child1, node.child2, node.child3) != vec4<u32>(NONE);
@@ -52,9 +52,11 @@ fn wide_child(node: WideNode, key: u32) -> u32 {
 }
 
 // The nearest child of node `i`, or `NONE`; the others that the ray meets go on the stack, the farthest first.
-fn wide_visit(i: u32, origin: vec3f, inverse: vec3f, t_max: f32, n_stack: ptr<function, u32>) -> u32 {
+fn wide_visit(
+    i: u32, origin: vec3f, inverse: vec3f, t_min: f32, t_max: f32, n_stack: ptr<function, u32>,
+) -> u32 {
     let node = load_wide_node(i);
-    let keys = wide_keys(node, origin, inverse, t_max);
+    let keys = wide_keys(node, origin, inverse, t_min, t_max);
     let low = min(keys.xz, keys.yw);
     let high = max(keys.xz, keys.yw);
     let nearest = min(low.x, low.y);

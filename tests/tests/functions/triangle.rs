@@ -366,7 +366,8 @@ fn boxes_hold_every_ray_through_them() {
         assert!(inverse.is_finite());
         // Room for the rounding of `dir`, which moves the ray by 1e-7 of its length.
         let room = Vec3::splat(2.5e-7 * t as f32 + 1e-7);
-        let enter = kernel.box_enter(lo - room, hi + room, origin, inverse, t as f32 * 1.00001);
+        let enter =
+            kernel.box_enter(lo - room, hi + room, origin, inverse, 0.0, t as f32 * 1.00001);
         assert!(enter <= t as f32 * 1.00001, "{lo} {hi} from {origin} to {aim}: {enter} of {t}");
     }
 }

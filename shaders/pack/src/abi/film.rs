@@ -7,7 +7,7 @@ abi_struct! {
     pub struct FilmPixel {
         /// Sum of radiance over the samples of this dispatch; bad samples add 0.
         pub sum: [f32; 3],
-        /// Rays traced: camera, bounce and shadow.
+        /// Rays traced: camera, bounce and shadow; a shadow ray that goes through surfaces is one.
         pub rays: u32,
         /// Samples whose radiance was not finite: bits 0-15 count them, bits 16-31 say which of this dispatch
         /// was the first.
