@@ -1,7 +1,6 @@
 // The order of what a ray meets at equal distances, so that the picture of coinciding surfaces does not depend on the
 // order of traversal.
 
-#import "scene/constants.wgsl"
 #import "scene/records.wgsl"
 #import "trace/ray.wgsl"
 
