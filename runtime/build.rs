@@ -8,6 +8,7 @@ mod known;
 #[path = "src/trust/pieces.rs"]
 mod pieces;
 
+use native::ByHand;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
@@ -16,8 +17,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let out = PathBuf::from(env::var_os("OUT_DIR").ok_or("cargo sets OUT_DIR")?);
     let kernel = shaders::link(&shaders::FeatureSet::full())?;
     let walk = native::Seam { function: "trace", path: "crate::walk::trace" };
-    write(&out, "kernel_f32.rs", &translate(&kernel, native::Precision::F32, &[walk])?)?;
-    write(&out, "kernel_f64.rs", &translate(&kernel, native::Precision::F64, &[])?)?;
+    let by_hand = ByHand { seams: &[walk], companion: Some("crate::walk::Companion<'a>") };
+    write(&out, "kernel_f32.rs", &translate(&kernel, native::Precision::F32, by_hand)?)?;
+    let nothing = ByHand::default();
+    write(&out, "kernel_f64.rs", &translate(&kernel, native::Precision::F64, nothing)?)?;
     if env::var_os("CARGO_FEATURE_GPU").is_some() {
         write(&out, "known.rs", &known::table()?)?;
         write(&out, "full.wgsl", &kernel.text)?;
@@ -38,9 +41,9 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn translate(
     kernel: &shaders::Linked,
     precision: native::Precision,
-    seams: &[native::Seam<'_>],
+    by_hand: ByHand<'_>,
 ) -> Result<String, Box<dyn Error>> {
-    native::generate_with(&kernel.text, precision, seams).map_err(|error| {
+    native::generate_with(&kernel.text, precision, by_hand).map_err(|error| {
         let before = kernel.text.split_inclusive('\n').take(error.line.saturating_sub(1) as usize);
         let byte = before.map(str::len).sum::<usize>() + error.column.saturating_sub(1) as usize;
         format!("{:?}: {}", kernel.locate(byte), error.message).into()

@@ -8,6 +8,7 @@ use crate::kernel;
 use crate::run::Run;
 use crate::setup::Setup;
 use crate::signals::Event;
+use crate::walk::{Companion, Tree};
 use glam::{UVec3, UVec4};
 use pack::Kind;
 use pack::abi::{FilmPixel, Frame};
@@ -46,6 +47,7 @@ pub(crate) struct Inputs<'a> {
     shades: &'a [UVec4],
     spheres: &'a [UVec4],
     texels: &'a [UVec4],
+    tree: Option<&'a Tree>,
 }
 
 impl<'a> Inputs<'a> {
@@ -58,6 +60,7 @@ impl<'a> Inputs<'a> {
             shades: setup.section(Kind::TRISHADE),
             spheres: setup.section(Kind::SPHERE),
             texels: setup.section(Kind::TEXEL),
+            tree: setup.finished_tree(),
         }
     }
 }
@@ -65,11 +68,11 @@ impl<'a> Inputs<'a> {
 /// Renders the tile of the frame: one `FilmPixel`, two words, for each pixel. Whether it came to the end of it,
 /// which it does unless `is_over` says so after a pixel.
 macro_rules! tile_function {
-    ($name:ident, $kernel:ident) => {
-        fn $name(
-            inputs: Inputs<'_>,
+    ($name:ident, $kernel:ident, $accompany:ident) => {
+        fn $name<'a>(
+            inputs: Inputs<'a>,
             size: [u32; 2],
-            film: &mut [UVec4],
+            film: &'a mut [UVec4],
             is_over: &dyn Fn() -> bool,
         ) -> bool {
             let mut kernel = kernel::$kernel::Kernel::new(kernel::$kernel::Bindings {
@@ -82,6 +85,7 @@ macro_rules! tile_function {
                 sphere_words: inputs.spheres,
                 texel_words: inputs.texels,
             });
+            $accompany(&mut kernel, inputs);
             for y in 0..size[1] {
                 for x in 0..size[0] {
                     if is_over() {
@@ -94,10 +98,16 @@ macro_rules! tile_function {
         }
     };
 }
-tile_function!(render_f32, f32);
-tile_function!(render_f64, f64);
+tile_function!(render_f32, f32, walk_by_hand);
+tile_function!(render_f64, f64, walk_as_generated);
 
-type RenderTile = fn(Inputs<'_>, [u32; 2], &mut [UVec4], &dyn Fn() -> bool) -> bool;
+fn walk_by_hand<'a>(kernel: &mut kernel::f32::Kernel<'a>, inputs: Inputs<'a>) {
+    kernel.companion = Companion::new(inputs.tree);
+}
+
+fn walk_as_generated(_: &mut kernel::f64::Kernel<'_>, _: Inputs<'_>) {}
+
+type RenderTile = for<'a> fn(Inputs<'a>, [u32; 2], &'a mut [UVec4], &dyn Fn() -> bool) -> bool;
 
 /// Renders until the run has nothing left.
 pub(crate) fn render(setup: &Setup<'_>, job: &Job, run: &Run<'_>) -> Result<(), CpuError> {
@@ -119,7 +129,12 @@ fn render_with(
         .num_threads(job.threads.unwrap_or(0))
         .thread_name(|i| format!("rtr-{i}"))
         .build()?;
-    pool.broadcast(|_| worker(tile, setup, run));
+    // A first block each shows something before the tree is made, which takes all threads a moment, and may be all.
+    let rendered = pool.broadcast(|_| next_block(tile, setup, run, &mut Vec::new()));
+    if rendered.into_iter().all(|rendered| rendered) {
+        pool.install(|| setup.tree());
+        pool.broadcast(|_| worker(tile, setup, run));
+    }
     Ok(())
 }
 
@@ -140,6 +155,7 @@ pub(crate) fn render_item(
     item: &WorkItem,
 ) -> Result<(), CpuError> {
     check_stack(setup)?;
+    setup.tree();
     let Rect { y, w, h, .. } = item.tile;
     let mut pixels = vec![FilmPixel::default(); w as usize * h as usize];
     let is_over = || run.is_broken_off();
@@ -161,27 +177,37 @@ pub(crate) fn render_item(
 
 /// Claims block after block. Blocks are claimed in order, so batches are completed in order.
 fn worker(tile: RenderTile, setup: &Setup<'_>, run: &Run<'_>) {
-    let mut pixels: Vec<FilmPixel> = Vec::new();
-    while let Some(item) = run.claim_blocking(BLOCK) {
-        let n = usize::try_from(item.tile.pixels()).expect("a block is small");
-        pixels.clear();
-        pixels.resize(n, FilmPixel::default());
-        let frame = setup.frame(&item);
-        let inputs = Inputs::new(setup, &frame);
-        let film = bytemuck::cast_slice_mut(&mut pixels);
-        let size = [item.tile.w, item.tile.h];
-        let is_over = || run.is_broken_off();
-        let render = || {
-            run.signals().tell(Event::Block);
-            tile(inputs, size, film, &is_over)
-        };
-        // Only `pixels` is written, and a failed block is not read.
-        match catch_unwind(AssertUnwindSafe(render)) {
-            Ok(true) => run.deposit(&item, &pixels),
-            Ok(false) => run.give_back(item),
-            Err(panic) => run.fail(&item, panic_text(panic.as_ref())),
-        }
+    let mut pixels = Vec::new();
+    while next_block(tile, setup, run, &mut pixels) {}
+}
+
+/// Claims and renders a block, in a place for its pixels that is used again; false if none is left.
+fn next_block(
+    tile: RenderTile,
+    setup: &Setup<'_>,
+    run: &Run<'_>,
+    pixels: &mut Vec<FilmPixel>,
+) -> bool {
+    let Some(item) = run.claim_blocking(BLOCK) else { return false };
+    let n = usize::try_from(item.tile.pixels()).expect("a block is small");
+    pixels.clear();
+    pixels.resize(n, FilmPixel::default());
+    let frame = setup.frame(&item);
+    let inputs = Inputs::new(setup, &frame);
+    let film = bytemuck::cast_slice_mut(pixels);
+    let size = [item.tile.w, item.tile.h];
+    let is_over = || run.is_broken_off();
+    let render = || {
+        run.signals().tell(Event::Block);
+        tile(inputs, size, film, &is_over)
+    };
+    // Only `pixels` is written, and a failed block is not read.
+    match catch_unwind(AssertUnwindSafe(render)) {
+        Ok(true) => run.deposit(&item, pixels),
+        Ok(false) => run.give_back(item),
+        Err(panic) => run.fail(&item, panic_text(panic.as_ref())),
     }
+    true
 }
 
 /// The message of a caught panic.

@@ -48,7 +48,7 @@ mod setup;
 mod signals;
 #[cfg(feature = "gpu")]
 mod trust;
-mod walk;
+pub mod walk;
 mod zeros;
 
 pub use checkpoint::{Checkpoint, CheckpointError};

@@ -1,25 +1,44 @@
 //! A checked pack that can be rendered, and what its settings say.
 
+use crate::walk::{Geometry, Tree};
 use pack::abi::RenderSettings;
-use pack::{Checked, Pack};
+use pack::{Checked, Pack, features};
 use std::fmt::Write as _;
+use std::sync::OnceLock;
 
 /// A scene that can be rendered.
 pub struct Scene {
     pack: Pack<Checked>,
+    tree: OnceLock<Option<Tree>>,
 }
 
 impl Scene {
     /// The scene in a checked pack.
     #[must_use]
     pub fn new(pack: Pack<Checked>) -> Self {
-        Self { pack }
+        Self { pack, tree: OnceLock::new() }
     }
 
     /// The pack.
     #[must_use]
     pub fn pack(&self) -> &Pack<Checked> {
         &self.pack
+    }
+
+    /// The tree that the CPU walks, unless the nodes of the pack are binary; made when it is first asked for.
+    pub(crate) fn tree(&self) -> Option<&Tree> {
+        self.tree.get_or_init(|| tree_of(&self.pack)).as_ref()
+    }
+
+    /// The same if it has been made.
+    pub(crate) fn finished_tree(&self) -> Option<&Tree> {
+        self.tree.get().and_then(Option::as_ref)
+    }
+
+    /// Makes now what a CPU would otherwise make between the first blocks of a picture and the others, so that all
+    /// blocks are rendered alike. No bit of a picture depends on it.
+    pub fn prepare(&self) {
+        self.tree();
     }
 
     /// Settings of the scene.
@@ -38,4 +57,16 @@ impl Scene {
         }
         text
     }
+}
+
+fn tree_of(pack: &Pack<Checked>) -> Option<Tree> {
+    let nodes = pack.records();
+    let geometry = Geometry {
+        nodes,
+        triangles: pack.records(),
+        instances: pack.records(),
+        root: pack.render().root,
+        uncut: pack.features() & features::ALPHA_CLIP == 0,
+    };
+    (!nodes.is_empty()).then(|| Tree::new(&geometry))
 }

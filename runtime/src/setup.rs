@@ -6,9 +6,10 @@ use crate::job::Job;
 use crate::replicate::replicate_seed;
 use crate::scene::Scene;
 use crate::schedule::WorkItem;
+use crate::walk::Tree;
 use glam::UVec4;
+use pack::Kind;
 use pack::abi::{Camera, Frame, NONE, albedo_tables};
-use pack::{Kind, features};
 
 /// Sections that the kernel binds as they are, with their binding numbers.
 #[cfg(feature = "gpu")]
@@ -48,6 +49,7 @@ pub(crate) struct Setup<'a> {
     heap: Vec<UVec4>,
     /// Everything of `Frame` that is the same for all tiles.
     frame: Frame,
+    native_walk: bool,
     /// Runs instead of the pack's.
     #[cfg(feature = "gpu")]
     kernel: Option<&'a str>,
@@ -66,16 +68,6 @@ impl Scene {
         let tan_half_height =
             (f64::from(camera.tan_half_width) * f64::from(size[1]) / f64::from(size[0])) as f32;
         Camera { tan_half_height, ..camera }
-    }
-
-    /// `Frame::wide`.
-    fn wide(&self, job: &Job) -> u32 {
-        match self.pack().section_bytes(Kind::WIDENODE) {
-            None => 0,
-            Some(_) if !job.native_walk => 2,
-            Some(_) if self.pack().features() & features::ALPHA_CLIP == 0 => 3,
-            Some(_) => 1,
-        }
     }
 
     /// First heap words of the tables of directional albedo, which begin at word `first`.
@@ -142,7 +134,7 @@ impl Scene {
             sampler: settings.sampler,
             air: settings.air,
             fog: settings.fog,
-            wide: self.wide(job),
+            wide: u32::from(self.pack().section_bytes(Kind::WIDENODE).is_some()),
             inside: settings.inside,
             ..Frame::default()
         };
@@ -150,6 +142,7 @@ impl Scene {
             scene: self,
             heap,
             frame,
+            native_walk: job.native_walk,
             #[cfg(feature = "gpu")]
             kernel: None,
         }
@@ -191,6 +184,16 @@ impl Setup<'_> {
     /// 16-byte words of a section; empty when the scene has none.
     pub(crate) fn section(&self, kind: Kind) -> &[UVec4] {
         self.scene.pack().section_bytes(kind).map_or(&[], words)
+    }
+
+    /// The tree that the CPU walks by hand, if it does; made when it is first asked for.
+    pub(crate) fn tree(&self) -> Option<&Tree> {
+        if self.native_walk { self.scene.tree() } else { None }
+    }
+
+    /// The same if it has been made; without it rays find the same hits in the nodes of the pack.
+    pub(crate) fn finished_tree(&self) -> Option<&Tree> {
+        if self.native_walk { self.scene.finished_tree() } else { None }
     }
 
     /// The nodes of the tree, in either layout.

@@ -19,6 +19,8 @@ pub fn cpu(pack: Pack<Checked>, set: impl FnOnce(&mut Job)) -> Outcome {
 #[must_use]
 pub fn on(device: &DeviceChoice, pack: Pack<Checked>, set: impl FnOnce(&mut Job)) -> Outcome {
     let scene = Scene::new(pack);
+    // However few blocks the picture has.
+    scene.prepare();
     let mut job = Job::of_scene(&scene);
     set(&mut job);
     match render(&scene, &job, device, &Control::default()) {

@@ -6,8 +6,9 @@ use std::path::Path;
 
 use compiler::bvh::{self, Joined, Layout, Preset};
 use glam::UVec4;
-use pack::abi::{Frame, NONE, TriShade, Triangle};
+use pack::abi::{Frame, NONE, TriShade, Triangle, WideNode};
 use runtime::kernel::f32 as kernel;
+use runtime::walk::{Companion, Geometry, Tree};
 
 use crate::measure::{build, cpu_seconds, walked, walked_wide};
 use crate::other::{self, Yardstick};
@@ -16,6 +17,8 @@ use crate::walk::{Cost, Ray};
 
 /// Runs of each kernel; odd, so that the median is a measured value.
 pub(crate) const ROUNDS: usize = 5;
+const GENERATED: &str = "generated";
+const BY_HAND: &str = "by hand";
 /// The kernel's frame: everything is nearer than 1.
 const SCALE: f32 = 1.0 / 8192.0;
 
@@ -86,6 +89,7 @@ struct Words {
     nodes: Section,
     triangles: Section,
     shades: Vec<UVec4>,
+    tree: Option<Tree>,
 }
 
 /// Both layouts of two trees.
@@ -132,12 +136,13 @@ fn compare(
     let wide_nodes: &[u8] = bytemuck::cast_slice(&wide);
     // The last number is `Frame::wide`.
     let kernels = [
-        ("generated", tree.root, binary_nodes, 0),
-        ("generated", root, wide_nodes, 2),
-        ("by hand", root, wide_nodes, 3),
+        (GENERATED, tree.root, binary_nodes, 0),
+        (GENERATED, root, wide_nodes, 1),
+        (BY_HAND, root, wide_nodes, 1),
     ];
-    let words =
+    let mut words =
         kernels.map(|(_, root, nodes, asked)| Words::new(tree, root, nodes, asked, triangles));
+    words[2].walk_by_hand(&wide, root);
     let (took, others) = times(tree, &words, rays, others)?;
     let costs = [
         walked(tree).cost(rays, triangles),
@@ -232,7 +237,15 @@ impl Words {
             nodes: Section::new(nodes),
             triangles: Section::new(bytemuck::cast_slice(&records)),
             shades: bytemuck::pod_collect_to_vec(&shades),
+            tree: None,
         }
+    }
+
+    /// Makes the tree that the CPU walks by hand.
+    fn walk_by_hand(&mut self, nodes: &[WideNode], root: u32) {
+        let triangles = bytemuck::cast_slice(self.triangles.words());
+        let geometry = Geometry { nodes, triangles, instances: &[], root, uncut: true };
+        self.tree = Some(Tree::new(&geometry));
     }
 
     /// Distance (bits) and triangle of every ray.
@@ -249,16 +262,11 @@ impl Words {
             sphere_words: &[],
             texel_words: &[],
         });
+        kernel.companion = Companion::new(self.tree.as_ref());
+        let none = glam::UVec2::splat(NONE);
         let trace = |ray: &Ray| {
-            let hit = kernel.trace(kernel::Ray {
-                origin: ray.origin,
-                t_max: kernel::RAY_FAR,
-                dir: ray.dir,
-                skip: glam::UVec2::splat(NONE),
-                instance: NONE,
-                light: NONE,
-                time: 0.0,
-            });
+            let ray = kernel.ray_new(ray.origin, ray.dir, kernel::RAY_FAR, none, NONE, 0.0);
+            let hit = kernel.trace(ray);
             (hit.t.to_bits(), hit.prim)
         };
         rays.iter().map(trace).collect()

@@ -1,48 +1,61 @@
 //! The children that a ray may still enter.
 
-use pack::abi::MAX_STACK;
-
 /// By how much the far end of a box grows; see `box_enter`.
 pub(super) const FAR_END: f32 = 1.000_001;
-/// The deepest stack that a pack may need, and what is written above it.
-const LENGTH: usize = MAX_STACK as usize + 4;
 
 /// A child whose box the ray meets.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Waiting {
     /// Its reference.
     pub(super) child: u32,
-    /// Bits of a distance before which the ray does not enter the box.
-    pub(super) distance: u32,
+    /// Before this distance the ray does not enter the box.
+    pub(super) distance: f32,
 }
 
-/// Those that wait; the top is the next.
+/// Those that wait; the top is the next. It is as long as the tree needs, and used by one ray after another.
+#[derive(Debug, Default)]
 pub(super) struct Stack {
-    entries: [Waiting; LENGTH],
+    entries: Vec<Waiting>,
     n: usize,
 }
 
 impl Stack {
-    #[inline(always)]
-    pub(super) fn new() -> Self {
-        Self { entries: [Waiting { child: 0, distance: 0 }; LENGTH], n: 0 }
+    /// With room for `need` children.
+    pub(super) fn new(need: usize) -> Self {
+        Self { entries: vec![Waiting::default(); need], n: 0 }
     }
 
-    /// Pushes the first `n` of four, at most 3.
+    /// For the next ray.
     #[inline(always)]
-    pub(super) fn push(&mut self, children: [Waiting; 4], n: usize) {
-        // All four are written, so that nothing depends on how many count. No pack that passed its checks
-        // needs more room.
-        if let Some(room) = self.entries.get_mut(self.n..self.n + 4) {
-            room.copy_from_slice(&children);
-            self.n += n;
+    pub(super) fn clear(&mut self) {
+        self.n = 0;
+    }
+
+    /// Pushes a child; says where it lies.
+    #[inline(always)]
+    pub(super) fn push(&mut self, waiting: Waiting) -> usize {
+        let at = self.n;
+        // No tree needs more room than was made.
+        if let Some(entry) = self.entries.get_mut(at) {
+            *entry = waiting;
+            self.n += 1;
         }
+        at
     }
 
-    /// Pushes one.
+    /// Pushes a child below those nearer, down to `bottom`.
     #[inline(always)]
-    pub(super) fn push_one(&mut self, waiting: Waiting) {
-        self.push([waiting; 4], 1);
+    pub(super) fn insert(&mut self, waiting: Waiting, bottom: usize) {
+        let mut at = self.push(waiting);
+        while at > bottom {
+            match self.entries.get_mut(at - 1..=at) {
+                Some([below, above]) if below.distance < above.distance => {
+                    core::mem::swap(below, above);
+                }
+                _ => break,
+            }
+            at -= 1;
+        }
     }
 
     /// The last child that the ray may enter before `t_max`; those above are dropped.
@@ -51,7 +64,7 @@ impl Stack {
         loop {
             self.n = self.n.checked_sub(1)?;
             let top = self.entries.get(self.n)?;
-            if f32::from_bits(top.distance) <= t_max * FAR_END {
+            if top.distance <= t_max * FAR_END {
                 return Some(top.child);
             }
         }

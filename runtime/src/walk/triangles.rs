@@ -3,15 +3,11 @@
 //! Each lane does the operations of `triangle_intersect` (`shape/triangle.wgsl`, where it says why) in
 //! their order, so that its bits are the same. Which hit counts is then asked one by one.
 
-use crate::kernel::f32::{CHILD_COUNT_SHIFT, CHILD_FIRST, Hit, Kernel, Ray, TriangleShear, Walk};
+use super::tree::{BLOCK, Block};
+use crate::kernel::f32::{Hit, Kernel, NONE, Ray, TriangleShear};
 use bytemuck::cast;
-use glam::{Vec2, Vec3};
+use glam::{UVec4, Vec2, Vec3};
 use wide::{f32x4, i32x4};
-
-/// A corner as it is stored: three floats and an id.
-type Row = [u32; 4];
-/// Triangles that are tested together.
-const WIDTH: u32 = 4;
 
 /// A ray, and what turns it into the z axis, in all lanes.
 pub(super) struct Sheared {
@@ -41,119 +37,109 @@ impl Sheared {
 
     /// The distance of a triangle in a plane across an axis other than that of the ray.
     #[inline(always)]
-    fn flat<const AXIS: u32>(&self, tri: &[Row; 3]) -> Option<f32> {
+    fn flat<const AXIS: u32>(&self, block: &Block, lane: usize) -> Option<f32> {
         let (x, y) = match AXIS {
             0 => (1, 2),
             1 => (2, 0),
             _ => (0, 1),
         };
-        self.flat_across(tri, x, self.shear.slope.x)
-            .or_else(|| self.flat_across(tri, y, self.shear.slope.y))
+        self.flat_across(block, lane, x, self.shear.slope.x)
+            .or_else(|| self.flat_across(block, lane, y, self.shear.slope.y))
     }
 
     #[inline(always)]
-    fn flat_across(&self, tri: &[Row; 3], axis: usize, slope: f32) -> Option<f32> {
-        let [p0, p1, p2] = tri.map(|corner| f32::from_bits(corner[axis]) - self.from[axis]);
+    fn flat_across(&self, block: &Block, lane: usize, axis: usize, slope: f32) -> Option<f32> {
+        let from = |corner: usize| block.corners[corner][axis][lane & 3] - self.from[axis];
+        let (p0, p1, p2) = (from(0), from(1), from(2));
         let flat = p0 - p1 == 0.0 && p1 - p2 == 0.0 && slope != 0.0;
         flat.then(|| p0 / slope * self.shear.inv_depth)
     }
 }
 
-/// The better of `best` and the hits in the leaf of triangles with reference `child`; `all`: none is to be
-/// asked whether it counts for such a ray.
+/// The better of `best` and the hits in `blocks`; `all`: none is to be asked whether it counts for such a ray.
 #[inline(always)]
 pub(super) fn leaf(
     kernel: &mut Kernel<'_>,
-    child: u32,
-    walk: &Walk,
+    blocks: &[Block],
+    ray: &Ray,
     sheared: &Sheared,
     all: bool,
     best: Hit,
 ) -> Hit {
     // Asked once, and not in every test.
     match sheared.axis {
-        0 => leaf_along::<0>(kernel, child, walk, sheared, all, best),
-        1 => leaf_along::<1>(kernel, child, walk, sheared, all, best),
-        _ => leaf_along::<2>(kernel, child, walk, sheared, all, best),
+        0 => leaf_along::<0>(kernel, blocks, ray, sheared, all, best),
+        1 => leaf_along::<1>(kernel, blocks, ray, sheared, all, best),
+        _ => leaf_along::<2>(kernel, blocks, ray, sheared, all, best),
     }
 }
 
 #[inline(always)]
 fn leaf_along<const AXIS: u32>(
     kernel: &mut Kernel<'_>,
-    child: u32,
-    walk: &Walk,
+    blocks: &[Block],
+    ray: &Ray,
     sheared: &Sheared,
     all: bool,
     best: Hit,
 ) -> Hit {
-    let first = child & CHILD_FIRST;
-    let n = ((child >> CHILD_COUNT_SHIFT) & 7) + 1;
-    let words = kernel.tri_words;
-    // No pack that passed its checks leads elsewhere.
-    let words = words.get(3 * first as usize..3 * (first + n) as usize).unwrap_or_default();
-    let rows: &[Row] = bytemuck::cast_slice(words);
-    let tris = rows.as_chunks::<3>().0;
-    let (mut hit, mut at) = (best, first);
-    for group in tris.chunks(WIDTH as usize) {
-        let corners = corners::<AXIS>(group, sheared);
-        if corners[0].id.is_negative().any() {
-            // One that moves.
-            return kernel.triangles_trace(at, first + n - at, walk.ray, walk.leaf, hit);
-        }
-        if let Some(met) = Lanes::intersect(&corners, sheared.inv_depth) {
-            let mut left = met.hits & ((1 << group.len()) - 1);
-            while left != 0 {
-                let lane = left.trailing_zeros();
-                left &= left - 1;
-                let mut new = met.hit(lane, at + lane, &walk.ray);
-                if let Some(t) = group.get(lane as usize).and_then(|tri| sheared.flat::<AXIS>(tri))
-                {
-                    new.t = t;
-                }
-                if new.t > 0.0 && new.t <= hit.t && counts(kernel, &new, &hit, &walk.ray, all) {
-                    hit = new;
-                }
+    let mut hit = best;
+    for block in blocks {
+        let [a, b, c] = &block.corners;
+        let corner = |corner| Corner::new::<AXIS>(corner, sheared);
+        let corners = [corner(a), corner(b), corner(c)];
+        let Some(met) = Lanes::intersect(&corners, block, kernel.tri_words, sheared.inv_depth)
+        else {
+            continue;
+        };
+        let mut left = met.hits;
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize & 3;
+            left &= left - 1;
+            let i = block.triangles[lane];
+            if i == NONE {
+                break;
+            }
+            let mut new = met.hit(lane, i, ray);
+            if let Some(t) = sheared.flat::<AXIS>(block, lane) {
+                new.t = t;
+            }
+            if new.t > 0.0 && new.t <= hit.t && counts(kernel, &new, &hit, ray, all) {
+                hit = new;
             }
         }
-        at += WIDTH;
     }
     hit
 }
 
-/// One corner of four triangles, seen along the ray, and its ids.
+/// One corner of four triangles, seen along the ray.
 struct Corner {
     x: f32x4,
     y: f32x4,
     z: f32x4,
-    id: i32x4,
-}
-
-/// The corners of up to four triangles; a lane without one of its own repeats the last.
-#[inline(always)]
-fn corners<const AXIS: u32>(group: &[[Row; 3]], sheared: &Sheared) -> [Corner; 3] {
-    let last = group.len().saturating_sub(1);
-    let tri = |lane: usize| group.get(lane.min(last)).unwrap_or(&[[0; 4]; 3]);
-    let [a, b, c, d] = [tri(0), tri(1), tri(2), tri(3)];
-    let corner = |k: usize| Corner::new::<AXIS>([&a[k], &b[k], &c[k], &d[k]], sheared);
-    [corner(0), corner(1), corner(2)]
 }
 
 impl Corner {
     #[inline(always)]
-    fn new<const AXIS: u32>([a, b, c, d]: [&Row; 4], sheared: &Sheared) -> Self {
-        // Nothing is computed with the ids as floats.
-        let [x, y, z, id] = f32x4::transpose([cast(*a), cast(*b), cast(*c), cast(*d)]);
-        let [ox, oy, oz] = sheared.origin;
-        let (x, y, z) = (x - ox, y - oy, z - oz);
+    fn new<const AXIS: u32>(corner: &[[f32; BLOCK]; 3], sheared: &Sheared) -> Self {
+        let from = |axis: usize| f32x4::new(corner[axis]) - sheared.origin[axis];
         let (x, y, z) = match AXIS {
-            0 => (y, z, x),
-            1 => (z, x, y),
-            _ => (x, y, z),
+            0 => (from(1), from(2), from(0)),
+            1 => (from(2), from(0), from(1)),
+            _ => (from(0), from(1), from(2)),
         };
         let [slope_x, slope_y] = sheared.slope;
-        Self { x: x - z * slope_x, y: y - z * slope_y, z, id: cast(id) }
+        Self { x: x - z * slope_x, y: y - z * slope_y, z }
     }
+}
+
+/// The ids of the corners of four triangles, which are rarely asked for.
+#[inline(always)]
+fn ids(block: &Block, words: &[UVec4]) -> [i32x4; 3] {
+    [0, 1, 2].map(|corner| {
+        let id = |i: u32| words.get(3 * i as usize + corner).map_or(0, |row| row.w.cast_signed());
+        i32x4::new(block.triangles.map(id))
+    })
 }
 
 /// What a ray and four triangles have in common.
@@ -174,7 +160,7 @@ struct Edges {
 impl Edges {
     /// The edge functions; swapped ends only change their signs, twice, unless the ray meets an edge.
     #[inline(always)]
-    fn new([a, b, c]: &[Corner; 3]) -> Self {
+    fn new([a, b, c]: &[Corner; 3], block: &Block, words: &[UVec4]) -> Self {
         let edge = |p: &Corner, q: &Corner| p.x * q.y - p.y * q.x;
         let [e0, e1, e2] = [edge(b, c), edge(c, a), edge(a, b)];
         let zero = f32x4::ZERO;
@@ -183,7 +169,9 @@ impl Edges {
         if ((p0 | n0) & (p1 | n1) & (p2 | n2)).all() {
             Self { inside: (p0 & p1 & p2) | (n0 & n1 & n2), weights: [e0, e1, e2] }
         } else {
-            Self::in_order(&[Edge::new(b, c), Edge::new(c, a), Edge::new(a, b)])
+            let [p, q, r] = ids(block, words);
+            let edges = [Edge::new(b, q, c, r), Edge::new(c, r, a, p), Edge::new(a, p, b, q)];
+            Self::in_order(&edges)
         }
     }
 
@@ -206,8 +194,8 @@ struct Edge {
 
 impl Edge {
     #[inline(always)]
-    fn new(a: &Corner, b: &Corner) -> Self {
-        let swap: f32x4 = cast(a.id.simd_gt(b.id));
+    fn new(a: &Corner, id_a: i32x4, b: &Corner, id_b: i32x4) -> Self {
+        let swap: f32x4 = cast(id_a.simd_gt(id_b));
         let px = swap.bitselect(b.x, a.x);
         let py = swap.bitselect(b.y, a.y);
         let qx = swap.bitselect(a.x, b.x);
@@ -234,8 +222,13 @@ impl Edge {
 impl Lanes {
     /// Nothing if no lane is hit.
     #[inline(always)]
-    fn intersect(corners: &[Corner; 3], inv_depth: f32x4) -> Option<Self> {
-        let Edges { inside, weights: [w0, w1, w2] } = Edges::new(corners);
+    fn intersect(
+        corners: &[Corner; 3],
+        block: &Block,
+        words: &[UVec4],
+        inv_depth: f32x4,
+    ) -> Option<Self> {
+        let Edges { inside, weights: [w0, w1, w2] } = Edges::new(corners, block, words);
         if inside.none() {
             return None;
         }
@@ -250,10 +243,9 @@ impl Lanes {
 
     /// The hit of one lane, which is triangle `i`.
     #[inline(always)]
-    fn hit(&self, lane: u32, i: u32, ray: &Ray) -> Hit {
-        let k = lane as usize & 3;
-        let b = Vec2::new(self.b1[k], self.b2[k]);
-        Hit { t: self.t[k], prim: i, b, instance: ray.instance }
+    fn hit(&self, lane: usize, i: u32, ray: &Ray) -> Hit {
+        let b = Vec2::new(self.b1[lane], self.b2[lane]);
+        Hit { t: self.t[lane], prim: i, b, instance: ray.instance }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::error::NativeError;
 use crate::names::{Names, PATTERNS, TYPE_NAMES};
-use crate::options::{Precision, Seam};
+use crate::options::{ByHand, Precision, Seam};
 use naga::valid::ModuleInfo;
 use naga::{Constant, Function, GlobalVariable, Handle, Module, Override, Span, Type, TypeInner};
 
@@ -21,6 +21,8 @@ pub(crate) struct Context<'a> {
     pub(crate) entry_points: Vec<String>,
     /// Path of the Rust function that does a function's work, and the name of the translation.
     pub(crate) seams: Vec<Option<(&'a str, String)>>,
+    /// As in `ByHand`.
+    pub(crate) companion: Option<&'a str>,
 }
 
 impl<'a> Context<'a> {
@@ -30,7 +32,7 @@ impl<'a> Context<'a> {
         info: &'a ModuleInfo,
         source: &'a str,
         precision: Precision,
-        seams: &[Seam<'a>],
+        by_hand: ByHand<'a>,
     ) -> Result<Self, NativeError> {
         let mut types = Names::with(TYPE_NAMES.iter().copied());
         let mut structs = Vec::new();
@@ -65,7 +67,7 @@ impl<'a> Context<'a> {
             .iter()
             .map(|(_, constant)| values.add(constant.name.as_deref().unwrap_or("override_")))
             .collect();
-        let mut members = Names::with(["unused"]);
+        let mut members = Names::with(["unused", "companion"]);
         let globals = module
             .global_variables
             .iter()
@@ -78,7 +80,7 @@ impl<'a> Context<'a> {
             .iter()
             .map(|(_, function)| methods.add(function.name.as_deref().unwrap_or("function")))
             .collect();
-        let seams = seam_of_each(module, seams, &mut methods)?;
+        let seams = seam_of_each(module, by_hand.seams, &mut methods)?;
         Ok(Self {
             module,
             info,
@@ -92,6 +94,7 @@ impl<'a> Context<'a> {
             functions,
             entry_points,
             seams,
+            companion: by_hand.companion,
         })
     }
 

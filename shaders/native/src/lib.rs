@@ -62,25 +62,25 @@ mod text;
 mod types;
 
 pub use error::NativeError;
-pub use options::{Precision, Seam};
+pub use options::{ByHand, Precision, Seam};
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 /// Translates a WGSL text, all of it.
 pub fn generate(source: &str, precision: Precision) -> Result<String, NativeError> {
-    generate_with(source, precision, &[])
+    generate_with(source, precision, ByHand::default())
 }
 
-/// Translates a WGSL text; calls of the functions of `seams` become calls of Rust functions.
+/// Translates a WGSL text, but for what is done by hand.
 pub fn generate_with(
     source: &str,
     precision: Precision,
-    seams: &[Seam<'_>],
+    by_hand: ByHand<'_>,
 ) -> Result<String, NativeError> {
     let module =
         naga::front::wgsl::parse_str(source).map_err(|error| NativeError::parse(&error, source))?;
     let info = Validator::new(ValidationFlags::all(), Capabilities::all())
         .validate(&module)
         .map_err(|error| NativeError::invalid(&error, source))?;
-    context::Context::new(&module, &info, source, precision, seams)?.write()
+    context::Context::new(&module, &info, source, precision, by_hand)?.write()
 }

@@ -19,3 +19,13 @@ pub struct Seam<'a> {
     /// `generated_` in front, so that it can be called for what the hand-written one does not do.
     pub path: &'a str,
 }
+
+/// What hand-written Rust does in a translation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ByHand<'a> {
+    /// Functions that it does.
+    pub seams: &'a [Seam<'a>],
+    /// A type that it needs, as seen from the generated module; it may have the lifetime `'a` of the resources, and
+    /// has a default. `Kernel` gets a member `companion` of it that no translated function uses.
+    pub companion: Option<&'a str>,
+}

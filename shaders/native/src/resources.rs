@@ -151,6 +151,9 @@ impl Context<'_> {
             bindings.push("pub unused: core::marker::PhantomData<&'a ()>,".to_owned());
             members.push("pub unused: core::marker::PhantomData<&'a ()>,".to_owned());
         }
+        if let Some(companion) = self.companion {
+            members.push(format!("pub companion: {companion},"));
+        }
         out.line("/// What the kernel reads and writes, one member a WGSL resource.");
         out.open("pub struct Bindings<'a> {");
         out.lines(&bindings);
@@ -187,6 +190,9 @@ impl Context<'_> {
         }
         if !bound {
             out.line("unused: bindings.unused,");
+        }
+        if self.companion.is_some() {
+            out.line("companion: core::default::Default::default(),");
         }
         out.close("}");
         out.close("}");

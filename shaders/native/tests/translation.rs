@@ -4,7 +4,7 @@
 
 mod twin;
 
-use native::{Precision, Seam, generate, generate_with};
+use native::{ByHand, Precision, Seam, generate, generate_with};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -102,7 +102,8 @@ fn twice(x: f32) -> f32 { return x + x; }
 #[test]
 fn a_seam_calls_rust_and_keeps_the_translation() {
     let seam = Seam { function: "twice", path: "crate::hand::twice" };
-    let text = generate_with(SEAM_SOURCE, Precision::F32, &[seam]).unwrap();
+    let by_hand = ByHand { seams: &[seam], companion: Some("crate::hand::Tools<'a>") };
+    let text = generate_with(SEAM_SOURCE, Precision::F32, by_hand).unwrap();
     let lines: Vec<&str> = text.lines().map(str::trim).collect();
     let at = |line: &str| lines.iter().position(|l| *l == line).unwrap_or_else(|| panic!("{line}"));
     let call = at("pub fn twice(&mut self, x: Real) -> Real {");
@@ -111,14 +112,20 @@ fn a_seam_calls_rust_and_keeps_the_translation() {
         lines[at("pub fn generated_twice(&mut self, x: Real) -> Real {") + 1],
         "return x + x;"
     );
+    assert!(text.contains("pub companion: crate::hand::Tools<'a>,"));
     let main = generate(SEAM_SOURCE, Precision::F32).unwrap();
-    assert!(!main.contains("generated_twice") && main.contains("self.twice("));
+    assert!(
+        !main.contains("companion")
+            && !main.contains("generated_twice")
+            && main.contains("self.twice(")
+    );
     assert!(text.contains("self.twice("), "callers go through the seam");
 }
 
 #[test]
 fn a_seam_for_no_function_is_an_error() {
     let seam = Seam { function: "thrice", path: "crate::hand::thrice" };
-    let error = generate_with(SEAM_SOURCE, Precision::F32, &[seam]).unwrap_err();
+    let by_hand = ByHand { seams: &[seam], companion: None };
+    let error = generate_with(SEAM_SOURCE, Precision::F32, by_hand).unwrap_err();
     assert_eq!(error.message, "there is no function `thrice` for a seam");
 }

@@ -21,7 +21,7 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
     let _ = writeln!(
         text,
         "\n## The walk through the tree: {width} x {height}, {SAMPLES} samples a pixel, the CPU kernel\n\n\
-        `generated`: `trace` as it was translated from the WGSL; `by hand`: four lanes at a time \
+        `generated`: `trace` as it was translated from the WGSL; `by hand`: a tree of eights of its own \
         (`runtime/src/walk.rs`). The same picture, bit for bit; all of path tracing is in the times.\n\n\
         | scene | nodes and walk | CPU s | Mrays | Mrays per CPU s | against the first |\n\
         |---|---|---|---|---|---|"

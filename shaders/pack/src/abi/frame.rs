@@ -51,8 +51,7 @@ abi_struct! {
         /// Indices of the `Material`s inside of which the camera is, the one that counts first, then
         /// `NONE`.
         pub inside: [u32; 4],
-        /// 0: the nodes are `Node`s, else `WideNode`s. The full kernel asks, a specialised one knows. On the CPU 2
-        /// says that they are walked by what stands in the WGSL, too, and 3 that nothing is cut out.
+        /// 0: the nodes are `Node`s, else `WideNode`s. The full kernel asks, a specialised one knows.
         pub wide: u32,
         /// First heap word of the table by which the sky is sampled.
         pub sky_table_at: u32,

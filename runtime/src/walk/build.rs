@@ -1,0 +1,261 @@
+//! Wide nodes → the tree that the CPU walks.
+//!
+//! Turns each tree of the pack, from the top down, into nodes of eight. What is below the top is made in parallel, in
+//! pieces that do not depend on the number of threads, and joined in their order.
+
+use super::gather::{Child, Item, Source};
+use super::tree::{BLOCK, Block, MOVING, Node, TWO_BLOCKS, Tree, WIDTH};
+use pack::abi::{CHILD_INNER, CHILD_SPHERES, ChildRef, Instance, NONE, Triangle, WideNode};
+use rayon::prelude::*;
+use std::collections::{BTreeMap, VecDeque};
+
+/// Pieces that are made in parallel, about.
+const PIECES: usize = 256;
+
+/// Wide nodes and what they are over, as in a pack that passed its checks.
+#[derive(Clone, Copy, Debug)]
+pub struct Geometry<'a> {
+    /// Inner nodes of all trees.
+    pub nodes: &'a [WideNode],
+    /// Triangles in the order of leaves.
+    pub triangles: &'a [Triangle],
+    /// Instances of meshes that have trees of their own.
+    pub instances: &'a [Instance],
+    /// The root of the world, a `ChildRef`.
+    pub root: u32,
+    /// Nothing is cut out of a triangle.
+    pub uncut: bool,
+}
+
+impl Tree {
+    /// The tree over the same triangles, spheres and instances as the nodes of `geometry`.
+    #[must_use]
+    pub fn new(geometry: &Geometry<'_>) -> Tree {
+        let Geometry { nodes, triangles, instances, root, uncut } = *geometry;
+        let source = Source { nodes, triangles };
+        let mut top = Piece::default();
+        let mut roots: BTreeMap<u32, u32> = BTreeMap::new();
+        for word in std::iter::once(root).chain(instances.iter().map(|instance| instance.root)) {
+            roots.entry(word).or_insert_with(|| top.root(&source, word));
+        }
+        top.grow(&source, PIECES);
+        let grown = |(place, word)| (place, Piece::of(&source, word));
+        let pieces: Vec<(Place, Piece)> =
+            std::mem::take(&mut top.waiting).into_par_iter().map(grown).collect();
+        let Piece { nodes, blocks, moving, .. } = join(top, pieces);
+        let mut tree = Tree {
+            nodes,
+            blocks,
+            moving,
+            root: roots[&root],
+            roots: instances.iter().map(|instance| roots[&instance.root]).collect(),
+            need: 0,
+            uncut,
+        };
+        tree.need = stack_need(&tree);
+        tree
+    }
+}
+
+/// Which child of which node.
+type Place = (usize, usize);
+
+/// A part of a tree, numbered from 0.
+#[derive(Default)]
+struct Piece {
+    nodes: Vec<Node>,
+    blocks: Vec<Block>,
+    moving: Vec<u32>,
+    /// Inner nodes of the pack that have not been made yet, and where their number is to go.
+    waiting: VecDeque<(Place, u32)>,
+}
+
+impl Piece {
+    /// All of the tree below the inner node `word` of the pack.
+    fn of(source: &Source<'_>, word: u32) -> Self {
+        let mut piece = Self::default();
+        piece.root(source, word);
+        while let Some((place, word)) = piece.waiting.pop_back() {
+            piece.fill(source, place, word);
+        }
+        piece
+    }
+
+    /// Makes nodes, those above first, until so many are left for others, or none.
+    fn grow(&mut self, source: &Source<'_>, others: usize) {
+        while self.waiting.len() < others {
+            let Some((place, word)) = self.waiting.pop_front() else { return };
+            self.fill(source, place, word);
+        }
+    }
+
+    fn fill(&mut self, source: &Source<'_>, (parent, slot): Place, word: u32) {
+        self.nodes[parent].children[slot] = self.root(source, word);
+    }
+
+    /// Makes what the word of the pack refers to; the children of a node wait.
+    fn root(&mut self, source: &Source<'_>, word: u32) -> u32 {
+        let ChildRef::Inner(inner) = ChildRef::decode(word) else {
+            return self.end(source, &source.child(word, [[0.0; 3]; 2]).item);
+        };
+        let children = source.gather(inner);
+        let at = self.nodes.len();
+        self.nodes.push(Node::of(&children));
+        for (slot, child) in children.iter().enumerate() {
+            if let Item::Inner(index) = child.item {
+                self.waiting.push_back(((at, slot), index | CHILD_INNER));
+            } else {
+                self.nodes[at].children[slot] = self.end(source, &child.item);
+            }
+        }
+        number(at) | CHILD_INNER
+    }
+
+    /// A leaf.
+    fn end(&mut self, source: &Source<'_>, item: &Item) -> u32 {
+        match *item {
+            Item::Inner(_) => NONE,
+            Item::Other(word) => word,
+            Item::Moving(word) => {
+                self.moving.push(word);
+                number(self.moving.len() - 1) | MOVING
+            }
+            Item::Few { triangles, n } => self.block(source, &triangles[..n]),
+            Item::Many { first, count } => {
+                let all: Vec<u32> = (first..first + count).collect();
+                let (one, two) = all.split_at(BLOCK);
+                let at = self.block(source, one);
+                self.block(source, two);
+                at | TWO_BLOCKS
+            }
+        }
+    }
+
+    /// A block of up to four.
+    fn block(&mut self, source: &Source<'_>, triangles: &[u32]) -> u32 {
+        let last = triangles.len() - 1;
+        let triangle = |lane: usize| &source.triangles[triangles[lane.min(last)] as usize];
+        let index = |lane: usize| triangles.get(lane).copied().unwrap_or(NONE);
+        self.blocks.push(Block::of([0, 1, 2, 3].map(triangle), [0, 1, 2, 3].map(index)));
+        number(self.blocks.len() - 1)
+    }
+}
+
+/// All in one: first the top, then the pieces below it, the roots of which go to their places.
+fn join(mut top: Piece, below: Vec<(Place, Piece)>) -> Piece {
+    let mut before = [top.nodes.len(), top.blocks.len(), top.moving.len()].map(number);
+    let mut starts = vec![[0; 3]];
+    for ((parent, slot), piece) in &below {
+        top.nodes[*parent].children[*slot] = before[0] | CHILD_INNER;
+        starts.push(before);
+        let lengths = [piece.nodes.len(), piece.blocks.len(), piece.moving.len()].map(number);
+        before = [0, 1, 2].map(|k| before[k] + lengths[k]);
+    }
+    let pieces: Vec<Piece> =
+        std::iter::once(top).chain(below.into_iter().map(|(_, piece)| piece)).collect();
+    // Of the top only those below have their numbers already.
+    let place = |k: usize, node: &Node| Node {
+        children: node.children.map(|word| if k == 0 { word } else { moved(word, starts[k]) }),
+        ..*node
+    };
+    Piece {
+        nodes: concatenated(&pieces, |piece| &piece.nodes, place),
+        blocks: concatenated(&pieces, |piece| &piece.blocks, |_, block| *block),
+        moving: concatenated(&pieces, |piece| &piece.moving, |_, word| *word),
+        waiting: VecDeque::new(),
+    }
+}
+
+/// A table of all pieces, in parallel; `change` is given the number of the piece.
+fn concatenated<T: Send + Sync>(
+    pieces: &[Piece],
+    table: impl Fn(&Piece) -> &[T] + Sync,
+    change: impl Fn(usize, &T) -> T + Sync,
+) -> Vec<T> {
+    let mut ends = Vec::with_capacity(pieces.len());
+    let mut end = 0;
+    for piece in pieces {
+        end += table(piece).len();
+        ends.push(end);
+    }
+    let element = |i: usize| {
+        let piece = ends.partition_point(|end| *end <= i);
+        let table = table(&pieces[piece]);
+        change(piece, &table[i + table.len() - ends[piece]])
+    };
+    (0..end).into_par_iter().map(element).collect()
+}
+
+/// The reference `word` of a piece before which there are so many nodes, blocks and leaves that move.
+fn moved(word: u32, [nodes, blocks, moving]: [u32; 3]) -> u32 {
+    if word == NONE || word & (CHILD_INNER | CHILD_SPHERES) == CHILD_SPHERES {
+        word
+    } else if word & CHILD_INNER != 0 {
+        word + nodes
+    } else if word & MOVING != 0 {
+        word + moving
+    } else {
+        word + blocks
+    }
+}
+
+/// The checks of a pack bound all of its tables.
+fn number(n: usize) -> u32 {
+    u32::try_from(n).expect("no more than there are nodes or triangles in a pack")
+}
+
+impl Node {
+    /// Boxes of the children; their references follow.
+    fn of(children: &[Child]) -> Self {
+        let mut ends = [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3];
+        for (slot, child) in children.iter().enumerate() {
+            for (axis, ends) in ends.iter_mut().enumerate() {
+                let [lo, hi] = child.corners;
+                (ends[0][slot], ends[1][slot]) = (lo[axis], hi[axis]);
+            }
+        }
+        Self { ends, children: [NONE; WIDTH] }
+    }
+}
+
+impl Block {
+    fn of(each: [&Triangle; BLOCK], triangles: [u32; BLOCK]) -> Self {
+        let mut corners = [[[0.0; BLOCK]; 3]; 3];
+        for (lane, triangle) in each.into_iter().enumerate() {
+            for (lanes, corner) in corners.iter_mut().zip([triangle.v0, triangle.v1, triangle.v2]) {
+                for (lanes, x) in lanes.iter_mut().zip(corner) {
+                    lanes[lane] = x;
+                }
+            }
+        }
+        Self { corners, triangles }
+    }
+}
+
+/// Entries that the stack needs, as `pack::bvh::stack_need` of the pack's own nodes.
+fn stack_need(tree: &Tree) -> usize {
+    let closed = needs(tree, |_| 0);
+    let need = |word: u32| need_of(&closed, &|_| 0, word);
+    let instance = |index: u32| tree.roots.get(index as usize).map_or(0, |root| 1 + need(*root));
+    need_of(&needs(tree, instance), &instance, tree.root)
+}
+
+/// The need of every node, where `instance` is that of an instance.
+fn needs(tree: &Tree, instance: impl Fn(u32) -> usize) -> Vec<usize> {
+    let mut needs = vec![0; tree.nodes.len()];
+    for (index, node) in tree.nodes.iter().enumerate().rev() {
+        let children = node.children.iter().filter(|word| **word != NONE);
+        let below = children.clone().map(|word| need_of(&needs, &instance, *word)).max();
+        needs[index] = below.unwrap_or(0) + children.count().saturating_sub(1);
+    }
+    needs
+}
+
+/// The need of what `word` stands for.
+fn need_of(needs: &[usize], instance: &impl Fn(u32) -> usize, word: u32) -> usize {
+    match ChildRef::decode(word) {
+        ChildRef::Inner(index) => needs.get(index as usize).copied().unwrap_or(0),
+        ChildRef::Instance(index) => instance(index),
+        ChildRef::Triangles { .. } | ChildRef::Spheres { .. } | ChildRef::Empty => 0,
+    }
+}

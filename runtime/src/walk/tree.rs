@@ -1,0 +1,128 @@
+//! The tree that the CPU walks: nodes of eight boxes in `f32`, triangles in blocks of four, lane by lane.
+//!
+//! It is not in the pack: `build` makes it from the pack's wide nodes when a scene is first rendered on a CPU. What it
+//! decides is only which triangles a ray is tested with, and in what order.
+
+use super::stack::Stack;
+use pack::abi::{CHILD_INNER, CHILD_INSTANCE, CHILD_SPHERES, NONE};
+
+/// Children of a node.
+pub(super) const WIDTH: usize = 8;
+/// Triangles of a block.
+pub(super) const BLOCK: usize = 4;
+
+/// References are those of the pack, see `pack::abi::ChildRef`, but for inner nodes, whose index is that of a `Node`, and
+/// triangles: bits 0 to 26 are the index of a `Block`, of two if this bit is set.
+pub(super) const TWO_BLOCKS: u32 = 1 << 27;
+/// A leaf that is left to the generated kernel: bits 0 to 26 are an index of `Tree::moving`.
+pub(super) const MOVING: u32 = 1 << 28;
+/// The bits of an index of blocks.
+pub(super) const BLOCK_INDEX: u32 = TWO_BLOCKS - 1;
+
+/// Up to eight children. That of a child that is not there is inside out: no ray meets it.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub(super) struct Node {
+    /// For each axis the lower ends of all boxes, then the upper ones.
+    pub(super) ends: [[[f32; WIDTH]; 2]; 3],
+    /// References.
+    pub(super) children: [u32; WIDTH],
+}
+
+/// Up to four triangles that stand still.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub(super) struct Block {
+    /// For each corner x, y and z; lanes without a triangle of their own repeat the last.
+    pub(super) corners: [[[f32; BLOCK]; 3]; 3],
+    /// Which triangles of the pack they are; `NONE` in the other lanes.
+    pub(super) triangles: [u32; BLOCK],
+}
+
+/// A tree, and those of its instances.
+#[derive(Debug)]
+pub struct Tree {
+    pub(super) nodes: Vec<Node>,
+    pub(super) blocks: Vec<Block>,
+    /// References, as in the pack, of leaves of triangles that move.
+    pub(super) moving: Vec<u32>,
+    pub(super) root: u32,
+    /// Roots of the instances.
+    pub(super) roots: Vec<u32>,
+    /// Entries that the stack needs.
+    pub(super) need: usize,
+    /// Nothing is cut out of a triangle.
+    pub(super) uncut: bool,
+}
+
+impl Tree {
+    /// The node that `child`, which is an inner one, refers to.
+    #[inline(always)]
+    pub(super) fn node(&self, child: u32) -> Option<&Node> {
+        self.nodes.get((child & !CHILD_INNER) as usize)
+    }
+
+    /// Has what `child` refers to brought near, where the processor can be asked: most of it is far away in memory,
+    /// and what is worked out meanwhile hides some of the way.
+    #[inline(always)]
+    pub(super) fn ask_for(&self, child: u32) {
+        if child & CHILD_INNER != 0 {
+            if let Some(node) = self.node(child) {
+                prefetch(&node.ends[0]);
+                prefetch(&node.ends[1]);
+                prefetch(&node.ends[2]);
+                prefetch(&node.children);
+            }
+        } else if child & CHILD_SPHERES == 0
+            && let Some(block) = self.blocks.get((child & BLOCK_INDEX) as usize)
+        {
+            prefetch(&block.corners[0]);
+            prefetch(&block.corners[1][1]);
+            prefetch(&block.triangles);
+        }
+    }
+
+    /// The blocks of the leaf `child`.
+    #[inline(always)]
+    pub(super) fn blocks(&self, child: u32) -> &[Block] {
+        let first = (child & BLOCK_INDEX) as usize;
+        let n = if child & TWO_BLOCKS == 0 { 1 } else { 2 };
+        self.blocks.get(first..first + n).unwrap_or_default()
+    }
+
+    /// The reference, as in the pack, of the leaf `child` of triangles that move.
+    #[inline(always)]
+    pub(super) fn moving(&self, child: u32) -> u32 {
+        self.moving.get((child & BLOCK_INDEX) as usize).copied().unwrap_or(NONE)
+    }
+
+    /// The root of the instance that the leaf `child` refers to.
+    #[inline(always)]
+    pub(super) fn root_of_instance(&self, child: u32) -> u32 {
+        self.roots.get((child & !CHILD_INSTANCE) as usize).copied().unwrap_or(NONE)
+    }
+}
+
+/// What a kernel needs to walk a tree; without one the generated kernel walks the nodes of the pack.
+#[derive(Debug, Default)]
+pub struct Companion<'a> {
+    pub(super) tree: Option<&'a Tree>,
+    pub(super) stack: Stack,
+}
+
+impl<'a> Companion<'a> {
+    /// For walks through `tree`, if there is one.
+    #[must_use]
+    pub fn new(tree: Option<&'a Tree>) -> Self {
+        Self { tree, stack: Stack::new(tree.map_or(0, |tree| tree.need)) }
+    }
+}
+
+/// Asks for the line of the cache in which this begins.
+#[inline(always)]
+fn prefetch<T>(what: &T) {
+    #[cfg(target_arch = "x86_64")]
+    safe_arch::prefetch_t0(what);
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = what;
+}
