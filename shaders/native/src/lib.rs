@@ -60,6 +60,7 @@ mod resources;
 mod statements;
 mod text;
 mod types;
+mod wide;
 
 pub use error::NativeError;
 pub use options::{ByHand, Precision, Seam};
@@ -83,4 +84,20 @@ pub fn generate_with(
         .validate(&module)
         .map_err(|error| NativeError::invalid(&error, source))?;
     context::Context::new(&module, &info, source, precision, by_hand)?.write()
+}
+
+/// Translates what the entry points of a WGSL text call into a module that computes eight invocations at once, but for
+/// what is done by hand; `scalar` is the path of the module that [`generate_with`] makes of the same text in `f32`, as
+/// seen from the new one.
+pub fn generate_wide(
+    source: &str,
+    scalar: &str,
+    by_hand: ByHand<'_>,
+) -> Result<String, NativeError> {
+    let module =
+        naga::front::wgsl::parse_str(source).map_err(|error| NativeError::parse(&error, source))?;
+    let info = Validator::new(ValidationFlags::all(), Capabilities::all())
+        .validate(&module)
+        .map_err(|error| NativeError::invalid(&error, source))?;
+    context::Context::new(&module, &info, source, Precision::F32, by_hand)?.write_wide(scalar)
 }

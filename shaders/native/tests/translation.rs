@@ -4,7 +4,7 @@
 
 mod twin;
 
-use native::{ByHand, Precision, Seam, generate, generate_with};
+use native::{ByHand, Precision, Seam, generate, generate_wide, generate_with};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -81,13 +81,25 @@ fn generated_text_is_current() {
     }
 }
 
+/// The probe that is also translated into lanes, without the operations on them at its end.
+#[test]
+fn generated_text_in_lanes_is_current() {
+    let probe = tests_folder().join("probes/lanes.wgsl");
+    let source = fs::read_to_string(probe).expect("a probe");
+    let text = generate_wide(&source, "crate::scalar", ByHand::default())
+        .unwrap_or_else(|error| panic!("lanes.wgsl:{error}"));
+    let end = text.find("\npub mod v {").expect("it ends with the operations");
+    let stale = check_golden("wide/lanes.rs", &text[..end]);
+    assert!(stale.is_none(), "run `UPDATE=1 cargo test -p native`; stale: {stale:?}");
+}
+
 #[test]
 fn every_generated_file_has_a_probe() {
     let stems = probes();
     for entry in fs::read_dir(tests_folder().join("generated")).unwrap() {
         let name = entry.unwrap().file_name().to_string_lossy().into_owned();
         let of_probe = name.strip_suffix(".rs").is_some_and(|stem| stems.iter().any(|s| s == stem));
-        assert!(of_probe || name == "f64.txt", "{name} belongs to no probe");
+        assert!(of_probe || name == "f64.txt" || name == "wide", "{name} belongs to no probe");
     }
 }
 

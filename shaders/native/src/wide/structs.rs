@@ -1,0 +1,118 @@
+//! Structs of eight lanes: their zeros, choosing between two, and lanes from and to the scalar form.
+
+use super::target::TARGET;
+use super::types::{letter, vector};
+use crate::context::Context;
+use crate::error::NativeError;
+use crate::text::Text;
+use crate::types::{LANES, vector_name};
+use naga::{Handle, Type, TypeInner};
+
+/// The text of a part of a struct, of its name and type.
+type PartOf<'a> = dyn Fn(&str, Handle<Type>) -> Result<String, NativeError> + 'a;
+
+impl Context<'_> {
+    /// Writes every struct.
+    pub(crate) fn write_wide_structs(&self, out: &mut Text) -> Result<(), NativeError> {
+        for (handle, ty) in self.module.types.iter() {
+            if let TypeInner::Struct { .. } = ty.inner {
+                self.write_wide_struct(out, handle)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn write_wide_struct(&self, out: &mut Text, handle: Handle<Type>) -> Result<(), NativeError> {
+        let TypeInner::Struct { members, .. } = &self.module.types[handle].inner else {
+            return Ok(());
+        };
+        let name = self.struct_name(handle);
+        let fields = self.field_names(handle);
+        out.line("#[derive(Clone, Copy, Debug)]");
+        out.open(&format!("pub struct {name} {{"));
+        for (field, member) in fields.iter().zip(members) {
+            out.line(&format!("pub {field}: {},", self.wide_type(member.ty)?));
+        }
+        out.close("}");
+        out.line("");
+        out.open(&format!("impl {name} {{"));
+        let mut each = |head: &str, part: &PartOf<'_>| {
+            out.line("#[inline]");
+            out.line(TARGET);
+            out.open(&format!("pub fn {head} {{"));
+            let is_scalar = head.ends_with("scalar::") || head.contains("-> scalar::");
+            out.open(&if is_scalar { format!("scalar::{name} {{") } else { "Self {".to_owned() });
+            for (field, member) in fields.iter().zip(members) {
+                out.line(&format!("{field}: {},", part(field, member.ty)?));
+            }
+            out.close("}");
+            out.close("}");
+            Ok::<(), NativeError>(())
+        };
+        each("zero() -> Self", &|_, ty| self.wide_zero(ty))?;
+        each("select(m: v::B, yes: &Self, no: &Self) -> Self", &|field, ty| {
+            self.wide_select(ty, ["m", &format!("yes.{field}"), &format!("no.{field}")])
+        })?;
+        each(&format!("lane(&self, k: usize) -> scalar::{name}"), &|field, ty| {
+            self.lane_of(ty, &format!("self.{field}"))
+        })?;
+        each(&format!("of(x: &[scalar::{name}; 8]) -> Self"), &|field, ty| {
+            self.of_lanes(ty, &format!(".{field}"))
+        })?;
+        out.close("}");
+        out.line("");
+        Ok(())
+    }
+
+    /// Lane `k` of the place `text`.
+    fn lane_of(&self, ty: Handle<Type>, text: &str) -> Result<String, NativeError> {
+        let span = self.module.types.get_span(ty);
+        match self.module.types[ty].inner {
+            TypeInner::Struct { .. } => Ok(format!("{text}.lane(k)")),
+            TypeInner::Scalar(scalar) => {
+                Ok(format!("v::{}_to({text})[k & 7]", letter(scalar.kind)))
+            }
+            TypeInner::Vector { size, scalar } => {
+                let lane =
+                    |axis: &&str| format!("v::{}_to({text}.{axis})[k & 7]", letter(scalar.kind));
+                let parts: Vec<String> = LANES[..size as usize].iter().map(lane).collect();
+                Ok(format!("glam::{}::new({})", vector_name(size, scalar.kind), parts.join(", ")))
+            }
+            TypeInner::Array { base, size, .. } => {
+                let length = self.array_length(size, span)?;
+                let part = |k: u32| self.lane_of(base, &format!("{text}[{k}]"));
+                let parts = (0..length).map(part).collect::<Result<Vec<_>, _>>()?;
+                Ok(format!("[{}]", parts.join(", ")))
+            }
+            ref inner => Err(self.refuse(span, crate::types::type_word(inner))),
+        }
+    }
+
+    /// Lanes from part `path` of each of eight scalar structs `x`.
+    fn of_lanes(&self, ty: Handle<Type>, path: &str) -> Result<String, NativeError> {
+        let span = self.module.types.get_span(ty);
+        let all = |path: &str| -> String {
+            let each: Vec<String> = (0..8).map(|k| format!("x[{k}]{path}")).collect();
+            format!("[{}]", each.join(", "))
+        };
+        match self.module.types[ty].inner {
+            TypeInner::Struct { .. } => Ok(format!("{}::of(&{})", self.struct_name(ty), all(path))),
+            TypeInner::Scalar(scalar) => {
+                Ok(format!("v::{}_of({})", letter(scalar.kind), all(path)))
+            }
+            TypeInner::Vector { size, scalar } => {
+                let lane = |axis: &&str| {
+                    format!("v::{}_of({})", letter(scalar.kind), all(&format!("{path}.{axis}")))
+                };
+                Ok(vector(&LANES[..size as usize].iter().map(lane).collect::<Vec<_>>()))
+            }
+            TypeInner::Array { base, size, .. } => {
+                let length = self.array_length(size, span)?;
+                let part = |k: u32| self.of_lanes(base, &format!("{path}[{k}]"));
+                let parts = (0..length).map(part).collect::<Result<Vec<_>, _>>()?;
+                Ok(format!("[{}]", parts.join(", ")))
+            }
+            ref inner => Err(self.refuse(span, crate::types::type_word(inner))),
+        }
+    }
+}

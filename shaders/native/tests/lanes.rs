@@ -1,0 +1,181 @@
+//! Eight invocations side by side compute what each computes alone: every bit, in every mask.
+#![cfg(target_arch = "x86_64")]
+#![expect(unsafe_code, reason = "what the processor can is asked before")]
+
+use glam::{UVec3, UVec4};
+use native::{ByHand, generate_wide};
+
+macro_rules! generated {
+    ($name:ident, $file:literal, $($rules:item)?) => {
+        #[allow(
+            clippy::all,
+            clippy::pedantic,
+            dead_code,
+            missing_docs,
+            non_camel_case_types,
+            non_snake_case,
+            non_upper_case_globals,
+            unreachable_pub,
+            unused,
+            reason = "generated text"
+        )]
+        mod $name {
+            $($rules)?
+            include!(concat!("generated/", $file));
+        }
+    };
+}
+
+#[path = "../src/prelude/avx2.rs"]
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    dead_code,
+    unreachable_pub,
+    unused,
+    reason = "as it is pasted"
+)]
+mod avx2;
+#[path = "../src/prelude/single.rs"]
+mod single;
+
+generated!(scalar, "lanes.rs", use crate::single::rules as wgsl;);
+generated!(wide, "wide/lanes.rs", use crate::avx2 as v;);
+
+/// Words that an invocation finds.
+const FOUND: usize = 9;
+/// What stands where nobody has written.
+const NOTHING: UVec4 = UVec4::splat(0xdead_beef);
+
+/// Numbers that mean something as integers and as floats, many of them awkward.
+fn given(n: usize) -> Vec<UVec4> {
+    let awkward = [
+        0.0,
+        -0.0,
+        1.0,
+        -1.5,
+        0.5,
+        2.5,
+        3.5,
+        1e-40,
+        f32::MAX,
+        f32::MIN,
+        f32::INFINITY,
+        f32::NEG_INFINITY,
+        f32::NAN,
+        2_147_483_648.0,
+        4_294_967_296.0,
+        -2_147_483_648.0,
+        4_294_967_040.0,
+        16_777_217.0,
+        0.1,
+    ];
+    let mut state = 1_u32;
+    let mut next = move || {
+        state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+        state ^ (state >> 15)
+    };
+    let mut word = move |k: usize| {
+        let bits = next();
+        let number = |pick: u32| match pick % 3 {
+            0 => awkward[(pick / 3) as usize % awkward.len()].to_bits(),
+            1 => (((pick % 4096) as f32 - 2048.0) / 64.0).to_bits(),
+            _ => pick,
+        };
+        let small = [0, 1, 2, 3, 0xffff_ffff, 0x8000_0000, 77][(bits >> 8) as usize % 7];
+        match k {
+            0 | 1 if bits % 4 == 0 => small,
+            0 | 1 if bits % 4 == 1 => bits % 40,
+            0 | 1 => bits,
+            _ => number(bits >> 3),
+        }
+    };
+    (0..n).map(|_| UVec4::new(word(0), word(1), word(2), word(3))).collect()
+}
+
+/// What invocation `i` finds alone.
+fn alone(given: &[UVec4], i: u32) -> Vec<UVec4> {
+    let mut found = vec![NOTHING; given.len() * FOUND];
+    let bindings = scalar::Bindings { given, found: &mut found };
+    scalar::Kernel::new(bindings).main(UVec3::new(i, 0, 0));
+    found[i as usize * FOUND..][..FOUND].to_vec()
+}
+
+/// What the eight from `first` find in the lanes of `mask`.
+fn together(given: &[UVec4], first: u32, mask: u32) -> Vec<UVec4> {
+    let mut found = vec![NOTHING; given.len() * FOUND];
+    // SAFETY: the test asks for these instructions first.
+    unsafe { run(given, &mut found, first, mask) };
+    found
+}
+
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+fn run(given: &[UVec4], found: &mut [UVec4], first: u32, mask: u32) {
+    let lanes = [0, 1, 2, 3, 4, 5, 6, 7];
+    let mask = avx2::b_of(lanes.map(|lane| mask >> lane & 1 == 1));
+    let x = avx2::u_of(lanes.map(|lane| first + lane));
+    let id = avx2::V3 { x, y: avx2::u(0), z: avx2::u(0) };
+    wide::Kernel { given, found }.main(mask, id);
+}
+
+/// Bits, but those of what is not a number.
+fn known(words: &[UVec4]) -> Vec<[u32; 4]> {
+    let floats = [1, 2, 3, 5];
+    let known = |(k, word): (usize, &UVec4)| {
+        word.to_array().map(|bits| {
+            let nan = f32::from_bits(bits).is_nan() && *word != NOTHING;
+            if floats.contains(&(k % FOUND)) && nan { 0x7fc0_0000 } else { bits }
+        })
+    };
+    words.iter().enumerate().map(known).collect()
+}
+
+#[test]
+fn every_lane_has_the_bits_of_the_scalar_form_in_every_mask() {
+    let all_there = is_x86_feature_detected!("avx2")
+        && is_x86_feature_detected!("bmi1")
+        && is_x86_feature_detected!("bmi2")
+        && is_x86_feature_detected!("lzcnt")
+        && is_x86_feature_detected!("popcnt");
+    if !all_there {
+        return;
+    }
+    let given = given(512);
+    let expected: Vec<Vec<UVec4>> = (0..512).map(|i| alone(&given, i)).collect();
+    for first in (0..512).step_by(8) {
+        let masks: Vec<u32> = if first < 32 { (0..256).collect() } else { vec![0xff, 0x5a, first] };
+        for mask in masks {
+            let found = together(&given, first, mask & 0xff);
+            for lane in 0..8 {
+                let i = (first + lane) as usize;
+                let here = &found[i * FOUND..][..FOUND];
+                let nothing = vec![NOTHING; FOUND];
+                let active = mask >> lane & 1 == 1;
+                let expected = if active { &expected[i] } else { &nothing };
+                let what = || format!("invocation {i}, mask {mask:#x}, given {:x?}", given[i]);
+                assert_eq!(known(here), known(expected), "{}", what());
+            }
+        }
+    }
+}
+
+/// What has no form in lanes is refused, with its line.
+#[test]
+fn what_lanes_cannot_do_is_refused() {
+    let refused = |body: &str, words: &str| {
+        let source = format!(
+            "@group(0) @binding(0) var<storage, read_write> out: array<vec4<u32>>;
+var<private> state: u32;
+@compute @workgroup_size(1) fn main(@builtin(global_invocation_id) id: vec3<u32>) {{
+    {body}
+}}"
+        );
+        let error = generate_wide(&source, "crate::scalar", ByHand::default())
+            .expect_err("this must be refused");
+        assert!(error.message.contains(words), "{error} does not say {words:?}");
+        assert_eq!(error.line, 4, "{error}");
+    };
+    refused("out[id.x] = bitcast<vec4u>(sin(vec4f(id.xxxx)));", "Sin");
+    refused("state += id.x;", "private");
+    refused("let m = mat2x2f(vec2f(id.xy), vec2f(1.0)); out[0].x = u32(m[1].x);", "number");
+}
