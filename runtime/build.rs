@@ -1,4 +1,4 @@
-//! Links the full kernel, translates it to Rust in two precisions, and lists every declaration that
+//! Links the full kernel, translates it to Rust in three forms, and lists every declaration that
 //! the linker can emit, so that a kernel in a pack can be recognised as ours.
 
 #[path = "build/families.rs"]
@@ -19,6 +19,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let walk = native::Seam { function: "trace", path: "crate::walk::trace" };
     let by_hand = ByHand { seams: &[walk], companion: Some("crate::walk::Companion<'a>") };
     write(&out, "kernel_f32.rs", &translate(&kernel, native::Precision::F32, by_hand)?)?;
+    let trace = native::Seam { function: "trace", path: "crate::wide::trace" };
+    let by_hand = ByHand { seams: &[trace], companion: Some("crate::wide::Companion<'a>") };
+    let wide = native::generate_wide(&kernel.text, "crate::kernel::f32", by_hand)
+        .map_err(|error| located(&kernel, &error))?;
+    write(&out, "kernel_wide.rs", &wide)?;
     let nothing = ByHand::default();
     write(&out, "kernel_f64.rs", &translate(&kernel, native::Precision::F64, nothing)?)?;
     if env::var_os("CARGO_FEATURE_GPU").is_some() {
@@ -43,11 +48,13 @@ fn translate(
     precision: native::Precision,
     by_hand: ByHand<'_>,
 ) -> Result<String, Box<dyn Error>> {
-    native::generate_with(&kernel.text, precision, by_hand).map_err(|error| {
-        let before = kernel.text.split_inclusive('\n').take(error.line.saturating_sub(1) as usize);
-        let byte = before.map(str::len).sum::<usize>() + error.column.saturating_sub(1) as usize;
-        format!("{:?}: {}", kernel.locate(byte), error.message).into()
-    })
+    native::generate_with(&kernel.text, precision, by_hand).map_err(|error| located(kernel, &error))
+}
+
+fn located(kernel: &shaders::Linked, error: &native::NativeError) -> Box<dyn Error> {
+    let before = kernel.text.split_inclusive('\n').take(error.line.saturating_sub(1) as usize);
+    let byte = before.map(str::len).sum::<usize>() + error.column.saturating_sub(1) as usize;
+    format!("{:?}: {}", kernel.locate(byte), error.message).into()
 }
 
 fn write(folder: &Path, name: &str, text: &str) -> Result<(), Box<dyn Error>> {

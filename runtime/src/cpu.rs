@@ -9,6 +9,8 @@ use crate::run::Run;
 use crate::setup::Setup;
 use crate::signals::Event;
 use crate::walk::{Companion, Tree};
+#[cfg(target_arch = "x86_64")]
+use crate::wide::{self, Tile};
 use glam::{UVec3, UVec4};
 use pack::Kind;
 use pack::abi::{FilmPixel, Frame};
@@ -48,6 +50,8 @@ pub(crate) struct Inputs<'a> {
     spheres: &'a [UVec4],
     texels: &'a [UVec4],
     tree: Option<&'a Tree>,
+    #[cfg(target_arch = "x86_64")]
+    lanes: Option<pulp::x86::V3>,
 }
 
 impl<'a> Inputs<'a> {
@@ -61,51 +65,70 @@ impl<'a> Inputs<'a> {
             spheres: setup.section(Kind::SPHERE),
             texels: setup.section(Kind::TEXEL),
             tree: setup.finished_tree(),
+            #[cfg(target_arch = "x86_64")]
+            lanes: setup.lanes(),
         }
     }
 }
 
-/// Renders the tile of the frame: one `FilmPixel`, two words, for each pixel. Whether it came to the end of it,
-/// which it does unless `is_over` says so after a pixel.
-macro_rules! tile_function {
-    ($name:ident, $kernel:ident, $accompany:ident) => {
-        fn $name<'a>(
-            inputs: Inputs<'a>,
-            size: [u32; 2],
-            film: &'a mut [UVec4],
-            is_over: &dyn Fn() -> bool,
-        ) -> bool {
-            let mut kernel = kernel::$kernel::Kernel::new(kernel::$kernel::Bindings {
-                frame_words: inputs.frame,
-                film_words: film,
-                heap_words: inputs.heap,
-                node_words: inputs.nodes,
-                tri_words: inputs.triangles,
-                shade_words: inputs.shades,
-                sphere_words: inputs.spheres,
-                texel_words: inputs.texels,
-            });
-            $accompany(&mut kernel, inputs);
-            for y in 0..size[1] {
-                for x in 0..size[0] {
-                    if is_over() {
-                        return false;
-                    }
-                    kernel.render(UVec3::new(x, y, 0));
-                }
-            }
-            true
-        }
-    };
+/// The kernel of the tile of the frame, which writes one `FilmPixel`, two words, for each pixel of `film`.
+macro_rules! bound {
+    ($kernel:ident, $inputs:expr, $film:expr) => {{
+        let inputs: Inputs<'_> = $inputs;
+        kernel::$kernel::Kernel::new(kernel::$kernel::Bindings {
+            frame_words: inputs.frame,
+            film_words: $film,
+            heap_words: inputs.heap,
+            node_words: inputs.nodes,
+            tri_words: inputs.triangles,
+            shade_words: inputs.shades,
+            sphere_words: inputs.spheres,
+            texel_words: inputs.texels,
+        })
+    }};
 }
-tile_function!(render_f32, f32, walk_by_hand);
-tile_function!(render_f64, f64, walk_as_generated);
 
-fn walk_by_hand<'a>(kernel: &mut kernel::f32::Kernel<'a>, inputs: Inputs<'a>) {
+/// Renders the tile of the frame. Whether it came to the end of it, which it does unless `is_over` says so after some
+/// pixels.
+fn render_f32<'a>(
+    inputs: Inputs<'a>,
+    size: [u32; 2],
+    film: &'a mut [UVec4],
+    is_over: &dyn Fn() -> bool,
+) -> bool {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(avx2) = inputs.lanes {
+        let mut scalar = bound!(f32, inputs, &mut []);
+        scalar.companion = Companion::new(inputs.tree);
+        return wide::render(avx2, Tile { scalar, film, size }, is_over);
+    }
+    let mut kernel = bound!(f32, inputs, film);
     kernel.companion = Companion::new(inputs.tree);
+    each_pixel(size, is_over, |pixel| kernel.render(pixel))
 }
 
-fn walk_as_generated(_: &mut kernel::f64::Kernel<'_>, _: Inputs<'_>) {}
+/// As `render_f32`, in double precision.
+fn render_f64<'a>(
+    inputs: Inputs<'a>,
+    size: [u32; 2],
+    film: &'a mut [UVec4],
+    is_over: &dyn Fn() -> bool,
+) -> bool {
+    let mut kernel = bound!(f64, inputs, film);
+    each_pixel(size, is_over, |pixel| kernel.render(pixel))
+}
+
+fn each_pixel(size: [u32; 2], is_over: &dyn Fn() -> bool, mut render: impl FnMut(UVec3)) -> bool {
+    for y in 0..size[1] {
+        for x in 0..size[0] {
+            if is_over() {
+                return false;
+            }
+            render(UVec3::new(x, y, 0));
+        }
+    }
+    true
+}
 
 type RenderTile = for<'a> fn(Inputs<'a>, [u32; 2], &'a mut [UVec4], &dyn Fn() -> bool) -> bool;
 

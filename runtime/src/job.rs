@@ -12,6 +12,21 @@ pub const MAX_SIDE: u32 = 1 << 16;
 /// Most pixels of a film: 2^28 take 11 GB while rendering, see `film_bytes`.
 pub const MAX_PIXELS: u64 = 1 << 28;
 
+/// How the CPU kernel works in `f32`: no bit of a picture depends on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CpuWay {
+    /// Wide nodes are walked by hand-written code, otherwise by what was generated from the WGSL.
+    pub by_hand: bool,
+    /// Eight pixels are rendered at a time, where the processor can.
+    pub lanes: bool,
+}
+
+impl Default for CpuWay {
+    fn default() -> Self {
+        Self { by_hand: true, lanes: true }
+    }
+}
+
 /// The type that stands for WGSL's `f32`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Precision {
@@ -52,9 +67,8 @@ pub struct Job {
     pub clamp_indirect: Option<f32>,
     /// Precision of the CPU kernel; GPUs know `F32` only.
     pub precision: Precision,
-    /// Whether the CPU kernel walks wide nodes by hand-written code, which changes no bit of the picture;
-    /// otherwise by what was generated from the WGSL.
-    pub native_walk: bool,
+    /// How the CPU kernel works in `f32`.
+    pub way: CpuWay,
     /// When to stop, counted from the first sample.
     pub time_limit: Option<Duration>,
     /// Threads of the CPU kernel; `None`: one for each logical CPU.
@@ -113,7 +127,7 @@ impl Job {
             estimator: 0,
             clamp_indirect: None,
             precision: Precision::F32,
-            native_walk: true,
+            way: CpuWay::default(),
             time_limit: None,
             threads: None,
             strict: false,

@@ -1,4 +1,5 @@
-//! The kernel as Rust: what the build script generated from the full WGSL, in two precisions.
+//! The kernel as Rust: what the build script generated from the full WGSL, in two precisions, and for eight
+//! invocations at once.
 //!
 //! Not written by hand and not edited: `build.rs` links every WGSL module and translates the text.
 
@@ -31,4 +32,10 @@ generated! {
 generated! {
     /// Its twin in double precision, which shows where rounding matters.
     f64 = "/kernel_f64.rs"
+}
+
+#[cfg(target_arch = "x86_64")]
+generated! {
+    /// The kernel in single precision for eight invocations at once.
+    wide = "/kernel_wide.rs"
 }

@@ -49,12 +49,14 @@ mod signals;
 #[cfg(feature = "gpu")]
 mod trust;
 pub mod walk;
+#[cfg(target_arch = "x86_64")]
+mod wide;
 mod zeros;
 
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use control::Control;
 pub use film::{BadSample, Counters, Film};
-pub use job::{Job, JobError, MAX_PIXELS, MAX_SIDE, Precision};
+pub use job::{CpuWay, Job, JobError, MAX_PIXELS, MAX_SIDE, Precision};
 pub use left_out::{LeftOut, Reason, Section};
 pub use mark::Mark;
 pub use memory::{TooLarge, film_bytes};

@@ -103,7 +103,7 @@ mod tests {
             estimator: 0,
             clamp_indirect: None,
             precision: crate::job::Precision::F32,
-            native_walk: true,
+            way: crate::job::CpuWay::default(),
             time_limit: None,
             threads: None,
             strict: false,

@@ -2,7 +2,7 @@
 //!
 //! Both backends read the same bytes from here. It does not render.
 
-use crate::job::Job;
+use crate::job::{CpuWay, Job};
 use crate::replicate::replicate_seed;
 use crate::scene::Scene;
 use crate::schedule::WorkItem;
@@ -49,7 +49,7 @@ pub(crate) struct Setup<'a> {
     heap: Vec<UVec4>,
     /// Everything of `Frame` that is the same for all tiles.
     frame: Frame,
-    native_walk: bool,
+    way: CpuWay,
     /// Runs instead of the pack's.
     #[cfg(feature = "gpu")]
     kernel: Option<&'a str>,
@@ -142,7 +142,7 @@ impl Scene {
             scene: self,
             heap,
             frame,
-            native_walk: job.native_walk,
+            way: job.way,
             #[cfg(feature = "gpu")]
             kernel: None,
         }
@@ -188,12 +188,18 @@ impl Setup<'_> {
 
     /// The tree that the CPU walks by hand, if it does; made when it is first asked for.
     pub(crate) fn tree(&self) -> Option<&Tree> {
-        if self.native_walk { self.scene.tree() } else { None }
+        if self.way.by_hand { self.scene.tree() } else { None }
     }
 
     /// The same if it has been made; without it rays find the same hits in the nodes of the pack.
     pub(crate) fn finished_tree(&self) -> Option<&Tree> {
-        if self.native_walk { self.scene.finished_tree() } else { None }
+        if self.way.by_hand { self.scene.finished_tree() } else { None }
+    }
+
+    /// The instructions for eight pixels at a time, if they are there and wanted.
+    #[cfg(target_arch = "x86_64")]
+    pub(crate) fn lanes(&self) -> Option<pulp::x86::V3> {
+        if self.way.lanes { pulp::x86::V3::try_new() } else { None }
     }
 
     /// The nodes of the tree, in either layout.

@@ -32,18 +32,19 @@ use triangles::Sheared;
 #[inline]
 pub(crate) fn trace(kernel: &mut Kernel<'_>, ray: Ray) -> Hit {
     let Some(tree) = kernel.companion.tree else { return kernel.generated_trace(ray) };
-    let mut stack = std::mem::take(&mut kernel.companion.stack);
-    stack.clear();
-    let walk = Walk { kernel, tree, ray, stack: &mut stack };
     #[cfg(target_arch = "x86_64")]
-    let hit = match pulp::x86::V3::try_new() {
-        Some(avx2) => avx2.vectorize(Avx2(walk, avx2)),
-        None => walk.walk(Halves),
-    };
-    #[cfg(not(target_arch = "x86_64"))]
-    let hit = walk.walk(Halves);
-    kernel.companion.stack = stack;
-    hit
+    if let Some(avx2) = pulp::x86::V3::try_new() {
+        return avx2.vectorize(Avx2(Walk { kernel, tree, ray }, avx2));
+    }
+    Walk { kernel, tree, ray }.walk(Halves)
+}
+
+/// The same for who is compiled for AVX2 himself.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+pub(crate) fn trace_here(avx2: pulp::x86::V3, kernel: &mut Kernel<'_>, ray: Ray) -> Hit {
+    let Some(tree) = kernel.companion.tree else { return kernel.generated_trace(ray) };
+    Walk { kernel, tree, ray }.walk(avx2)
 }
 
 /// A walk that is to be done.
@@ -51,7 +52,6 @@ struct Walk<'k, 'a> {
     kernel: &'k mut Kernel<'a>,
     tree: &'a Tree,
     ray: Ray,
-    stack: &'k mut Stack,
 }
 
 /// A walk that is to be done with AVX2.
@@ -71,7 +71,21 @@ impl pulp::NullaryFnOnce for Avx2<'_, '_> {
 impl Walk<'_, '_> {
     #[inline(always)]
     fn walk<L: Lanes>(self, lanes: L) -> Hit {
-        let Self { kernel, tree, ray, stack } = self;
+        let mut stack = std::mem::take(&mut self.kernel.companion.stack);
+        stack.clear();
+        let hit = Self::with(self.kernel, self.tree, self.ray, lanes, &mut stack);
+        self.kernel.companion.stack = stack;
+        hit
+    }
+
+    #[inline(always)]
+    fn with<L: Lanes>(
+        kernel: &mut Kernel<'_>,
+        tree: &Tree,
+        ray: Ray,
+        lanes: L,
+        stack: &mut Stack,
+    ) -> Hit {
         let mut hit = kernel.ray_miss(ray.t_max);
         let mut child = tree.root;
         // As in `trace/bvh.wgsl`.

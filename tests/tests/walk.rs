@@ -1,25 +1,30 @@
-//! The walk that is written by hand for the CPU finds what the generated one finds, bit for bit, and traces as
-//! many rays: with everything that a ray can meet.
+//! The walk that is written by hand for the CPU, and the kernel that renders eight pixels at a time, find what the
+//! generated scalar kernel finds, bit for bit, and trace as many rays: with everything that a ray can meet.
 
 use compiler::bvh::{Layout, Preset};
 use pack::Pack;
 use rayon::prelude::*;
+use runtime::CpuWay;
 use tests::features::{CASES, Case, compiled, named};
 use tests::{picture, scene};
 
-/// What differs between the two walks, in a line.
+/// What differs between the ways to render on a CPU, in a line.
 fn difference(name: &str, bytes: &[u8]) -> Option<String> {
-    let [hand, generated] = [true, false].map(|native| {
+    let ways = [(true, true), (true, false), (false, true), (false, false)];
+    let outcomes = ways.map(|(by_hand, lanes)| {
         let pack = Pack::from_bytes(bytes.to_vec()).expect("what was written can be read");
-        picture::cpu(pack, |job| job.native_walk = native)
+        picture::cpu(pack, |job| job.way = CpuWay { by_hand, lanes })
     });
     let bits = |outcome: &runtime::Outcome| -> Vec<[u64; 3]> {
         outcome.film().means().iter().map(|rgb| rgb.map(f64::to_bits)).collect()
     };
-    let differ = bits(&hand).iter().zip(&bits(&generated)).filter(|(a, b)| a != b).count();
-    let counters = [&hand, &generated].map(|outcome| outcome.film().counters);
-    let same = differ == 0 && counters[0] == counters[1];
-    (!same).then(|| format!("{name}: {differ} pixels differ, {counters:?}"))
+    let plain = &outcomes[3];
+    ways.iter().zip(&outcomes).find_map(|(way, outcome)| {
+        let differ = bits(outcome).iter().zip(&bits(plain)).filter(|(a, b)| a != b).count();
+        let counters = [outcome, plain].map(|outcome| outcome.film().counters);
+        let same = differ == 0 && counters[0] == counters[1];
+        (!same).then(|| format!("{name}, {way:?}: {differ} pixels differ, {counters:?}"))
+    })
 }
 
 fn has_wide_nodes(case: &Case) -> bool {
@@ -27,9 +32,10 @@ fn has_wide_nodes(case: &Case) -> bool {
 }
 
 #[test]
-fn both_walks_give_the_same_bits_for_every_feature() {
-    let cases: Vec<&Case> = CASES.iter().filter(|case| has_wide_nodes(case)).collect();
-    assert!(cases.len() > CASES.len() / 2, "{} cases have a tree", cases.len());
+fn all_ways_give_the_same_bits_for_every_feature() {
+    let cases: Vec<&Case> = CASES.iter().collect();
+    let trees = cases.iter().filter(|case| has_wide_nodes(case)).count();
+    assert!(trees > CASES.len() / 2, "{trees} cases have a tree");
     let check = |case: &&Case| difference(case.name, &scene::bytes(&compiled(case)));
     let found: Vec<String> = cases.par_iter().filter_map(check).collect();
     assert!(found.is_empty(), "{}", found.join("\n"));

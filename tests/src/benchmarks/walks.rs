@@ -1,18 +1,23 @@
-//! Layouts of nodes, and who walks them on the CPU.
+//! Layouts of nodes, who walks them on the CPU, and how many pixels are rendered at a time.
 
 use std::fmt::Write as _;
 
 use compiler::bvh::Layout;
-use runtime::{DeviceChoice, Job};
+use runtime::{CpuWay, DeviceChoice, Job};
 
 use super::devices::{Cost, SAMPLES, SIZE, cost};
 use super::packs::Packs;
 use super::{Outcome, ROUNDS, median};
 
-const WALKS: [(Layout, bool, &str); 3] = [
-    (Layout::Binary, false, "binary nodes, generated walk"),
-    (Layout::Wide, false, "wide nodes, generated walk"),
-    (Layout::Wide, true, "wide nodes, walk by hand"),
+const GENERATED: CpuWay = CpuWay { by_hand: false, lanes: false };
+const BY_HAND: CpuWay = CpuWay { by_hand: true, lanes: false };
+const LANES: CpuWay = CpuWay { by_hand: true, lanes: true };
+
+const WALKS: [(Layout, CpuWay, &str); 4] = [
+    (Layout::Binary, GENERATED, "binary nodes, generated walk"),
+    (Layout::Wide, GENERATED, "wide nodes, generated walk"),
+    (Layout::Wide, BY_HAND, "wide nodes, walk by hand"),
+    (Layout::Wide, LANES, "the same, eight pixels at a time"),
 ];
 
 /// Scenes by walks.
@@ -22,17 +27,18 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
         text,
         "\n## The walk through the tree: {width} x {height}, {SAMPLES} samples a pixel, the CPU kernel\n\n\
         `generated`: `trace` as it was translated from the WGSL; `by hand`: a tree of eights of its own \
-        (`runtime/src/walk.rs`). The same picture, bit for bit; all of path tracing is in the times.\n\n\
+        (`runtime/src/walk.rs`); eight pixels at a time: the wide form of the kernel (`runtime/src/wide.rs`), where \
+        the processor has AVX2. The same picture, bit for bit; all of path tracing is in the times.\n\n\
         | scene | nodes and walk | CPU s | Mrays | Mrays per CPU s | against the first |\n\
         |---|---|---|---|---|---|"
     );
-    for name in ["mesh", "shrine"] {
+    for name in ["cornell", "materials", "gltf", "mesh", "shrine"] {
         let (wide, binary) = (packs.scene(name, Layout::Wide)?, packs.scene(name, Layout::Binary)?);
-        let mut runs: [Vec<Cost>; 3] = Default::default();
+        let mut runs: [Vec<Cost>; 4] = Default::default();
         for _ in 0..ROUNDS {
-            for ((layout, native, _), runs) in WALKS.iter().zip(&mut runs) {
+            for ((layout, way, _), runs) in WALKS.iter().zip(&mut runs) {
                 let scene = if *layout == Layout::Wide { &wide } else { &binary };
-                let change = |job: &mut Job| job.native_walk = *native;
+                let change = |job: &mut Job| job.way = *way;
                 runs.push(cost(scene, &DeviceChoice::Cpu, SAMPLES, change)?);
             }
         }

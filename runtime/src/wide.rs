@@ -1,0 +1,195 @@
+//! The tile of a frame, eight pixels at a time.
+//!
+//! Turns a tile into the pixels that the scalar kernel makes of it, bit for bit: the wide form of the same WGSL, with
+//! rays traced one by one. Only where the processor has AVX2.
+
+use crate::kernel::f32 as scalar;
+use crate::kernel::wide::{self as kernel, v};
+use crate::walk;
+use glam::UVec4;
+use pulp::x86::V3;
+
+/// What the wide kernel needs beside it: the scalar one, which traces.
+pub struct Companion<'a> {
+    scalar: scalar::Kernel<'a>,
+    avx2: V3,
+}
+
+/// What a tile is rendered with.
+pub(crate) struct Tile<'a> {
+    /// The scalar kernel of the tile, without its film.
+    pub(crate) scalar: scalar::Kernel<'a>,
+    /// Two words a pixel.
+    pub(crate) film: &'a mut [UVec4],
+    pub(crate) size: [u32; 2],
+}
+
+/// Eight rays in memory, number by number.
+struct Rays {
+    origin: [[f32; 8]; 3],
+    dir: [[f32; 8]; 3],
+    range: [[f32; 8]; 2],
+    time: [f32; 8],
+    ids: [[u32; 8]; 6],
+}
+
+impl Rays {
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    fn of(ray: &kernel::Ray) -> Self {
+        let three = |a: v::V3<v::F>| [v::f_to(a.x), v::f_to(a.y), v::f_to(a.z)];
+        let [skip, last] = [ray.skip, ray.last];
+        let ids = [skip.x, skip.y, last.x, last.y, ray.light, ray.instance];
+        let [a, b, c, d, e, f] = ids;
+        Self {
+            origin: three(ray.origin),
+            dir: three(ray.dir),
+            range: [v::f_to(ray.t_min), v::f_to(ray.t_max)],
+            time: v::f_to(ray.time),
+            ids: [v::u_to(a), v::u_to(b), v::u_to(c), v::u_to(d), v::u_to(e), v::u_to(f)],
+        }
+    }
+
+    #[inline]
+    fn lane(&self, k: usize) -> scalar::Ray {
+        let k = k & 7;
+        let three = |a: &[[f32; 8]; 3]| glam::Vec3::new(a[0][k], a[1][k], a[2][k]);
+        let id = |i: usize| self.ids[i][k];
+        scalar::Ray {
+            origin: three(&self.origin),
+            t_min: self.range[0][k],
+            t_max: self.range[1][k],
+            dir: three(&self.dir),
+            skip: glam::UVec2::new(id(0), id(1)),
+            last: glam::UVec2::new(id(2), id(3)),
+            light: id(4),
+            time: self.time[k],
+            instance: id(5),
+        }
+    }
+}
+
+/// The hits of eight rays.
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+pub(crate) fn trace(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::Ray) -> kernel::Hit {
+    let mut hits = [scalar::Hit::ZERO; 8];
+    let Companion { scalar, avx2 } = &mut kernel.companion;
+    let rays = Rays::of(ray);
+    let mut left = v::bits(mask);
+    while left != 0 {
+        let lane = left.trailing_zeros() as usize & 7;
+        left &= left - 1;
+        hits[lane] = walk::trace_here(*avx2, scalar, rays.lane(lane));
+    }
+    kernel::Hit::of(&hits)
+}
+
+/// Renders the tile. Whether it came to the end of it, which it does unless `is_over` says so after some pixels.
+#[expect(unsafe_code, reason = "who has the first argument has the instructions")]
+pub(crate) fn render(avx2: V3, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
+    // SAFETY: `V3` is made only where the processor has AVX2, BMI and the others that `render_groups` is compiled for.
+    unsafe { render_groups(avx2, tile, is_over) }
+}
+
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+fn render_groups(avx2: V3, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
+    let Tile { scalar, film, size } = tile;
+    let mut kernel = kernel::Kernel {
+        frame_words: scalar.frame_words,
+        film_words: film,
+        heap_words: scalar.heap_words,
+        node_words: scalar.node_words,
+        tri_words: scalar.tri_words,
+        shade_words: scalar.shade_words,
+        sphere_words: scalar.sphere_words,
+        texel_words: scalar.texel_words,
+        companion: Companion { scalar, avx2 },
+    };
+    for y in 0..size[1] {
+        for x in (0..size[0]).step_by(8) {
+            if is_over() {
+                return false;
+            }
+            let x = v::add_u(v::u(x), v::u_of([0, 1, 2, 3, 4, 5, 6, 7]));
+            render_eight(&mut kernel, v::lt_u(x, v::u(size[0])), v::V2 { x, y: v::u(y) });
+        }
+    }
+    true
+}
+
+/// What `render` of `kernel/render.wgsl` does with the pixels `at` of the tile, in another order: the rays that cost no
+/// shading (shadow rays and probes) of all lanes first, then a segment of each. So all lanes shade together.
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+fn render_eight(kernel: &mut kernel::Kernel<'_>, inside: v::B, at: v::V2<v::U>) {
+    let frame = kernel.companion.scalar.load_frame();
+    let first = v::u(frame.sample_first);
+    let end = v::u(frame.sample_first.wrapping_add(frame.sample_count));
+    let pixel = v::V2 {
+        x: v::add_u(v::u(frame.tile_origin.x), at.x),
+        y: v::add_u(v::u(frame.tile_origin.y), at.y),
+    };
+    let on_film = v::and_b(
+        v::lt_u(pixel.x, v::u(frame.image_size.x)),
+        v::lt_u(pixel.y, v::u(frame.image_size.y)),
+    );
+    let all = v::and_b(inside, on_film);
+    if frame.sample_count == 0 || !v::any(all) {
+        return;
+    }
+    let seed = v::u(frame.seed);
+    let mut film = kernel.film_empty(all);
+    let key = kernel.sample_key(all, pixel, first, seed);
+    let mut path = kernel.path_begin(all, &key, pixel);
+    let mut left = all;
+    loop {
+        let ended = loop {
+            let shadow = v::ne_u(path.shadow_light, v::u(scalar::NONE));
+            let probe = v::eq_u(path.start.state, v::u(scalar::SMOOTH_START_PROBE));
+            let short = v::and_b(left, v::or_b(shadow, probe));
+            if !v::any(short) {
+                break v::but_b(left, path.open);
+            }
+            turn(kernel, short, &mut film, &mut path);
+        };
+        if v::any(ended) {
+            let sample = path.key.sample;
+            let kept = kernel.indirect_clamped(ended, &mut path);
+            kernel.film_add(ended, &mut film, kept, v::sub_u(sample, first), path.segments);
+            let radiance = path.radiance;
+            let lost = v::V3 {
+                x: v::sub_f(radiance.x, kept.x),
+                y: v::sub_f(radiance.y, kept.y),
+                z: v::sub_f(radiance.z, kept.z),
+            };
+            kernel.film_remove(ended, &mut film, lost);
+            let errors = kernel.dispatch_stack_errors(ended, &mut path);
+            film.stack_errors =
+                v::select_u(ended, v::add_u(film.stack_errors, errors), film.stack_errors);
+            let next = v::add_u(sample, v::u(1));
+            left = v::but_b(left, v::and_b(ended, v::eq_u(next, end)));
+            if !v::any(left) {
+                break;
+            }
+            let key = kernel.sample_key(ended, pixel, next, seed);
+            let new = kernel.path_begin(ended, &key, pixel);
+            path = kernel::Path::select(ended, &new, &path);
+        }
+        turn(kernel, left, &mut film, &mut path);
+    }
+    let place = v::add_u(v::mul_u(at.y, v::u(frame.tile_size.x)), at.x);
+    kernel.film_store(all, place, &film);
+}
+
+/// Traces the next ray of the lanes of `mask`, and moves their paths on.
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+fn turn(
+    kernel: &mut kernel::Kernel<'_>,
+    mask: v::B,
+    film: &mut kernel::FilmPixel,
+    path: &mut kernel::Path,
+) {
+    let counted = kernel.dispatch_counted_rays(mask, path);
+    film.rays = v::select_u(mask, v::add_u(film.rays, counted), film.rays);
+    let ray = kernel.path_ray(mask, path);
+    let hit = trace(kernel, mask, &ray);
+    kernel.path_advance(mask, path, &hit);
+}
