@@ -80,7 +80,8 @@ pub fn replay(scene: &Scene, job: &Job, at: BadSample) -> Result<[Sample; 2], Ch
     room(&setup)?;
     let frame = frame(&setup, job);
     let pixel = [at.x, at.y];
-    let mut pair = [
+    let space = (scene.settings().scale(), scene.settings().center());
+    let pair = [
         path::single::sample(
             &mut path::single::open(&setup, &frame),
             pixel,
@@ -96,11 +97,34 @@ pub fn replay(scene: &Scene, job: &Job, at: BadSample) -> Result<[Sample; 2], Ch
             true,
         ),
     ];
-    let (scale, center) = (scene.settings().scale(), scene.settings().center());
-    for step in pair.iter_mut().flat_map(|sample| &mut sample.steps) {
-        *step = step.in_world(scale, center);
-    }
-    Ok(pair)
+    Ok(pair.map(|sample| sample.in_world(space)))
+}
+
+/// Traces the samples of the job's image in single precision and turns those of each pixel, with every ray,
+/// into a `T`; pixels in reading order.
+///
+/// # Errors
+/// As [`compare`].
+pub fn paths<T: Send>(
+    scene: &Scene,
+    job: &Job,
+    of_pixel: impl Fn(Vec<Sample>) -> T + Sync,
+) -> Result<Vec<T>, CheckError> {
+    let setup = scene.setup(job);
+    room(&setup)?;
+    let frame = frame(&setup, job);
+    let space = (scene.settings().scale(), scene.settings().center());
+    let [width, height] = job.image_size;
+    let row = |y| {
+        let mut kernel = path::single::open(&setup, &frame);
+        let mut pixel = |x| {
+            let mut sample = |n| path::single::sample(&mut kernel, [x, y], n, job.seed, true);
+            let samples = (job.samples.start..job.samples.end).map(&mut sample);
+            of_pixel(samples.map(|sample| sample.in_world(space)).collect())
+        };
+        (0..width).map(&mut pixel).collect::<Vec<T>>()
+    };
+    Ok((0..height).into_par_iter().flat_map(row).collect())
 }
 
 fn room(setup: &Setup<'_>) -> Result<(), CheckError> {

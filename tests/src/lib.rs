@@ -15,6 +15,7 @@ pub mod features;
 pub mod flips;
 pub mod furnace;
 pub mod fuzz;
+pub mod guiding;
 pub mod kernel;
 pub mod layers;
 pub mod mapped;

@@ -16,6 +16,9 @@ pub struct Step {
     pub hit: Option<[u32; 2]>,
     /// Material of that.
     pub material: Option<u32>,
+    /// Density per steradian with which the material or medium chose `dir`; 0 for the camera, for delta lobes
+    /// and for shadow rays.
+    pub pdf: f64,
     /// Product of weights up to this ray.
     pub throughput: [f64; 3],
     /// Radiance of the path after this ray.
@@ -41,7 +44,7 @@ pub struct Sample {
 
 impl Step {
     /// In the world, of which the kernel's space shows `scale` times what is around `center`.
-    pub(super) fn in_world(self, scale: f64, center: [f64; 3]) -> Self {
+    fn in_world(self, (scale, center): (f64, [f64; 3])) -> Self {
         // The kernel's own number for a ray that meets nothing.
         let t = if self.t < 1e29 { self.t / scale } else { f64::INFINITY };
         let [x, y, z] = self.origin;
@@ -51,6 +54,14 @@ impl Step {
 }
 
 impl Sample {
+    /// With its rays in the world, of which the kernel's space shows `scale` times what is around `center`.
+    pub(super) fn in_world(mut self, space: (f64, [f64; 3])) -> Self {
+        for step in &mut self.steps {
+            *step = step.in_world(space);
+        }
+        self
+    }
+
     /// What counts in the film: black where it is not finite.
     #[must_use]
     pub fn finite(&self) -> [f64; 3] {
@@ -108,6 +119,7 @@ macro_rules! precision {
                 while !kernel.path_ended(path) {
                     let ray = kernel.path_ray(path);
                     let shadow = path.shadow_light != NONE;
+                    let pdf = if shadow { 0.0 } else { f64::from(path.pdf) };
                     let throughput = path.throughput;
                     found.rays += kernel.dispatch_counted_rays(&mut path);
                     let hit = kernel.trace(ray);
@@ -122,6 +134,7 @@ macro_rules! precision {
                             t: f64::from(hit.t),
                             hit: met.then_some([hit.prim, hit.instance]),
                             material: met.then(|| kernel.dispatch_material(hit)),
+                            pdf,
                             throughput: $wide(throughput),
                             radiance: $wide(path.radiance),
                         });
