@@ -8,10 +8,10 @@ use crate::kernel;
 use crate::run::Run;
 use crate::setup::Setup;
 use crate::signals::Event;
-use crate::walk::{Companion, Tree};
-#[cfg(target_arch = "x86_64")]
-use crate::wide::{self, Tile};
+use crate::kernel::walk::{Companion, Tree};
 use glam::{UVec3, UVec4};
+#[cfg(target_arch = "x86_64")]
+use kernel_wide::render::{self as wide, Tile};
 use pack::Kind;
 use pack::abi::{FilmPixel, Frame};
 use std::any::Any;

@@ -48,9 +48,6 @@ mod setup;
 mod signals;
 #[cfg(feature = "gpu")]
 mod trust;
-pub mod walk;
-#[cfg(target_arch = "x86_64")]
-mod wide;
 mod zeros;
 
 pub use checkpoint::{Checkpoint, CheckpointError};

@@ -1,6 +1,6 @@
 //! A checked pack that can be rendered, and what its settings say.
 
-use crate::walk::{Geometry, Tree};
+use crate::kernel::walk::{Geometry, Tree};
 use pack::abi::RenderSettings;
 use pack::{Checked, Pack, features};
 use std::fmt::Write as _;

@@ -6,7 +6,7 @@ use crate::job::{CpuWay, Job};
 use crate::replicate::replicate_seed;
 use crate::scene::Scene;
 use crate::schedule::WorkItem;
-use crate::walk::Tree;
+use crate::kernel::walk::Tree;
 use glam::UVec4;
 use pack::Kind;
 use pack::abi::{Camera, Frame, NONE, albedo_tables};

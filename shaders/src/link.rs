@@ -46,6 +46,13 @@ impl Linked {
         location(file, text, piece.source_start + inside)
     }
 
+    /// Where line `line`, column `column` of the text was written, both counted from 1.
+    #[must_use]
+    pub fn locate_line(&self, line: u32, column: u32) -> Location {
+        let before = self.text.split_inclusive('\n').take(line.saturating_sub(1) as usize);
+        self.locate(before.map(str::len).sum::<usize>() + column.saturating_sub(1) as usize)
+    }
+
     /// Names of the modules that the kernel is made of, in order of first use.
     #[must_use]
     pub fn files(&self) -> Vec<&str> {

@@ -31,6 +31,9 @@ pub const CRATES: &[(&str, &str)] = &[
     ("shaders", "shaders"),
     ("compiler", "compiler"),
     ("commit", "runtime/commit"),
+    ("kernel_f32", "runtime/kernel/f32"),
+    ("kernel_f64", "runtime/kernel/f64"),
+    ("kernel_wide", "runtime/kernel/wide"),
     ("runtime", "runtime"),
     ("scenes", "scenes"),
 ];

@@ -14,7 +14,14 @@ const ARROWS: &[(&str, &[&str], &[&str])] = &[
     ("shaders", &["pack", "naga"], &[]),
     ("compiler", &["host", "lang", "shaders", "pack", "files"], &[]),
     ("commit", &[], &[]),
-    ("runtime", &["host", "pack", "files", "commit", "wgpu"], &["pack", "shaders", "native"]),
+    ("kernel_f32", &["pack"], &["shaders", "native"]),
+    ("kernel_f64", &[], &["shaders", "native"]),
+    ("kernel_wide", &["kernel_f32"], &["shaders", "native"]),
+    (
+        "runtime",
+        &["host", "pack", "files", "commit", "kernel_f32", "kernel_f64", "kernel_wide", "wgpu"],
+        &["pack", "shaders"],
+    ),
     ("scenes", &["compiler", "runtime", "files"], &[]),
 ];
 

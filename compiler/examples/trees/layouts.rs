@@ -8,7 +8,7 @@ use compiler::bvh::{self, Joined, Layout, Preset};
 use glam::UVec4;
 use pack::abi::{Frame, NONE, TriShade, Triangle, WideNode};
 use runtime::kernel::f32 as kernel;
-use runtime::walk::{Companion, Geometry, Tree};
+use runtime::kernel::walk::{Companion, Geometry, Tree};
 
 use crate::measure::{build, cpu_seconds, walked, walked_wide};
 use crate::other::{self, Yardstick};

@@ -23,6 +23,8 @@ pub(crate) struct Context<'a> {
     pub(crate) seams: Vec<Option<(&'a str, String)>>,
     /// As in `ByHand`.
     pub(crate) companion: Option<&'a str>,
+    /// WGSL names of the functions that are compiled with the module, and not with their callers.
+    pub(crate) entrances: &'a [&'a str],
 }
 
 impl<'a> Context<'a> {
@@ -95,6 +97,7 @@ impl<'a> Context<'a> {
             entry_points,
             seams,
             companion: by_hand.companion,
+            entrances: entrances_of(module, by_hand.entrances)?,
         })
     }
 
@@ -145,15 +148,30 @@ fn seam_of_each<'a>(
     seams: &[Seam<'a>],
     methods: &mut Names,
 ) -> Result<Vec<Option<(&'a str, String)>>, NativeError> {
-    let named = |name: &str| {
-        let is = |function: &Function| function.name.as_deref() == Some(name);
-        module.functions.iter().position(|(_, function)| is(function))
-    };
     let mut found = vec![None; module.functions.len()];
     for seam in seams {
-        let message = || format!("there is no function `{}` for a seam", seam.function);
-        let index = named(seam.function).ok_or_else(|| NativeError::nowhere(message()))?;
+        let index = named(module, seam.function, "a seam")?;
         found[index] = Some((seam.path, methods.add(&format!("generated_{}", seam.function))));
     }
     Ok(found)
+}
+
+/// The same names, all of which are functions of the module.
+fn entrances_of<'a>(
+    module: &Module,
+    entrances: &'a [&'a str],
+) -> Result<&'a [&'a str], NativeError> {
+    for entrance in entrances {
+        named(module, entrance, "an entrance")?;
+    }
+    Ok(entrances)
+}
+
+/// Index of the function that the WGSL names so, which is asked for as `what`.
+fn named(module: &Module, name: &str, what: &str) -> Result<usize, NativeError> {
+    let is = |function: &Function| function.name.as_deref() == Some(name);
+    let index = module.functions.iter().position(|(_, function)| is(function));
+    index.ok_or_else(|| {
+        NativeError::nowhere(format!("there is no function `{name}` for {what}"))
+    })
 }

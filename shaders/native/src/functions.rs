@@ -87,7 +87,9 @@ impl<'a> FunctionWriter<'a> {
     pub(crate) fn write_function(mut self, name: &str) -> Result<String, NativeError> {
         let (parameters, result) = self.signature()?;
         self.write_place();
-        self.out.line("#[inline]");
+        let is_entrance =
+            self.fun.name.as_deref().is_some_and(|name| self.cx.entrances.contains(&name));
+        self.out.line(if is_entrance { "#[inline(never)]" } else { "#[inline]" });
         self.out.open(&format!("pub fn {name}(&mut self{parameters}){result} {{"));
         self.write_body()?;
         self.out.close("}");

@@ -20,7 +20,7 @@ pub struct Seam<'a> {
     pub path: &'a str,
 }
 
-/// What hand-written Rust does in a translation.
+/// What hand-written Rust does in a translation, and what it calls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ByHand<'a> {
     /// Functions that it does.
@@ -28,4 +28,7 @@ pub struct ByHand<'a> {
     /// A type that it needs, as seen from the generated module; it may have the lifetime `'a` of the resources, and
     /// has a default. `Kernel` gets a member `companion` of it that no translated function uses.
     pub companion: Option<&'a str>,
+    /// Functions that it calls from other crates. They are compiled once, with the module; all others are compiled
+    /// with whoever calls them. Their names in the WGSL.
+    pub entrances: &'a [&'a str],
 }

@@ -27,7 +27,7 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
         text,
         "\n## The walk through the tree: {width} x {height}, {SAMPLES} samples a pixel, the CPU kernel\n\n\
         `generated`: `trace` as it was translated from the WGSL; `by hand`: a tree of eights of its own \
-        (`runtime/src/walk.rs`); eight pixels at a time: the wide form of the kernel (`runtime/src/wide.rs`), where \
+        (`runtime/kernel/f32/src/walk.rs`); eight pixels at a time: the wide form of the kernel (`runtime/kernel/wide/src/render.rs`), where \
         the processor has AVX2. The same picture, bit for bit; all of path tracing is in the times.\n\n\
         | scene | nodes and walk | CPU s | Mrays | Mrays per CPU s | against the first |\n\
         |---|---|---|---|---|---|"

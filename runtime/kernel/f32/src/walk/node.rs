@@ -3,7 +3,7 @@
 use super::lanes::Lanes;
 use super::stack::{FAR_END, Stack, Waiting};
 use super::tree::{Node, Tree};
-use crate::kernel::f32::Ray;
+use crate::kernel::Ray;
 use glam::Vec3;
 
 /// What is worked out once a ray, in each frame that it enters.

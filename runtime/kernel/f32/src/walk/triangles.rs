@@ -4,7 +4,7 @@
 //! their order, so that its bits are the same. Which hit counts is then asked one by one.
 
 use super::tree::{BLOCK, Block};
-use crate::kernel::f32::{Hit, Kernel, NONE, Ray, TriangleShear};
+use crate::kernel::{Hit, Kernel, NONE, Ray, TriangleShear};
 use bytemuck::cast;
 use glam::{UVec4, Vec2, Vec3};
 use wide::{f32x4, i32x4};

@@ -20,7 +20,7 @@ mod triangles;
 pub use build::Geometry;
 pub use tree::{Companion, Tree};
 
-use crate::kernel::f32::{CHILD_INNER, CHILD_OUT, CHILD_SPHERES, Hit, Kernel, NONE, Ray};
+use crate::kernel::{CHILD_INNER, CHILD_OUT, CHILD_SPHERES, Hit, Kernel, NONE, Ray};
 use lanes::{Halves, Lanes};
 use node::Walker;
 use stack::{Stack, Waiting};
@@ -29,8 +29,7 @@ use triangles::Sheared;
 
 /// The nearest hit from `ray.t_min` to `ray.t_max`, or a miss. For a shadow ray: some opaque hit on the way, else the
 /// nearest.
-#[inline]
-pub(crate) fn trace(kernel: &mut Kernel<'_>, ray: Ray) -> Hit {
+pub fn trace(kernel: &mut Kernel<'_>, ray: Ray) -> Hit {
     let Some(tree) = kernel.companion.tree else { return kernel.generated_trace(ray) };
     #[cfg(target_arch = "x86_64")]
     if let Some(avx2) = pulp::x86::V3::try_new() {
@@ -42,7 +41,7 @@ pub(crate) fn trace(kernel: &mut Kernel<'_>, ray: Ray) -> Hit {
 /// The same for who is compiled for AVX2 himself.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
-pub(crate) fn trace_here(avx2: pulp::x86::V3, kernel: &mut Kernel<'_>, ray: Ray) -> Hit {
+pub fn trace_here(avx2: pulp::x86::V3, kernel: &mut Kernel<'_>, ray: Ray) -> Hit {
     let Some(tree) = kernel.companion.tree else { return kernel.generated_trace(ray) };
     Walk { kernel, tree, ray }.walk(avx2)
 }

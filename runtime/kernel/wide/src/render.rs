@@ -3,10 +3,9 @@
 //! Turns a tile into the pixels that the scalar kernel makes of it, bit for bit: the wide form of the same WGSL, with
 //! rays traced one by one. Only where the processor has AVX2.
 
-use crate::kernel::f32 as scalar;
-use crate::kernel::wide::{self as kernel, v};
-use crate::walk;
+use crate::kernel::{self, v};
 use glam::UVec4;
+use kernel_f32::{kernel as scalar, walk};
 use pulp::x86::V3;
 
 /// What the wide kernel needs beside it: the scalar one, which traces.
@@ -16,12 +15,12 @@ pub struct Companion<'a> {
 }
 
 /// What a tile is rendered with.
-pub(crate) struct Tile<'a> {
+pub struct Tile<'a> {
     /// The scalar kernel of the tile, without its film.
-    pub(crate) scalar: scalar::Kernel<'a>,
+    pub scalar: scalar::Kernel<'a>,
     /// Two words a pixel.
-    pub(crate) film: &'a mut [UVec4],
-    pub(crate) size: [u32; 2],
+    pub film: &'a mut [UVec4],
+    pub size: [u32; 2],
 }
 
 /// Eight rays in memory, number by number.
@@ -70,7 +69,7 @@ impl Rays {
 
 /// The hits of eight rays.
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-pub(crate) fn trace(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::Ray) -> kernel::Hit {
+pub fn trace(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::Ray) -> kernel::Hit {
     let mut hits = [scalar::Hit::ZERO; 8];
     let Companion { scalar, avx2 } = &mut kernel.companion;
     let rays = Rays::of(ray);
@@ -85,7 +84,7 @@ pub(crate) fn trace(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::R
 
 /// Renders the tile. Whether it came to the end of it, which it does unless `is_over` says so after some pixels.
 #[expect(unsafe_code, reason = "who has the first argument has the instructions")]
-pub(crate) fn render(avx2: V3, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
+pub fn render(avx2: V3, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
     // SAFETY: `V3` is made only where the processor has AVX2, BMI and the others that `render_groups` is compiled for.
     unsafe { render_groups(avx2, tile, is_over) }
 }
