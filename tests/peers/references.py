@@ -1,0 +1,78 @@
+"""Long renders of each renderer in a folder: made once, taken up again by the next run.
+
+A picture is kept under the digest of its scene, renderer and length, so that another one is never taken. What the
+digest does not know is how a scene is written for a renderer: empty the folder after a change of that.
+"""
+
+import hashlib
+import json
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+import error
+
+# Seeds of references; measured pictures take others.
+FIRST_SEED = 1000
+
+
+@dataclass
+class Speed:
+    """Seconds of a process: from its start to the first sample, and for each sample of all pixels."""
+
+    start: float
+    sample: float
+
+    def samples(self, seconds):
+        return seconds / self.sample
+
+
+def pilot(renderer, scene, size, enough):
+    """A first guess of the speed from runs that differ by `enough` seconds; the clock of a busy machine will do."""
+    few, _ = renderer.render(scene, size, 1, 0)
+    n = 9
+    while (many := renderer.render(scene, size, n, 0)[0]).wall - few.wall < enough and n < 9000:
+        n *= 9
+    sample = max(many.wall - few.wall, 1e-3) / (n - 1)
+    return Speed(few.wall - sample, sample)
+
+
+class Shelf:
+    """The folder. `seconds`: of all pictures of a scene and renderer; how much those differ gives all errors."""
+
+    def __init__(self, folder, seconds, replicates, say):
+        self.folder, self.seconds, self.replicates, self.say = folder, seconds, replicates, say
+
+    def at(self, renderer, scene, size):
+        said = repr((scene, size, renderer.name, self.seconds, self.replicates))
+        return self.folder / f"{scene.name}-{renderer.key}-{hashlib.sha256(said.encode()).hexdigest()[:12]}"
+
+    def speed(self, renderer, scene, size):
+        path = self.at(renderer, scene, size) / "speed.json"
+        if not path.exists():
+            self.say(f"{scene.name}: {renderer.key}: how long a sample takes")
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(json.dumps(asdict(pilot(renderer, scene, size, self.seconds / 48))))
+        return Speed(**json.loads(path.read_text()))
+
+    def pictures(self, renderer, scene, size):
+        """All long pictures of a renderer, [replicate, y, x, channel]."""
+        speed = self.speed(renderer, scene, size)
+        n = renderer.whole(speed.samples(self.seconds / self.replicates))
+        pictures = []
+        for k in range(self.replicates):
+            path = self.at(renderer, scene, size) / f"{k}.npy"
+            if not path.exists():
+                self.say(f"{scene.name}: {renderer.key}: reference {k + 1} of {self.replicates}, {n} samples")
+                picture = renderer.render(scene, size, n, FIRST_SEED + k)[1]
+                half = path.with_suffix(".half.npy")
+                np.save(half, picture)
+                half.rename(path)
+            pictures.append(np.load(path))
+        return np.array(pictures)
+
+
+def collect(shelf, renderers, scene, size):
+    """Stacks by renderer, the joint reference."""
+    stacks = {r.key: shelf.pictures(r, scene, size) for r in renderers}
+    return stacks, error.join(list(stacks.values()))
