@@ -16,13 +16,14 @@ BLOCKS = (6, 8)
 class Agreement:
     """Means of red, green and blue of each renderer with their standard errors; the largest difference of two
     renderers in one channel over its standard error, as a normal deviate, and over the mean; the root mean square of
-    these deviates in blocks of the picture, 1 where only noise differs."""
+    these deviates in blocks of the picture, 1 where only noise differs; the difference that is allowed in any case."""
 
     means: dict
     errors: dict
     z: float
     relative: float
     blocks: float
+    allowed: float
     agree: bool
 
 
@@ -45,18 +46,20 @@ def scores(estimates, replicates):
     return np.array([normal_score(a, b, replicates) for a, b in itertools.combinations(estimates, 2)])
 
 
-def agreement(stacks, scenes):
+def agreement(stacks, allowed, scenes):
     """`stacks`: pictures [replicate, y, x, channel] by renderer; `scenes`: how many scenes are one family of tests."""
     n = len(next(iter(stacks.values())))
     found = {key: estimate(s.mean(axis=(1, 2), dtype=np.float64)) for key, s in stacks.items()}
     z = float(np.abs(scores(found.values(), n)).max())
-    pairs = itertools.combinations((mean for mean, _ in found.values()), 2)
+    bright = itertools.combinations((mean for mean, _ in found.values()), 2)
+    relative = max(float(np.abs(a / b - 1).max()) for a, b in bright)
     local = scores([estimate(blocks(s)) for s in stacks.values()], n)
     return Agreement(
         means={key: mean.tolist() for key, (mean, _) in found.items()},
         errors={key: np.sqrt(variance).tolist() for key, (_, variance) in found.items()},
         z=z,
-        relative=max(float(np.abs(a / b - 1).max()) for a, b in pairs),
+        relative=relative,
         blocks=float(np.sqrt(np.mean(local**2))),
-        agree=z < bound(len(stacks), scenes),
+        allowed=allowed,
+        agree=z < bound(len(stacks), scenes) or relative < allowed,
     )

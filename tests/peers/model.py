@@ -106,7 +106,8 @@ class Camera:
 @dataclass(frozen=True)
 class Scene:
     """`depth`: longest path in segments, the one from the camera and the one to the light included; surfaces of
-    index 1 end none. `size`: width and height in pixels."""
+    index 1 end none. `size`: width and height in pixels. `allowed`: share by which means may differ for a reason that
+    the page names."""
 
     name: str
     shows: str
@@ -117,6 +118,7 @@ class Scene:
     depth: int
     size: tuple
     sky: tuple | None = None
+    allowed: float = 0
 
     def meshes(self):
         """Names of the meshes, each once."""

@@ -5,6 +5,10 @@ import math
 from model import (Box, Camera, Diffuse, Glass, Medium, Mesh, Metal, Rectangle, RectangleLight, Scene, Sphere,
                    SphereLight, Thing, grey)
 
+# Mitsuba lifts rays off surfaces by 9e-5 (1 + largest coordinate): of two large meshes with small triangles it shows
+# 0.1 % more light, and 0.7 % more when the meadow is moved 100 m away.
+LIFTED = 0.002
+
 SIDE = 2.22
 
 
@@ -128,6 +132,7 @@ COURT = Scene(
     sky=(0.35, 0.42, 0.55),
     depth=8,
     size=(640, 360),
+    allowed=LIFTED,
 )
 
 MEADOW = Scene(
@@ -140,6 +145,7 @@ MEADOW = Scene(
     sky=(0.35, 0.4, 0.5),
     depth=8,
     size=(640, 360),
+    allowed=LIFTED,
 )
 
 ALL = {s.name: s for s in (CORNELL, BALLS, VEACH, WATER, SLAB, BALL, COURT, MEADOW)}

@@ -94,4 +94,5 @@ def main():
     np.save(out, np.array(mi.render(scene, spp=int(spp), seed=int(seed))))
 
 
-main()
+if __name__ == "__main__":
+    main()
