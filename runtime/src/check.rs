@@ -18,7 +18,6 @@ use crate::film::{BadSample, Counters};
 use crate::job::Job;
 use crate::kernel;
 use crate::scene::Scene;
-use crate::schedule::WorkItem;
 use crate::setup::Setup;
 use pack::abi::Frame;
 use rayon::prelude::*;
@@ -43,7 +42,7 @@ pub fn compare(scene: &Scene, job: &Job) -> Result<Report, CheckError> {
     let setup = scene.setup(job);
     room(&setup)?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(job.threads.unwrap_or(0)).build()?;
-    let frame = frame(&setup, job);
+    let frame = setup.frame_of(job);
     let [width, height] = job.image_size;
     let rows: Vec<Row> = pool.install(|| {
         (0..height).into_par_iter().map(|y| row(&setup, &frame, width, y, job)).collect()
@@ -78,7 +77,7 @@ pub fn compare(scene: &Scene, job: &Job) -> Result<Report, CheckError> {
 pub fn replay(scene: &Scene, job: &Job, at: BadSample) -> Result<[Sample; 2], CheckError> {
     let setup = scene.setup(job);
     room(&setup)?;
-    let frame = frame(&setup, job);
+    let frame = setup.frame_of(job);
     let pixel = [at.x, at.y];
     let space = (scene.settings().scale(), scene.settings().center());
     let pair = [
@@ -112,7 +111,7 @@ pub fn paths<T: Send>(
 ) -> Result<Vec<T>, CheckError> {
     let setup = scene.setup(job);
     room(&setup)?;
-    let frame = frame(&setup, job);
+    let frame = setup.frame_of(job);
     let space = (scene.settings().scale(), scene.settings().center());
     let [width, height] = job.image_size;
     let row = |y| {
@@ -130,10 +129,6 @@ pub fn paths<T: Send>(
 fn room(setup: &Setup<'_>) -> Result<(), CheckError> {
     let (need, available) = (setup.stack_need(), kernel::f32::STACK_SIZE);
     if need > available { Err(CheckError::Stack(need, available)) } else { Ok(()) }
-}
-
-fn frame(setup: &Setup<'_>, job: &Job) -> Frame {
-    setup.frame(&WorkItem { replicate: 0, tile: job.crop, samples: job.samples, probe: false })
 }
 
 /// A row of the image.

@@ -5,10 +5,10 @@
 
 use crate::job::{Job, Precision};
 use crate::kernel;
+use crate::kernel::walk::{Companion, Tree};
 use crate::run::Run;
 use crate::setup::Setup;
 use crate::signals::Event;
-use crate::kernel::walk::{Companion, Tree};
 use glam::{UVec3, UVec4};
 #[cfg(target_arch = "x86_64")]
 use kernel_wide::render::{self as wide, Tile};
@@ -88,6 +88,17 @@ macro_rules! bound {
     }};
 }
 
+/// The kernel of the frame in single precision, without a film; it walks the scene's tree if that has been made.
+pub(crate) fn kernel<'a>(setup: &'a Setup<'_>, frame: &'a Frame) -> kernel::f32::Kernel<'a> {
+    scalar(Inputs::new(setup, frame))
+}
+
+fn scalar(inputs: Inputs<'_>) -> kernel::f32::Kernel<'_> {
+    let mut kernel = bound!(f32, inputs, &mut []);
+    kernel.companion = Companion::new(inputs.tree);
+    kernel
+}
+
 /// Renders the tile of the frame. Whether it came to the end of it, which it does unless `is_over` says so after some
 /// pixels.
 fn render_f32<'a>(
@@ -98,8 +109,7 @@ fn render_f32<'a>(
 ) -> bool {
     #[cfg(target_arch = "x86_64")]
     if let Some(avx2) = inputs.lanes {
-        let mut scalar = bound!(f32, inputs, &mut []);
-        scalar.companion = Companion::new(inputs.tree);
+        let scalar = scalar(inputs);
         return wide::render(avx2, Tile { scalar, film, size }, is_over);
     }
     let mut kernel = bound!(f32, inputs, film);
@@ -161,7 +171,7 @@ fn render_with(
     Ok(())
 }
 
-fn check_stack(setup: &Setup<'_>) -> Result<(), CpuError> {
+pub(crate) fn check_stack(setup: &Setup<'_>) -> Result<(), CpuError> {
     let (need, available) = (setup.stack_need(), kernel::f32::STACK_SIZE);
     if need > available { Err(CpuError::Stack { need, available }) } else { Ok(()) }
 }

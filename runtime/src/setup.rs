@@ -3,10 +3,10 @@
 //! Both backends read the same bytes from here. It does not render.
 
 use crate::job::{CpuWay, Job};
+use crate::kernel::walk::Tree;
 use crate::replicate::replicate_seed;
 use crate::scene::Scene;
 use crate::schedule::WorkItem;
-use crate::kernel::walk::Tree;
 use glam::UVec4;
 use pack::Kind;
 use pack::abi::{Camera, Frame, NONE, albedo_tables};
@@ -168,6 +168,11 @@ impl Setup<'_> {
             seed: replicate_seed(self.frame.seed, item.replicate),
             ..self.frame
         }
+    }
+
+    /// The uniform of all samples of a job at once.
+    pub(crate) fn frame_of(&self, job: &Job) -> Frame {
+        self.frame(&WorkItem { replicate: 0, tile: job.crop, samples: job.samples, probe: false })
     }
 
     /// Whole image in pixels.

@@ -10,6 +10,7 @@ mod devices;
 mod first;
 mod open;
 mod packs;
+mod profile;
 mod trees;
 mod walks;
 
@@ -33,7 +34,7 @@ pub struct Table {
 }
 
 /// All of them, in the order of the page.
-pub const TABLES: [Table; 9] = [
+pub const TABLES: [Table; 10] = [
     Table { name: "devices", about: "path tracing on the CPU and others", write: devices::table },
     Table {
         name: "agreement",
@@ -41,6 +42,11 @@ pub const TABLES: [Table; 9] = [
         write: agreement::table,
     },
     Table { name: "walks", about: "the walk through the tree", write: walks::table },
+    Table {
+        name: "profile",
+        about: "tracing and shading apart, and how busy lanes are",
+        write: profile::table,
+    },
     Table { name: "trees", about: "building a tree", write: trees::table },
     Table { name: "compile", about: "text to pack, cold and warm", write: compiling::table },
     Table { name: "edits", about: "compiling again after edits", write: compiling::edits },

@@ -171,7 +171,5 @@ fn entrances_of<'a>(
 fn named(module: &Module, name: &str, what: &str) -> Result<usize, NativeError> {
     let is = |function: &Function| function.name.as_deref() == Some(name);
     let index = module.functions.iter().position(|(_, function)| is(function));
-    index.ok_or_else(|| {
-        NativeError::nowhere(format!("there is no function `{name}` for {what}"))
-    })
+    index.ok_or_else(|| NativeError::nowhere(format!("there is no function `{name}` for {what}")))
 }

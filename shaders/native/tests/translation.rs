@@ -114,7 +114,8 @@ fn twice(x: f32) -> f32 { return x + x; }
 #[test]
 fn a_seam_calls_rust_and_keeps_the_translation() {
     let seam = Seam { function: "twice", path: "crate::hand::twice" };
-    let by_hand = ByHand { seams: &[seam], companion: Some("crate::hand::Tools<'a>"), ..ByHand::default() };
+    let by_hand =
+        ByHand { seams: &[seam], companion: Some("crate::hand::Tools<'a>"), ..ByHand::default() };
     let text = generate_with(SEAM_SOURCE, Precision::F32, by_hand).unwrap();
     let lines: Vec<&str> = text.lines().map(str::trim).collect();
     let at = |line: &str| lines.iter().position(|l| *l == line).unwrap_or_else(|| panic!("{line}"));

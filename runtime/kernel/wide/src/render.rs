@@ -20,6 +20,7 @@ pub struct Tile<'a> {
     pub scalar: scalar::Kernel<'a>,
     /// Two words a pixel.
     pub film: &'a mut [UVec4],
+    /// Columns and rows of pixels.
     pub size: [u32; 2],
 }
 
