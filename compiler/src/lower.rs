@@ -93,8 +93,7 @@ pub fn lower(
     let inside = medium::matters(scene, materials.records());
     closed::check(scene, (files, stages), inside, diagnostics)?;
     thick::check(scene, files.assets(), diagnostics);
-    let objects = finish::asks_about_objects(materials.records());
-    let world = World { bodies: &bodies, materials: &materials, stages, trees, inside, objects };
+    let world = World { bodies: &bodies, materials: &materials, stages, trees, inside };
     let progress = world.begin()?;
     let frame = progress.frame();
     let boundaries = inside.then(|| progress.boundaries());

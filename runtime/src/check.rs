@@ -10,6 +10,7 @@ mod report;
 mod verdict;
 
 pub use self::heat::encode_heat;
+pub(crate) use self::path::single::open;
 pub use self::path::{Sample, Step};
 pub use self::report::{PARTED, Pixel, Report};
 pub use self::verdict::Verdict;
@@ -126,7 +127,8 @@ pub fn paths<T: Send>(
     Ok((0..height).into_par_iter().flat_map(row).collect())
 }
 
-fn room(setup: &Setup<'_>) -> Result<(), CheckError> {
+/// Whether the CPU kernel has room for the scene's tree.
+pub(crate) fn room(setup: &Setup<'_>) -> Result<(), CheckError> {
     let (need, available) = (setup.stack_need(), kernel::f32::STACK_SIZE);
     if need > available { Err(CheckError::Stack(need, available)) } else { Ok(()) }
 }

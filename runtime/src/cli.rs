@@ -16,6 +16,7 @@ mod guard;
 mod measure;
 mod open;
 mod outputs;
+mod pick;
 mod render;
 mod watch;
 
@@ -65,6 +66,7 @@ pub fn run_observed(
         Some(Command::Check(args)) => check::command(args),
         None if args.render.list_devices => list_devices(),
         None if args.render.ablate.is_some() => ablate::command(&args.render),
+        None if args.render.pick.is_some() => pick::command(&args.render),
         None if args.render.watch => watch::command(&args.render, observer),
         None => render::command(&args.render, observer, None),
     };

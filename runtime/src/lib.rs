@@ -36,6 +36,7 @@ mod mark;
 mod memory;
 mod outcome;
 pub mod output;
+pub mod pick;
 pub mod profile;
 mod region;
 mod render;

@@ -7,7 +7,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use pack::abi::{self, LightKind, NONE, OBJECT_OF_INSTANCE, TRI_SMOOTH};
+use pack::abi::{self, LightKind, NONE};
 use pack::{Kind, Pack};
 use serde::{Deserialize, Serialize};
 
@@ -70,8 +70,6 @@ pub(super) struct World<'a> {
     pub(super) trees: &'a Trees<'a>,
     /// Light must know what it is inside of.
     pub(super) inside: bool,
-    /// There is a table of objects.
-    pub(super) objects: bool,
 }
 
 /// A world on its way.
@@ -95,7 +93,7 @@ impl<'a> World<'a> {
     /// Names all geometry.
     pub(super) fn key(&self) -> Key {
         let mut key = KeyOf::stage("world");
-        key.text(&self.trees.recipe()).number(self.inside).number(self.objects);
+        key.text(&self.trees.recipe()).number(self.inside);
         self.bodies.read(self.materials, &mut key);
         key.end()
     }
@@ -186,12 +184,7 @@ impl<'a> World<'a> {
                 part.put(&ordered.triangle_at, self.stages);
             }
         }
-        let mut instances = instances;
-        if self.objects || !motions.is_empty() {
-            motion::mark(&motions, &mut ordered);
-        } else {
-            forget_objects(&mut ordered.shades, &mut ordered.spheres, &mut instances);
-        }
+        motion::mark(&motions, &mut ordered);
         times.order = start.elapsed();
         self.stages
             .put_in_pack(self.key(), &Outline { counters, n_trees: trees.groups, ..outline });
@@ -305,25 +298,6 @@ fn welded(placement: &mut Placement, corners: &Corners) -> Welded {
         return weld(&corners.all);
     }
     weld_labelled(&corners.all, labels).unwrap_or_else(|| weld(&corners.all))
-}
-
-/// Without a table, every primitive says 0, and every instance; triangles of instances go on to say so.
-fn forget_objects(
-    shades: &mut [abi::TriShade],
-    spheres: &mut [abi::Sphere],
-    instances: &mut [abi::Instance],
-) {
-    for shade in shades {
-        if shade.object & !TRI_SMOOTH != OBJECT_OF_INSTANCE {
-            shade.object &= TRI_SMOOTH;
-        }
-    }
-    for sphere in spheres {
-        sphere.object = 0;
-    }
-    for instance in instances {
-        instance.object = 0;
-    }
 }
 
 /// Refuses more triangles than the pack can number.

@@ -1,9 +1,9 @@
 //! Names, places and counts for people who look into a pack, and the name of its inputs.
 
-use lang::scene::{Name, Scene};
+use lang::scene::{Instance, Name, Scene, Shape};
 use lang::source::{SourceSet, Span};
 use pack::Manifest;
-use pack::manifest::{Feature, KernelSize, Named};
+use pack::manifest::{Feature, KernelSize, Named, Shown};
 use shaders::FeatureSet;
 
 use super::explain::{Explain, Row};
@@ -46,6 +46,7 @@ impl Context<'_> {
                 .map(|(name, span)| self.named(name, *span))
                 .collect(),
             instances: scene.instances.iter().map(|i| self.declared(&i.name)).collect(),
+            shown: scene.instances.iter().map(|i| self.shown(i)).collect(),
             textures: scene.textures.iter().map(|t| self.declared(&t.name)).collect(),
             lights: scene.lights.iter().map(|l| self.declared(&l.name)).collect(),
             cameras: vec![self.declared(&scene.camera.name)],
@@ -110,6 +111,22 @@ impl Context<'_> {
     fn feature(&self, Row { name, reason, by, .. }: Row) -> Feature {
         let by = by.map(|(name, span)| self.named(&name, span));
         Feature { name: name.to_owned(), reason, by }
+    }
+
+    fn shown(&self, instance: &Instance) -> Shown {
+        let (shape, mesh) = match &instance.shape {
+            Shape::Sphere { .. } => ("sphere", None),
+            Shape::Rectangle { .. } => ("rectangle", None),
+            Shape::Box { .. } => ("box", None),
+            Shape::Mesh { asset, part } => ("mesh", Some((*asset, part))),
+        };
+        let asset = mesh.and_then(|(asset, _)| self.scene.assets.get(asset));
+        Shown {
+            object: instance.object.as_ref().map(|name| self.declared(name)),
+            shape: self.named(shape, Some(instance.shape_span)),
+            asset: asset.map(|asset| self.declared(&asset.name)),
+            part: mesh.and_then(|(_, part)| part.clone()),
+        }
     }
 
     fn declared(&self, name: &Name) -> Named {

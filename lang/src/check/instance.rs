@@ -24,6 +24,8 @@ pub(super) struct Placed {
     pub(super) key: (String, i64, String),
     pub(super) name: String,
     pub(super) name_span: Span,
+    /// The object whose shape it is, with its place.
+    pub(super) object: Option<(String, Span)>,
     /// Never an object or a group.
     pub(super) shape: Rc<ShapeValue>,
     pub(super) shape_span: Span,
@@ -132,7 +134,7 @@ impl World {
         let over = object::material(fields);
         let place = Place { key, name_span, over };
         let shape_span = fields.value_span("shape").or(base.map(|(_, at)| at)).unwrap_or(name_span);
-        let thing = Thing { shape, shape_span, material: over, pose };
+        let thing = Thing { object: None, shape, shape_span, material: over, pose };
         if placed {
             self.flatten(ev, &place, (&thing, &thing.pose), &mut Vec::new(), None);
         }
@@ -218,6 +220,7 @@ impl World {
             key: (base.clone(), *index, tail.clone()),
             name: format!("{base}{tail}"),
             name_span: place.name_span,
+            object: thing.object.map(|id| (ev.program.full_name(id), ev.program.name_span(id))),
             shape: Rc::clone(&thing.shape),
             shape_span: thing.shape_span,
             material,

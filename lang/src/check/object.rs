@@ -19,6 +19,8 @@ pub(super) const MAX_OBJECT_DEPTH: usize = 8;
 /// A shape or a group with its place.
 #[derive(Clone, Debug)]
 pub(super) struct Thing {
+    /// Which object it is; `None`: an instance.
+    pub(super) object: Option<ItemId>,
     pub(super) shape: Rc<ShapeValue>,
     pub(super) shape_span: Span,
     pub(super) material: Option<(ItemId, Span)>,
@@ -44,7 +46,7 @@ impl Objects {
         for &id in ids {
             let known = !refuse_index(ev, Kind::Object, id);
             let fields = if known { ev.fields_of(id) } else { None };
-            let thing = fields.filter(|fields| fields.ok).and_then(|fields| thing(&fields));
+            let thing = fields.filter(|fields| fields.ok).and_then(|fields| thing(id, &fields));
             self.0.insert(id, thing.map(Rc::new));
         }
         let mut walk = Walk::default();
@@ -108,9 +110,10 @@ pub(super) fn material(fields: &Fields) -> Option<(ItemId, Span)> {
     fields.item("material").zip(fields.value_span("material"))
 }
 
-fn thing(fields: &Fields) -> Option<Thing> {
+fn thing(id: ItemId, fields: &Fields) -> Option<Thing> {
     let Some(Value::Shape(shape)) = fields.get("shape") else { return None };
     Some(Thing {
+        object: Some(id),
         shape,
         shape_span: fields.value_span("shape")?,
         material: material(fields),

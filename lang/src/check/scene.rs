@@ -142,6 +142,7 @@ fn instances(
             };
             Some(Instance {
                 name: Name { text: placed.name, span: placed.name_span },
+                object: placed.object.map(|(text, span)| Name { text, span }),
                 shape,
                 shape_span: placed.shape_span,
                 material,

@@ -9,6 +9,8 @@ use crate::source::Span;
 pub struct Instance {
     /// Name, with its index for indexed instances.
     pub name: Name,
+    /// The object whose shape it is; `None`: its shape is its own.
+    pub object: Option<Name>,
     /// What it is.
     pub shape: Shape,
     /// Where the shape expression stands in the text.

@@ -78,7 +78,7 @@ impl Sample {
 
 macro_rules! precision {
     ($real:ident, $module:ident, $wide:expr) => {
-        pub(super) mod $module {
+        pub(crate) mod $module {
             use super::{Sample, Step};
             use crate::kernel::$real as k;
             use crate::setup::Setup;
@@ -87,10 +87,7 @@ macro_rules! precision {
             use pack::abi::{Frame, NONE};
 
             /// The kernel of a scene.
-            pub(in crate::check) fn open<'a>(
-                setup: &'a Setup<'_>,
-                frame: &'a Frame,
-            ) -> k::Kernel<'a> {
+            pub(crate) fn open<'a>(setup: &'a Setup<'_>, frame: &'a Frame) -> k::Kernel<'a> {
                 let frame_words: &[UVec4] = bytemuck::cast_slice(std::slice::from_ref(frame));
                 k::Kernel::new(k::Bindings {
                     frame_words,

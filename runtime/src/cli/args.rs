@@ -23,6 +23,7 @@ Examples:
   rtr bench old.pack new.pack --time 30s  compare their errors at equal time
   rtr scene.pack --watch --time 10s       render again whenever the pack changes
   rtr check scene.pack                    is single precision enough?
+  rtr scene.pack --pick 320,180           what is seen in a pixel, and the lines that made it
   rtr --ablate scene.pack                 gain from kernel specialisation on this device
   rtr --ablate=full scene.pack --device llvmpipe --size 160x90 --spp 4 --report ablation.json
   rtr --list-devices                      list the choices of --device
@@ -294,6 +295,14 @@ pub(super) struct RenderArgs {
     #[arg(long, value_name = "WHAT", num_args = 0..=1, require_equals = true, default_missing_value = "each")]
     #[arg(conflicts_with_all = ["samples", "time", "output", "resume", "watch", "plot", "until_error", "reference"])]
     pub(super) ablate: Option<AblateArg>,
+    /// Say what is seen in this pixel instead of rendering: instance, object, material and part of an asset with
+    /// their lines, position, distance and normal. Honours --size.
+    #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
+    #[arg(conflicts_with_all = ["samples", "time", "output", "resume", "watch", "plot", "until_error", "reference", "ablate"])]
+    pub(super) pick: Option<[u32; 2]>,
+    /// Print what --pick finds as JSON.
+    #[arg(long, requires = "pick")]
+    pub(super) json: bool,
     /// List the choices of --device.
     #[arg(long)]
     pub(super) list_devices: bool,

@@ -179,8 +179,9 @@ pub const SECTIONS: [SectionSpec; 21] = [
     table(Kind::SKYTABLE, 16, MAX_SKY_WORDS),
     table(Kind::ALBEDO, 16, 1 << 16),
     SectionSpec { required: true, ..table(Kind::KERNEL, 1, MAX_KERNEL) },
-    // 2: features with their declarations, and the size of the kernel.
-    SectionSpec { version: 2, must_understand: false, ..table(Kind::META, 1, MAX_META as u64) },
+    // 2: features with their declarations, and the size of the kernel. 3: what instances show; since then every
+    // primitive says which instance or light it is, also where there is no OBJECT.
+    SectionSpec { version: 3, must_understand: false, ..table(Kind::META, 1, MAX_META as u64) },
 ];
 
 /// A record that has a section of its own.

@@ -30,6 +30,9 @@ pub struct Manifest {
     /// Instances in the order of the scene. Their primitives are not a range: leaves mix them.
     #[serde(deserialize_with = "list")]
     pub instances: Vec<Named>,
+    /// What each instance shows, same index.
+    #[serde(deserialize_with = "list")]
+    pub shown: Vec<Shown>,
     /// Textures, same index as in the TEXTURE section.
     #[serde(deserialize_with = "list")]
     pub textures: Vec<Named>,
@@ -66,6 +69,19 @@ pub struct Named {
     pub line: u32,
 }
 
+/// What an instance shows.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Shown {
+    /// The object whose shape it is; `None`: the shape is declared with the instance.
+    pub object: Option<Named>,
+    /// `sphere`, `rectangle`, `box` or `mesh`, and where the shape is written.
+    pub shape: Named,
+    /// The asset that a mesh is from.
+    pub asset: Option<Named>,
+    /// The part of it that is shown, as the scene names it; `None`: all of it.
+    pub part: Option<String>,
+}
+
 /// A feature of the kernel, in it or left out.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Feature {
@@ -96,6 +112,19 @@ impl KernelSize {
 }
 
 impl Manifest {
+    /// What the number of an object in a pack stands for: objects are numbered as the instances of the scene, its
+    /// lights after them. Names an instance or a light, and what the instance shows.
+    #[must_use]
+    pub fn object(&self, index: u32) -> Option<(&Named, Option<&Shown>)> {
+        let index = index as usize;
+        if let Some(instance) = self.instances.get(index) {
+            return Some((instance, self.shown.get(index)));
+        }
+        // A list that was cut does not tell where lights begin.
+        let light = index - self.instances.len();
+        if self.instances.len() < MAX_LIST { Some((self.lights.get(light)?, None)) } else { None }
+    }
+
     /// `file:line` of a declaration, if it has a place.
     #[must_use]
     pub fn place(&self, named: &Named) -> Option<String> {
@@ -146,6 +175,7 @@ impl Manifest {
         cut(&mut self.files, MAX_LIST)
             + cut(&mut self.materials, MAX_LIST)
             + cut(&mut self.instances, MAX_LIST)
+            + cut(&mut self.shown, MAX_LIST)
             + cut(&mut self.textures, MAX_LIST)
             + cut(&mut self.lights, MAX_LIST)
             + cut(&mut self.cameras, MAX_LIST)

@@ -257,14 +257,17 @@ fn id(found: u32, pack: &Contents<'_>) -> Option<ElementFault> {
     corner(found & !MOVES, pack.triangles.len())
 }
 
-/// Bits 0-30 are the index of an object. A pack in which nothing depends on objects has none, and 0
-/// stands for them.
+/// Bits 0-30 are the index of an object. A pack in which nothing depends on objects has no table of them, and the
+/// number is for people only, see `Manifest::object`.
 #[inline]
 fn object(found: u32, pack: &Contents<'_>) -> Option<ElementFault> {
-    let count = pack.objects.len().max(1);
+    let count = if pack.objects.is_empty() { MAX_OBJECTS } else { pack.objects.len() };
     // Bit 31 says something else of triangles than of spheres.
     index(found & !(TRI_SMOOTH | MOVES), (Kind::OBJECT, count))
 }
+
+/// Most objects of a pack.
+const MAX_OBJECTS: usize = 1 << 24;
 
 /// As `object`, or what says that the triangle's instance has the object.
 #[inline]
