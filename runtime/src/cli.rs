@@ -18,6 +18,7 @@ mod open;
 mod outputs;
 mod pick;
 mod render;
+mod view;
 mod watch;
 
 use self::args::{Args, Command, MergeArgs};
@@ -55,6 +56,7 @@ pub fn run_observed(
         Some(Command::Merge(_)) => None,
         Some(Command::Bench(bench)) => bench.threads,
         Some(Command::Check(check)) => check.threads,
+        Some(Command::View(view)) => view.threads,
         None => args.render.threads,
     };
     if let Err(error) = host::start_pool(wanted) {
@@ -64,6 +66,7 @@ pub fn run_observed(
         Some(Command::Merge(merge)) => merge_command(merge),
         Some(Command::Bench(bench)) => bench::command(bench),
         Some(Command::Check(args)) => check::command(args),
+        Some(Command::View(args)) => view::command(args),
         None if args.render.list_devices => list_devices(),
         None if args.render.ablate.is_some() => ablate::command(&args.render),
         None if args.render.pick.is_some() => pick::command(&args.render),

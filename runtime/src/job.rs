@@ -4,6 +4,7 @@ use crate::convergence::Measure;
 use crate::region::{Rect, SampleRange};
 use crate::replicate::REPLICATES_U32;
 use crate::scene::Scene;
+use pack::abi::Camera;
 use std::time::Duration;
 use thiserror::Error;
 
@@ -53,6 +54,9 @@ impl Precision {
 pub struct Job {
     /// Whole image in pixels. Another aspect than the scene's keeps the horizontal field of view.
     pub image_size: [u32; 2],
+    /// Instead of the pack's camera, for an image of the scene's aspect. What surrounds it, media above all, is still
+    /// what surrounds the pack's.
+    pub camera: Option<Camera>,
     /// The part of the image to render; inside the image.
     pub crop: Rect,
     /// Sample indices.
@@ -121,6 +125,7 @@ impl Job {
         let settings = scene.settings();
         Self {
             image_size: settings.image_size,
+            camera: None,
             crop: Rect::whole(settings.image_size),
             samples: SampleRange { start: 0, end: settings.samples.max(1) },
             seed: settings.seed,

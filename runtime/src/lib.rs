@@ -50,6 +50,7 @@ mod setup;
 mod signals;
 #[cfg(feature = "gpu")]
 mod trust;
+pub mod view;
 mod zeros;
 
 pub use checkpoint::{Checkpoint, CheckpointError};

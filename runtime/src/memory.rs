@@ -97,6 +97,7 @@ mod tests {
     fn job(side: u32, measure: Option<Measure>) -> Job {
         Job {
             image_size: [side; 2],
+            camera: None,
             crop: Rect::whole([side; 2]),
             samples: SampleRange { start: 0, end: 1 },
             seed: 0,

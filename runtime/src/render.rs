@@ -133,7 +133,7 @@ pub fn render_session(
 /// What is known of a picture before it is rendered.
 fn meta(scene: &Scene, job: &Job) -> Meta {
     Meta {
-        render_id: scene.render_id(),
+        render_id: render_id(scene, job),
         seed: job.seed,
         estimator: job.estimator,
         clamp_indirect: job.clamp_indirect,
@@ -143,6 +143,14 @@ fn meta(scene: &Scene, job: &Job) -> Meta {
         tone_map: scene.settings().tone_map,
         ..Meta::default()
     }
+}
+
+/// Another camera than the pack's makes another picture, which is no part of one of the pack's.
+fn render_id(scene: &Scene, job: &Job) -> String {
+    let Some(camera) = &job.camera else { return scene.render_id() };
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(&scene.pack().render_id()).update(bytemuck::bytes_of(camera));
+    hasher.finalize().to_hex().to_string()
 }
 
 /// What the backends are given.

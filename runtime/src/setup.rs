@@ -56,9 +56,9 @@ pub(crate) struct Setup<'a> {
 }
 
 impl Scene {
-    /// The camera for an image of `size`: another aspect keeps the horizontal field of view.
-    fn camera(&self, size: [u32; 2]) -> Camera {
-        let camera = *self.pack().camera();
+    /// The camera for the job's image: another aspect keeps the horizontal field of view.
+    fn camera(&self, job: &Job) -> Camera {
+        let (camera, size) = (job.camera.unwrap_or(*self.pack().camera()), job.image_size);
         let [w, h] = size.map(u64::from);
         let [scene_w, scene_h] = self.settings().image_size.map(u64::from);
         if w * scene_h == h * scene_w {
@@ -78,7 +78,7 @@ impl Scene {
 
     pub(crate) fn setup(&self, job: &Job) -> Setup<'_> {
         let settings = self.settings();
-        let camera = self.camera(job.image_size);
+        let camera = self.camera(job);
         let mut heap: Vec<UVec4> = Vec::new();
         let at = HEAP.map(|kind| {
             let at = u32::try_from(heap.len()).expect("the checks bound every table");

@@ -22,6 +22,7 @@ Examples:
   rtr scene.pack --report error.csv --reference ref.exr   error against a converged picture
   rtr bench old.pack new.pack --time 30s  compare their errors at equal time
   rtr scene.pack --watch --time 10s       render again whenever the pack changes
+  rtr view scene.pack                     look around in a browser while it renders
   rtr check scene.pack                    is single precision enough?
   rtr scene.pack --pick 320,180           what is seen in a pixel, and the lines that made it
   rtr --ablate scene.pack                 gain from kernel specialisation on this device
@@ -64,6 +65,9 @@ pub(super) enum Command {
     /// Trace the same samples in single and double precision and report where they diverge.
     #[command(after_help = CHECK_EXAMPLES)]
     Check(CheckArgs),
+    /// Show a scene in a browser while it renders: look around, ask what is seen, adjust the exposure.
+    #[command(after_help = VIEW_EXAMPLES)]
+    View(ViewArgs),
 }
 
 #[derive(Debug, clap::Args)]
@@ -201,6 +205,47 @@ pub(super) struct CheckArgs {
     #[arg(long)]
     pub(super) no_mmap: bool,
     /// Print errors only.
+    #[arg(long)]
+    pub(super) quiet: bool,
+}
+
+const VIEW_EXAMPLES: &str = "\
+Examples:
+  rtr view scene.pack                       opens the page; Ctrl-C ends it
+  rtr view scene.rts                        compiles at every change (rtc --watch), and shows what is wrong
+  rtr view scene.pack --size 640x360 --spp 256
+  rtr view scene.pack --port 8000           for a tunnel: ssh -L 8000:127.0.0.1:8000 HOST, then the same URL
+  rtr view scene.pack --listen 10.0.0.7     for other machines too, without encryption
+
+The page is served on the loopback to whoever has its URL, which holds a secret. Nothing is written.";
+
+#[derive(Debug, clap::Args)]
+pub(super) struct ViewArgs {
+    /// The pack to show, or a scene text, which the rtc beside rtr compiles to a pack in the working folder.
+    #[arg(value_name = "SCENE.pack|SCENE.rts")]
+    pub(super) scene: PathBuf,
+    /// Image size in pixels [default: that of the scene].
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub(super) size: Option<[u32; 2]>,
+    /// Samples per pixel [default: those of the scene].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) spp: Option<u32>,
+    /// Port of the page; 0 takes any [default: 7878, or any if that is taken].
+    #[arg(long, value_name = "N")]
+    pub(super) port: Option<u16>,
+    /// Address to listen at; others than those of the loopback let other machines in, without encryption.
+    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1")]
+    pub(super) listen: std::net::IpAddr,
+    /// Print the URL only.
+    #[arg(long)]
+    pub(super) no_browser: bool,
+    /// Device to render on, as for rendering. A GPU builds its kernel again at every move of the camera.
+    #[arg(long, default_value = "cpu", value_name = "DEVICE")]
+    pub(super) device: String,
+    /// Threads of the CPU kernel [default: one for each logical CPU].
+    #[arg(long, value_name = "N", value_parser = parse_threads)]
+    pub(super) threads: Option<usize>,
+    /// Print the URL and errors only.
     #[arg(long)]
     pub(super) quiet: bool,
 }
