@@ -17,8 +17,11 @@ mod measure;
 mod open;
 mod outputs;
 mod pick;
+mod pictures;
+mod progress;
 mod render;
 mod view;
+mod viewer;
 mod watch;
 
 use self::args::{Args, Command, MergeArgs};

@@ -1,8 +1,10 @@
 //! The owner's end of a run: progress, events, the wish to stop, and what can be saved of one that hangs.
 
+use crate::convergence::Point;
 use crate::film::Film;
 use crate::job::Job;
 use crate::outcome::Outcome;
+use crate::preview::Preview;
 use crate::run::{Finished, Framing, Run, Shared};
 use crate::signals::{Event, Progress, Signals};
 use crate::zeros::NoMemory;
@@ -13,6 +15,17 @@ pub struct Control {
     signals: Signals,
     /// The run, while it goes on.
     run: Mutex<Option<Arc<Shared>>>,
+    /// Is shown pictures of the run.
+    preview: Option<Arc<Preview>>,
+}
+
+/// What is known of a run that goes on, beside the counters.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Latest {
+    /// Devices that render it, in order.
+    pub device: String,
+    /// The last point of the error curve, of a run that is measured.
+    pub point: Option<Point>,
 }
 
 impl Default for Control {
@@ -24,7 +37,7 @@ impl Default for Control {
 impl Control {
     /// `observer` is told what happens, from any thread.
     pub fn new(observer: impl Fn(Event<'_>) + Send + Sync + 'static) -> Self {
-        Self { signals: Signals::new(observer), run: Mutex::new(None) }
+        Self { signals: Signals::new(observer), run: Mutex::new(None), preview: None }
     }
 
     /// `gate` is asked, by any thread, before each checkpoint is written, and may take its time. What was rendered is
@@ -32,6 +45,13 @@ impl Control {
     #[must_use]
     pub fn gated(self, gate: impl Fn() -> bool + Send + Sync + 'static) -> Self {
         Self { signals: self.signals.gated(gate), ..self }
+    }
+
+    /// `preview` is shown pictures of the run while it goes on; not the last one, which `render` gives. Nothing is
+    /// shown before the `gate` has said yes.
+    #[must_use]
+    pub fn previewed(self, preview: Option<Preview>) -> Self {
+        Self { preview: preview.map(Arc::new), ..self }
     }
 
     /// Asks the run to end soon, with every complete batch.
@@ -51,6 +71,15 @@ impl Control {
         self.signals.progress()
     }
 
+    /// What is known of the run, while it goes on.
+    #[must_use]
+    pub fn latest(&self) -> Option<Latest> {
+        self.run().map(|run| {
+            let (device, point) = run.latest();
+            Latest { device, point }
+        })
+    }
+
     /// Whether the run should have ended for its time limit: 10 % or one second ago, whatever is longer.
     #[must_use]
     pub fn is_overdue(&self) -> bool {
@@ -64,6 +93,11 @@ impl Control {
     #[must_use]
     pub fn salvage(&self) -> Option<Outcome> {
         self.run()?.salvage(&self.signals)
+    }
+
+    /// Is shown pictures of the run.
+    pub(crate) fn preview(&self) -> Option<&Arc<Preview>> {
+        self.preview.as_ref()
     }
 
     pub(crate) fn signals(&self) -> &Signals {

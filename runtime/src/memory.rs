@@ -82,6 +82,13 @@ pub(crate) fn announce(job: &Job, saved: bool, free: Free) -> Result<Option<Stri
     }
 }
 
+/// Whether there is room for a copy of a film of so many pixels and for writing it, beside all that is there.
+pub(crate) fn has_room_to_write(pixels: u64) -> bool {
+    let Free { machine, limit } = free();
+    let need = pixels * (KEPT + WRITTEN) + REST;
+    [machine, limit].into_iter().flatten().all(|free| need <= free)
+}
+
 /// What is free now.
 pub(crate) fn free() -> Free {
     Free { machine: host::machine(), limit: host::room().map(|room| room.free) }

@@ -6,10 +6,14 @@ use crate::job::{Job, JobError};
 use crate::memory::{self, TooLarge};
 use crate::outcome::Outcome;
 use crate::output::Meta;
+use crate::preview::Previewer;
 use crate::run::{Framing, Run, Shared};
 use crate::saver::{Saver, Session};
 use crate::scene::Scene;
+use crate::signals::Signals;
 use crate::zeros::NoMemory;
+use std::sync::Arc;
+use std::thread::Scope;
 use std::time::Duration;
 use thiserror::Error;
 
@@ -92,6 +96,7 @@ pub fn render_session(
     let mut frame = Framing {
         meta: meta(scene, job),
         saver: keep.map(|keep| Saver::new(keep, scene, job, from.as_ref())),
+        previewer: control.preview().map(|preview| Previewer::new(Arc::clone(preview), job)),
         ..Framing::default()
     };
     let film = from.map(|from| {
@@ -101,17 +106,7 @@ pub fn render_session(
     });
     let run = control.start(job, film, frame)?;
     let (finished, device_error) = std::thread::scope(|scope| {
-        if run.shared().saver().is_some() {
-            let shared: &Shared = run.shared();
-            let work =
-                move || shared.saver().into_iter().for_each(|saver| saver.work(control.signals()));
-            let thread = std::thread::Builder::new().name("rtr-saver".to_owned());
-            if let Err(error) = thread.spawn_scoped(scope, work) {
-                control
-                    .signals()
-                    .note(&format!("warning: no checkpoints during this run: {error}"));
-            }
-        }
+        start_keepers(scope, run.shared(), control.signals());
         let backends = Backends {
             scene,
             job,
@@ -124,10 +119,31 @@ pub fn render_session(
         if let Some(saver) = run.shared().saver() {
             saver.close();
         }
+        run.shared().previewer().into_iter().for_each(Previewer::close);
         (finished, error)
     });
     let finished = finished.ok_or(RenderError::Salvaged)?;
     Ok(run.shared().outcome(finished, device_error, control.signals()))
+}
+
+/// Starts the threads that save what is rendered and show it.
+fn start_keepers<'scope, 'env>(
+    scope: &'scope Scope<'scope, 'env>,
+    shared: &'scope Shared,
+    signals: &'scope Signals,
+) {
+    let thread = |name: &str| std::thread::Builder::new().name(name.to_owned());
+    if let Some(saver) = shared.saver()
+        && let Err(error) = thread("rtr-saver").spawn_scoped(scope, move || saver.work(signals))
+    {
+        signals.note(&format!("warning: no checkpoints during this run: {error}"));
+    }
+    if let Some(previewer) = shared.previewer()
+        && let Err(error) =
+            thread("rtr-preview").spawn_scoped(scope, move || previewer.work(signals))
+    {
+        signals.note(&format!("warning: no picture before the last one: {error}"));
+    }
 }
 
 /// What is known of a picture before it is rendered.

@@ -9,7 +9,6 @@ use crate::left_out::LeftOut;
 use crate::outcome::Outcome;
 use crate::replicate::REPLICATES;
 use crate::scene::Scene;
-use crate::schedule::Stop;
 use serde::Serialize;
 
 /// Columns of the CSV file. `flip` stays empty, see `docs/error.md`.
@@ -28,6 +27,8 @@ pub struct Resolution {
 /// Everything that a report says.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
+    /// Name of this kind of document and its version, see `docs/json.md`.
+    pub schema: &'static str,
     /// Of `rtr`.
     pub version: &'static str,
     /// Hexadecimal name of what was rendered.
@@ -198,6 +199,7 @@ impl Report {
         let counters = &outcome.film().counters;
         let crop = job.crop;
         Self {
+            schema: "rtr.report/1",
             version: env!("CARGO_PKG_VERSION"),
             scene: scene.render_id(),
             features: pack::features::names(scene.pack().features()),
@@ -213,13 +215,7 @@ impl Report {
                 image: job.image_size,
                 crop: [crop.x, crop.y, crop.w, crop.h],
             },
-            stop: match outcome.stop {
-                Stop::Complete => "complete",
-                Stop::TimeLimit => "time limit",
-                Stop::ErrorReached => "error reached",
-                Stop::Cancelled => "interrupted",
-                Stop::Failed => "failed",
-            },
+            stop: outcome.stop.name(),
             goal: convergence.goal.map(|goal| goal.to_string()),
             times,
             counters: Counts {

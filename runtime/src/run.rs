@@ -3,11 +3,12 @@
 //! Everything that decides about the picture happens here, under one lock; backends only turn work
 //! items into pixels. A tile that fails is reported and left out, the others go on.
 
-use crate::convergence::{Convergence, Decision, Moment, Times, Tracker};
+use crate::convergence::{Convergence, Decision, Moment, Point, Times, Tracker};
 use crate::film::{Accumulator, Film};
 use crate::job::Job;
 use crate::outcome::{Outcome, TileFailure};
 use crate::output::{Meta, Picture};
+use crate::preview::Previewer;
 use crate::region::SampleRange;
 use crate::replicate::REPLICATES_U32;
 use crate::saver::Saver;
@@ -51,6 +52,8 @@ pub(crate) struct Framing {
     pub(crate) devices: Vec<String>,
     /// `None`: it is not saved.
     pub(crate) saver: Option<Saver>,
+    /// `None`: nobody waits for pictures.
+    pub(crate) previewer: Option<Previewer>,
 }
 
 struct State {
@@ -230,6 +233,10 @@ impl<'a> Run<'a> {
             if let Some(saver) = &self.shared.frame.saver {
                 saver.offer(state.sum.film(), self.shared.started.elapsed());
             }
+            if let Some(previewer) = self.shared.previewer() {
+                let meta = || self.shared.meta(&state.devices, self.shared.started.elapsed());
+                previewer.offer(state.sum.film(), self.signals, meta);
+            }
         }
         drop(state);
         self.shared.ended.notify_all();
@@ -337,6 +344,27 @@ impl Shared {
         self.frame.saver.as_ref()
     }
 
+    /// Devices, and the last point of the error curve.
+    pub(crate) fn latest(&self) -> (String, Option<Point>) {
+        let state = self.lock();
+        let point = state.tracker.as_ref().and_then(|tracker| tracker.last().copied());
+        (state.devices.join(" + "), point)
+    }
+
+    pub(crate) fn previewer(&self) -> Option<&Previewer> {
+        self.frame.previewer.as_ref()
+    }
+
+    /// What is known of a picture that is not complete after `elapsed`, made by `devices`.
+    fn meta(&self, devices: &[String], elapsed: Duration) -> Meta {
+        Meta {
+            device: devices.join(" + "),
+            seconds: (self.frame.before + elapsed).as_secs_f64(),
+            complete: false,
+            ..self.frame.meta.clone()
+        }
+    }
+
     /// See `Control::salvage`.
     pub(crate) fn salvage(&self, signals: &Signals) -> Option<Outcome> {
         let cancelled = signals.is_cancelled();
@@ -348,6 +376,7 @@ impl Shared {
         state.scheduler.stop(why);
         drop(state);
         let finished = self.take()?;
+        self.previewer().into_iter().for_each(Previewer::close);
         let error = "the kernel or the driver did not respond in time";
         let error = (!cancelled).then(|| error.to_owned());
         Some(self.outcome(finished, error, signals))
@@ -391,13 +420,9 @@ impl Shared {
         if let (Some(saver), false) = (saver, well) {
             film = saver.last(film, elapsed, signals);
         }
+        let complete = stop == Stop::Complete && failures.is_empty();
+        let meta = Meta { complete, ..self.meta(&devices, elapsed) };
         let elapsed = self.frame.before + elapsed;
-        let meta = Meta {
-            device: devices.join(" + "),
-            seconds: elapsed.as_secs_f64(),
-            complete: stop == Stop::Complete && failures.is_empty(),
-            ..self.frame.meta.clone()
-        };
         Outcome {
             picture: Picture { film, meta },
             stop,

@@ -75,6 +75,20 @@ pub enum Stop {
     Failed,
 }
 
+impl Stop {
+    /// As reports and lines of progress name it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Complete => "complete",
+            Self::TimeLimit => "time limit",
+            Self::ErrorReached => "error reached",
+            Self::Cancelled => "interrupted",
+            Self::Failed => "failed",
+        }
+    }
+}
+
 /// The pass whose tiles are being handed out.
 struct Pass {
     samples: SampleRange,

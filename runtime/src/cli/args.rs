@@ -17,6 +17,10 @@ Examples:
   rtr merge a.exr b.exr -o c.exr -o c.png    merged
   rtr scene.pack -o a.png --resume        resume after Ctrl-C, a crash or a power cut
   rtr scene.pack -o a.png --resume=a.png.checkpoint.1   ... from a checkpoint of an earlier run
+  rtr scene.pack -o a.png --write-every 2s    look at the picture while it is rendered
+  rtr scene.pack -o - --write-every 1s | ffplay -f image2pipe -i -   ... as a stream of PNGs
+  rtr scene.pack --tev localhost:14158    ... in tev, the image viewer
+  rtr scene.pack --progress json 2> log   one line of JSON a second
   rtr scene.pack --until-error 0.01 --plot error.svg   until the error is 1 %, with a plot
   rtr scene.pack --until-error p95:0.05 --time 5m      until 95 % of the pixels are within 5 %
   rtr scene.pack --report error.csv --reference ref.exr   error against a converged picture
@@ -309,7 +313,7 @@ pub(super) struct RenderArgs {
     #[arg(conflicts_with_all = MEASURING)]
     #[expect(clippy::option_option, reason = "what clap calls a flag with an optional value")]
     pub(super) resume: Option<Option<PathBuf>>,
-    /// Render again whenever the pack changes, until Ctrl-C. Unfinished pictures are dropped, broken packs
+    /// Render again whenever the pack changes, until Ctrl-C. Unfinished pictures are not continued, broken packs
     /// reported.
     #[arg(long, conflicts_with = "resume", conflicts_with_all = MEASURING)]
     pub(super) watch: bool,
@@ -318,6 +322,15 @@ pub(super) struct RenderArgs {
     /// kept as NAME.checkpoint.1.
     #[arg(long, default_value = "60s", value_name = "TIME", value_parser = parse_every)]
     pub(super) checkpoint_every: Every,
+    /// Time between two pictures while rendering, such as 2s, or `never` [default: 5s]. The first is written after
+    /// the first 16 samples of every pixel, and one second; each replaces the one before as a whole. With this
+    /// flag streams get them too, one after the other; without it only the last one.
+    #[arg(long, value_name = "TIME", value_parser = parse_every)]
+    pub(super) write_every: Option<Every>,
+    /// Show the picture in tev, the image viewer, while it is rendered: every second, or as --write-every says
+    /// [default port: 14158]. Without tev there, one warning is printed and the render goes on.
+    #[arg(long, value_name = "HOST[:PORT]")]
+    pub(super) tev: Option<String>,
     /// Threads of the CPU kernel [default: one for each logical CPU].
     #[arg(long, value_name = "N", value_parser = parse_threads)]
     pub(super) threads: Option<usize>,
@@ -333,6 +346,16 @@ pub(super) struct RenderArgs {
     /// Print errors only.
     #[arg(long)]
     pub(super) quiet: bool,
+    /// Progress on standard error: `text`, or `json`, where every line is an object and one a second says
+    /// how far the run is (docs/json.md).
+    #[arg(
+        long,
+        value_enum,
+        default_value = "text",
+        value_name = "FORMAT",
+        conflicts_with = "quiet"
+    )]
+    pub(super) progress: ProgressArg,
     /// Measure kernel specialisation instead of writing a picture: compare the pack's kernel with the full
     /// one and, with `each` (the default), with every single absent feature added: lines, SPIR-V words,
     /// build time, time per sample, equality of pictures. `auto` includes software adapters. 3 rounds of 16
@@ -362,6 +385,15 @@ pub(super) struct RenderArgs {
     pub(super) precision: PrecisionArg,
     #[command(flatten)]
     pub(super) error: ErrorArgs,
+}
+
+/// How far a run is, said to whom.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum ProgressArg {
+    /// People.
+    Text,
+    /// Programs.
+    Json,
 }
 
 /// When a pack's bytes are compared with the hashes in it.

@@ -7,6 +7,7 @@ use super::exit::Exit;
 use super::guard::Guard;
 use super::open::{How, open};
 use super::outputs::{Claim, Use, prove, save};
+use super::progress::Wanted;
 use crate::control::Control;
 use crate::convergence::{Comparison, Measure, Point, Spread, compare};
 use crate::job::Job;
@@ -101,7 +102,7 @@ fn one(args: &BenchArgs, console: &Console, run: u32, side: &mut Side<'_>) -> Re
     let guard = Guard::new(console, side.path, side.scene.pack(), Verify::First)?;
     let control = Control::default();
     let over = AtomicBool::new(false);
-    let watched = Watched { spp: job.spp(), limit: job.time_limit, change: None };
+    let watched = Watched { wanted: Wanted::of(&job), change: None };
     let rescue = || {
         if control.is_cancelled() {
             console.give_up();

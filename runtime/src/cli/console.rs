@@ -1,9 +1,10 @@
 //! What the user sees: results on stdout, everything else on stderr, progress while it renders.
 
+use super::args::{ProgressArg, RenderArgs};
 use super::change::Change;
 use super::exit::Exit;
+use super::progress::{self, Line, Wanted};
 use crate::control::Control;
-use crate::signals::Progress;
 use files::ShowPath as _;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::error::Error;
@@ -20,6 +21,8 @@ const TICK: Duration = Duration::from_millis(100);
 const PATIENCE: Duration = Duration::from_millis(1200);
 /// Between two plain lines.
 const LINE: Duration = Duration::from_secs(5);
+/// Between two lines for programs.
+const JSON_LINE: Duration = Duration::from_secs(1);
 
 /// Whether a result could not be written to standard output.
 static LOST: AtomicBool = AtomicBool::new(false);
@@ -35,12 +38,14 @@ pub(super) struct Console {
     quiet: bool,
     /// Standard output carries a picture: results go where everything else goes.
     beside: bool,
+    /// Every line on stderr is an object of JSON.
+    json: bool,
     bar: ProgressBar,
 }
 
 impl Console {
     pub(super) fn new(quiet: bool) -> Self {
-        Self { quiet, beside: false, bar: ProgressBar::hidden() }
+        Self { quiet, beside: false, json: false, bar: ProgressBar::hidden() }
     }
 
     /// With a bar, when stderr is a terminal.
@@ -52,7 +57,16 @@ impl Console {
         let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
         bar.set_style(style);
-        Self { quiet, beside: false, bar }
+        Self { quiet, beside: false, json: false, bar }
+    }
+
+    /// For a render: with a bar, or for programs that read stderr: then every line is an object of JSON, and one a
+    /// second says how far the run is.
+    pub(super) fn of_render(args: &RenderArgs) -> Self {
+        match args.progress {
+            ProgressArg::Text => Self::with_progress(args.quiet),
+            ProgressArg::Json => Self { json: true, ..Self::new(false) },
+        }
     }
 
     /// The same console for a command with these outputs.
@@ -86,8 +100,17 @@ impl Console {
 
     /// A line that quiet does not silence.
     pub(super) fn warn(&self, text: &str) {
-        // Where errors cannot be written there is nobody to tell.
-        let _ = self.bar.suspend(|| writeln!(std::io::stderr(), "{}", files::escape_lines(text)));
+        if self.json {
+            return to_stderr(&progress::message(text));
+        }
+        self.bar.suspend(|| to_stderr(&files::escape_lines(text)));
+    }
+
+    /// How far a run is, where programs read that.
+    pub(super) fn progress(&self, line: impl FnOnce() -> Line) {
+        if self.json {
+            to_stderr(&line().json());
+        }
     }
 
     /// One line for an error and its causes.
@@ -155,7 +178,16 @@ impl Console {
             }
             let elapsed = started.elapsed();
             let progress = control.progress();
-            let text = progress_text(progress, watched, elapsed);
+            if self.json {
+                if last_line.elapsed() >= JSON_LINE {
+                    last_line = Instant::now();
+                    let latest = control.latest();
+                    self.progress(|| Line::of(progress, &watched.wanted, elapsed, latest));
+                }
+                std::thread::park_timeout(TICK);
+                continue;
+            }
+            let text = progress::text(progress, &watched.wanted, elapsed);
             if self.bar.is_hidden() {
                 if last_line.elapsed() >= LINE {
                     last_line = Instant::now();
@@ -173,54 +205,19 @@ impl Console {
     }
 }
 
-/// What turns counters into text.
+/// What a run is watched for.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Watched<'a> {
-    /// Samples of every pixel of the whole job.
-    pub(super) spp: u32,
-    /// When the run is going to stop anyway.
-    pub(super) limit: Option<Duration>,
+    /// What is wanted of it.
+    pub(super) wanted: Wanted,
     /// A change that makes the run pointless.
     pub(super) change: Option<&'a Change>,
 }
 
-/// `12.4 of 64 spp, 3.21 Mrays/s, 1m05s left`.
-fn progress_text(progress: Progress, watched: &Watched<'_>, elapsed: Duration) -> String {
-    let share = progress.done as f64 / progress.total.max(1) as f64;
-    let spp = share * f64::from(watched.spp);
-    let rate = mrays(progress.rays, elapsed);
-    let mut text = format!("{spp:.1} of {} spp, {rate:.2} Mrays/s", watched.spp);
-    // What an earlier run did says nothing about the speed of this one.
-    let done = progress.done.saturating_sub(progress.before) as f64;
-    let to_do = progress.total.saturating_sub(progress.done) as f64;
-    let mut left = (done > 0.0).then(|| elapsed.as_secs_f64() * to_do / done);
-    if let Some(limit) = watched.limit {
-        let until = limit.saturating_sub(elapsed).as_secs_f64();
-        left = Some(left.map_or(until, |left| left.min(until)));
-    }
-    if let Some(left) = left.and_then(|left| Duration::try_from_secs_f64(left).ok()) {
-        text += ", ";
-        text += &duration_text(left);
-        text += " left";
-    }
-    text
-}
-
-/// Millions of rays a second.
-pub(super) fn mrays(rays: u64, elapsed: Duration) -> f64 {
-    rays as f64 / 1e6 / elapsed.as_secs_f64().max(1e-9)
-}
-
-/// `0.52s`, `12.3s`, `1m05s`, `2h05m`.
-pub(super) fn duration_text(duration: Duration) -> String {
-    let seconds = duration.as_secs_f64();
-    let whole = duration.as_secs();
-    match whole {
-        0..10 => format!("{seconds:.2}s"),
-        10..60 => format!("{seconds:.1}s"),
-        60..3600 => format!("{}m{:02}s", whole / 60, whole % 60),
-        _ => format!("{}h{:02}m", whole / 3600, whole / 60 % 60),
-    }
+/// One line.
+fn to_stderr(text: &str) {
+    // Where errors cannot be written there is nobody to tell.
+    let _ = writeln!(std::io::stderr(), "{text}");
 }
 
 /// An interrupt on its way to a run.
@@ -294,32 +291,4 @@ fn with_causes(error: &dyn Error) -> String {
         cause = inner.source();
     }
     text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn progress_names_samples_rate_and_time_left() {
-        let progress = Progress { total: 6400, done: 1600, before: 0, rays: 30_000_000 };
-        let watched = Watched { spp: 64, limit: None, change: None };
-        let text = progress_text(progress, &watched, Duration::from_secs(10));
-        assert_eq!(text, "16.0 of 64 spp, 3.00 Mrays/s, 30.0s left");
-        let watched = Watched { limit: Some(Duration::from_secs(15)), ..watched };
-        let text = progress_text(progress, &watched, Duration::from_secs(10));
-        assert_eq!(text, "16.0 of 64 spp, 3.00 Mrays/s, 5.00s left");
-        let (progress, watched) =
-            (Progress { before: 1200, ..progress }, Watched { limit: None, ..watched });
-        let text = progress_text(progress, &watched, Duration::from_secs(10));
-        assert_eq!(text, "16.0 of 64 spp, 3.00 Mrays/s, 2m00s left");
-    }
-
-    #[test]
-    fn durations_stay_short() {
-        let text = |seconds| duration_text(Duration::from_secs_f64(seconds));
-        assert_eq!(text(0.523), "0.52s");
-        assert_eq!(text(65.0), "1m05s");
-        assert_eq!(text(7500.0), "2h05m");
-    }
 }

@@ -2,24 +2,25 @@
 
 use super::args::{Every, PrecisionArg, RenderArgs};
 use super::change::Change;
-use super::console::{Console, Watched, duration_text, mrays, quit, reset_interrupts};
+use super::console::{Console, Watched, quit, reset_interrupts};
 use super::exit::Exit;
 use super::guard::{Guard, ThreadError};
 use super::measure;
 use super::open::{How, is_stdin, open};
-use super::outputs::{Claim, Output, Use, outputs, prove, room, save, with_extension};
+use super::outputs::{Claim, Output, Use, outputs, prove, room, with_extension};
+use super::pictures::Pictures;
+use super::progress::{Line, Wanted, duration_text, mrays};
 use crate::checkpoint::{Checkpoint, CheckpointError};
 use crate::control::Control;
 use crate::job::{Job, Precision};
 use crate::mark::Mark;
 use crate::outcome::Outcome;
-use crate::output;
 use crate::region::SampleRange;
 use crate::render::{DeviceChoice, RenderError, render_session};
 use crate::saver::{Keep, Session};
 use crate::scene::Scene;
 use crate::schedule::Stop;
-use crate::signals::{Event, Observer};
+use crate::signals::{Event, Observer, Progress};
 use files::ShowPath as _;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -52,7 +53,7 @@ pub(super) fn command(
     watching: Option<Watching<'_>>,
 ) -> Exit {
     let began = Instant::now();
-    let console = Console::with_progress(args.quiet).beside(&args.output);
+    let console = Console::of_render(args).beside(&args.output);
     let path = match pack_path(args, &console) {
         Ok(path) => path,
         Err(exit) => return exit,
@@ -106,10 +107,10 @@ pub(super) fn command(
         Every::After(every) if !args.watch => Some(Keep { path: checkpoint, every }),
         _ => None,
     };
-    let (scene, guard, job, outputs) = (&scene, &guard, &job, &outputs);
-    let console = &console;
+    let (scene, guard, job, console) = (&scene, &guard, &job, &console);
+    let pictures = &Pictures::new(args, console, &outputs, job);
     let plan =
-        Plan { args, observer, console, scene, guard, job, outputs, watching, load, resumed };
+        Plan { args, observer, console, scene, guard, job, pictures, watching, load, resumed };
     run(&plan, Session { from, keep })
 }
 
@@ -195,7 +196,7 @@ struct Plan<'a> {
     scene: &'a Scene,
     guard: &'a Guard<'a>,
     job: &'a Job,
-    outputs: &'a [Output],
+    pictures: &'a Pictures<'a>,
     watching: Option<Watching<'a>>,
     /// Time that opening the pack took.
     load: Duration,
@@ -216,8 +217,8 @@ fn run(plan: &Plan<'_>, session: Session) -> Exit {
         }
         observer(event);
     });
-    let control = control.gated(guard.gate());
-    let watched = Watched { spp: job.spp(), limit: job.time_limit, change };
+    let control = control.gated(guard.gate()).previewed(plan.pictures.preview(args));
+    let watched = Watched { wanted: Wanted::of(job), change };
     let over = AtomicBool::new(false);
     let rescue = || rescue(plan, &control);
     let outcome = std::thread::scope(|scope| {
@@ -246,7 +247,7 @@ fn run(plan: &Plan<'_>, session: Session) -> Exit {
         outcome.map_err(Failure::Pack)
     });
     match outcome {
-        Ok(Ok(outcome)) => conclude(plan, &outcome),
+        Ok(Ok(outcome)) => conclude(plan, &outcome, control.progress()),
         Ok(Err(error)) => console.fail(&error, Exit::World),
         Err(Failure::Pack(exit)) => exit,
         Err(Failure::Thread(error)) => console.fail(&error, Exit::World),
@@ -271,7 +272,8 @@ fn rescue(plan: &Plan<'_>, control: &Control) {
             let text = "warning: the kernel or the driver hangs; what is complete is written";
             plan.console.warn(text);
         }
-        quit(plan.guard.settle().err().unwrap_or_else(|| conclude(plan, &outcome)));
+        let end = || conclude(plan, &outcome, control.progress());
+        quit(plan.guard.settle().err().unwrap_or_else(end));
     }
     // Nothing has begun: the driver hangs.
     if control.progress().total == 0 {
@@ -280,12 +282,13 @@ fn rescue(plan: &Plan<'_>, control: &Control) {
 }
 
 /// Writes the picture and says how the run ended.
-fn conclude(plan: &Plan<'_>, outcome: &Outcome) -> Exit {
-    let Plan { args, console, scene, job, outputs, watching, load, .. } = *plan;
+fn conclude(plan: &Plan<'_>, outcome: &Outcome, progress: Progress) -> Exit {
+    let Plan { args, console, scene, job, watching, load, .. } = *plan;
     let change = watching.map(|watching| watching.change);
     if outcome.stop == Stop::Cancelled && change.is_some_and(Change::has_come) {
         return Exit::Done;
     }
+    console.progress(|| Line::ended(progress, job, outcome));
     report(console, outcome, job);
     if outcome.film().samples().1 == 0 {
         if outcome.device_error.is_none() {
@@ -294,15 +297,8 @@ fn conclude(plan: &Plan<'_>, outcome: &Outcome) -> Exit {
         return exit(outcome).unwrap_or(Exit::World);
     }
     let residual = residual(args) || !outcome.picture.meta.complete;
-    let (mut failed, began) = (None, Instant::now());
-    for Output { path, format } in outputs {
-        let written = match output::encode(*format, &outcome.picture, residual) {
-            Ok(bytes) => save(console, path, &bytes),
-            Err(error) => Err(console.fail(&error, Exit::Bug)),
-        };
-        // The other file may still succeed.
-        failed = written.err().or(failed);
-    }
+    let began = Instant::now();
+    let mut failed = plan.pictures.write(&outcome.picture, residual);
     let times = measure::Outside { load, write: began.elapsed() };
     if let Some(exit) = measure::write(args, console, scene, job, outcome, &times) {
         failed = Some(exit);
@@ -408,11 +404,8 @@ fn report(console: &Console, outcome: &Outcome, job: &Job) {
     let counters = &film.counters;
     let (_, most) = film.samples();
     let why = match outcome.stop {
-        Stop::Complete => "",
-        Stop::TimeLimit => ", time limit",
-        Stop::ErrorReached => ", error reached",
-        Stop::Cancelled => ", interrupted",
-        Stop::Failed => ", failed",
+        Stop::Complete => String::new(),
+        stop => format!(", {}", stop.name()),
     };
     console.note(&format!(
         "{most} of {} spp in {}{why}: {:.2} Mrays/s, {} rays, longest path {}",

@@ -20,7 +20,7 @@ const POLL: Duration = Duration::from_millis(100);
 /// Renders until Ctrl-C. What is wrong with the arguments ends it at once, what is wrong with the
 /// pack does not.
 pub(super) fn command(args: &RenderArgs, observer: &'static Observer) -> Exit {
-    let console = Console::new(args.quiet);
+    let console = Console::of_render(args);
     let path = args.pack.as_deref().unwrap_or(Path::new(""));
     reset_interrupts();
     let names = OnceLock::new();

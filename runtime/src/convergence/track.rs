@@ -238,6 +238,11 @@ impl Tracker {
         self.points.last()
     }
 
+    /// The last point.
+    pub(crate) fn last(&self) -> Option<&Point> {
+        self.points.last()
+    }
+
     /// Seconds of rendering.
     fn rendering(&self, now: Moment) -> f64 {
         now.elapsed.saturating_sub(self.estimate).as_secs_f64()
