@@ -6,6 +6,7 @@
 mod args;
 mod build;
 mod cache;
+mod check;
 mod compile;
 mod explain;
 mod files;
@@ -37,12 +38,13 @@ Examples:
   rtc scene.rts -o - | rtr - -o a.png   compile and render through a pipe
   rtc scene.rts --depfile scene.d    also write what the pack depends on, for make or ninja
   rtc check scene.rts                report errors without compiling
+  rtc check scene.rts --json         the same as one JSON object, for programs
   rtc scene.rts -D hour=7h           override a `param` of the scene
   rtc fmt scene.rts                  format the text; `rtc fmt .` a folder, `rtc fmt -` standard input
   rtc scene.rts --explain-features   explain which features the kernel has, and which lines need them
   rtc explain E0301                  explain an error, with an example
   rtc show --resolved scene.rts      print every value, defaults included
-  rtc inspect scene.pack             print what a pack contains";
+  rtc inspect scene.pack             print what a pack contains; with --json for programs";
 
 /// Compile a text scene into a render pack.
 #[derive(Debug, Parser)]
@@ -59,7 +61,7 @@ enum Command {
     /// Compile a scene; the default command.
     Build(build::BuildArgs),
     /// Report errors without writing anything.
-    Check(build::CheckArgs),
+    Check(check::CheckArgs),
     /// Format scene texts in place; comments and numbers are kept.
     Fmt(fmt::FmtArgs),
     /// Explain an error code (`E0301`) or a kind (`material.diffuse`).
@@ -112,7 +114,7 @@ fn run_here(arguments: Vec<OsString>) -> u8 {
     }
     match cli.command {
         Command::Build(args) => build::build(&args),
-        Command::Check(args) => build::check(&args),
+        Command::Check(args) => check::check(&args),
         Command::Fmt(args) => fmt::fmt(&args),
         Command::Explain(args) => explain::explain(&args),
         Command::Show(args) => show::show(&args),

@@ -96,6 +96,18 @@ impl Reporter {
         }
     }
 
+    /// What `diagnostics` would print as JSON, as a list: all of it, of whatever format this is.
+    #[must_use]
+    pub fn list(sources: &SourceSet, diagnostics: &[Diagnostic]) -> serde_json::Value {
+        diagnostics.iter().map(|diagnostic| json::object(sources, diagnostic)).collect()
+    }
+
+    /// One object of JSON on standard output, in one line; says whether it could be written, as `output`.
+    #[must_use]
+    pub fn document(&self, object: &serde_json::Value) -> bool {
+        self.output(&json::one_line(object))
+    }
+
     /// A failure of the world: a file that cannot be read or written, a cache out of order.
     pub fn failure(&self, message: &str) {
         match self.format {

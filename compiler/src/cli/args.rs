@@ -40,6 +40,11 @@ pub(super) fn printed(reporter: &Reporter, text: &str) -> u8 {
 }
 
 impl ReportArgs {
+    /// For programs: everything as JSON.
+    pub(super) fn json() -> Self {
+        Self { error_format: ErrorFormat::Json, color: Color::Never, max_errors: 0 }
+    }
+
     pub(super) fn reporter(&self) -> Reporter {
         let max = if self.max_errors == 0 { usize::MAX } else { self.max_errors };
         Reporter::new(self.error_format, self.color, max)

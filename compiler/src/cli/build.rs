@@ -1,4 +1,4 @@
-//! `rtc build` and `rtc check`: a scene text becomes a pack, or a list of what is wrong with it.
+//! `rtc build`: a scene text becomes a pack, or a list of what is wrong with it.
 
 use files::ShowPath as _;
 use std::path::{Path, PathBuf};
@@ -69,14 +69,6 @@ pub(super) struct BuildArgs {
     /// Threads to use [default: all].
     #[arg(long, value_name = "N", value_parser = parse_threads)]
     pub(super) threads: Option<usize>,
-    #[command(flatten)]
-    report: ReportArgs,
-}
-
-#[derive(Debug, Args)]
-pub(super) struct CheckArgs {
-    #[command(flatten)]
-    scene: SceneArgs,
     #[command(flatten)]
     report: ReportArgs,
 }
@@ -278,16 +270,6 @@ fn write_depfile(path: &Path, output: &Path, reads: &Reads, reporter: &Reporter)
         IO
     })?;
     write_text(path, &text, reporter)
-}
-
-pub(super) fn check(args: &CheckArgs) -> u8 {
-    let reporter = args.report.reporter();
-    let cache = Cache::from_env();
-    let compiled = args.scene.limits(&reporter).and_then(|limits| {
-        let nothing = (&Session::once(), &Stages::new());
-        compile(&args.scene, &limits, Trees::usual(&cache), nothing, &reporter)
-    });
-    compiled.err().unwrap_or(OK)
 }
 
 fn default_output(scene: &Path) -> PathBuf {

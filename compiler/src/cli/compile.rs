@@ -5,6 +5,8 @@ use std::time::Instant;
 
 use files::ShowPath as _;
 use lang::Analysis;
+use lang::diagnostic::Diagnostic;
+use lang::source::SourceSet;
 use lang::stack::on_large_stack;
 use shaders::ShaderError;
 
@@ -61,20 +63,47 @@ pub(super) struct Compilation {
     pub(super) silent: bool,
 }
 
+/// Is told what is to be said of a scene.
+type Tell<'a> = &'a dyn Fn(&SourceSet, &[Diagnostic]);
+
+/// What is said of a scene, and what it became.
+pub(super) struct Judged {
+    pub(super) sources: SourceSet,
+    pub(super) diagnostics: Vec<Diagnostic>,
+    /// `Err`: why there is no pack; where that is no fault of the scene it has been reported.
+    pub(super) result: Result<(Compiled, Vec<Phase>), u8>,
+}
+
 /// Compiles a scene, with what earlier compilations left.
 pub(super) fn compile(
     args: &SceneArgs,
     limits: &Limits,
     trees: Trees<'_>,
-    (session, stages): (&Session, &Stages),
+    of: (&Session, &Stages),
     reporter: &Reporter,
 ) -> Result<Compilation, u8> {
+    let tell = |sources: &SourceSet, diagnostics: &[Diagnostic]| {
+        reporter.diagnostics(sources, diagnostics);
+    };
+    let judged = judge(args, limits, trees, of, (reporter, &tell))?;
+    let (compiled, phases) = judged.result?;
+    Ok(Compilation { compiled, phases, silent: judged.diagnostics.is_empty() })
+}
+
+/// As `compile`; `tell` is told what is to be said of the scene, before what is said of the world.
+pub(super) fn judge(
+    args: &SceneArgs,
+    limits: &Limits,
+    trees: Trees<'_>,
+    (session, stages): (&Session, &Stages),
+    (reporter, tell): (&Reporter, Tell<'_>),
+) -> Result<Judged, u8> {
     let start = Instant::now();
     let Analysis { sources, scene, mut diagnostics, .. } =
         analyze_reading(args, &limits.root, &session.reads, reporter)?;
     let Some(scene) = scene else {
-        reporter.diagnostics(&sources, &diagnostics);
-        return Err(SCENE);
+        tell(&sources, &diagnostics);
+        return Ok(Judged { sources, diagnostics, result: Err(SCENE) });
     };
     let mut phases = vec![Phase { name: "read and check the text", time: start.elapsed() }];
     let options = Options {
@@ -89,13 +118,15 @@ pub(super) fn compile(
     if let Some(pack) = stages.pack() {
         mapped::unchanged(pack).map_err(|error| failed(&error.into(), reporter))?;
     }
-    reporter.diagnostics(&sources, &diagnostics);
-    let mut compiled = result.map_err(|error| failed(&error, reporter))?;
-    phases.append(&mut compiled.phases);
-    Ok(Compilation { compiled, phases, silent: diagnostics.is_empty() })
+    tell(&sources, &diagnostics);
+    let result = result.map_err(|error| failed(&error, reporter)).map(|mut compiled| {
+        phases.append(&mut compiled.phases);
+        (compiled, phases)
+    });
+    Ok(Judged { sources, diagnostics, result })
 }
 
-fn failed(error: &CompileError, reporter: &Reporter) -> u8 {
+pub(super) fn failed(error: &CompileError, reporter: &Reporter) -> u8 {
     match error {
         CompileError::Scene => SCENE,
         CompileError::Memory(_)

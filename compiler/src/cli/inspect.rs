@@ -1,10 +1,12 @@
 //! `rtc inspect`: the sections of a pack as a table, and which features its kernel has; the latter is what
 //! `rtc build --explain-features` prints, too.
 
+mod document;
+
 use files::ShowPath as _;
 use std::collections::BTreeSet;
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use pack::abi::{Instance, Node, WideNode};
@@ -12,10 +14,10 @@ use pack::bvh::InnerNode;
 use pack::manifest::{Feature, KernelSize};
 use pack::{Checked, Manifest, Pack};
 
-use super::args::{BUG, IO, printed};
+use super::args::{BUG, IO, OK, printed};
 use super::mapped;
 use crate::bvh::Layout;
-use crate::pipeline::full_kernel_size;
+use crate::pipeline::{CompileError, full_kernel_size};
 use crate::report::{Color, ErrorFormat, Reporter};
 
 #[derive(Debug, Args)]
@@ -25,10 +27,14 @@ pub(super) struct InspectArgs {
     /// Also verify the hash of every section.
     #[arg(long)]
     verify: bool,
+    /// Print one JSON object instead (docs/json.md).
+    #[arg(long)]
+    json: bool,
 }
 
 pub(super) fn inspect(args: &InspectArgs) -> u8 {
-    let reporter = Reporter::new(ErrorFormat::Human, Color::Auto, usize::MAX);
+    let format = if args.json { ErrorFormat::Json } else { ErrorFormat::Human };
+    let reporter = Reporter::new(format, Color::Auto, usize::MAX);
     let opened = mapped::map(&args.pack).and_then(|pack| {
         if args.verify {
             pack.verify_hashes()?;
@@ -36,6 +42,7 @@ pub(super) fn inspect(args: &InspectArgs) -> u8 {
         Ok(pack)
     });
     match opened {
+        Ok(pack) if args.json => report_json(&args.pack, &pack, &reporter),
         Ok(pack) => report(&pack, &reporter),
         Err(error) => {
             reporter.failure(&format!("{}: {error}", args.pack.shown()));
@@ -59,11 +66,32 @@ pub(super) fn report(pack: &Pack<Checked>, reporter: &Reporter) -> u8 {
     }
     match full_kernel_size() {
         Ok(full) => printed(reporter, &explanation(&manifest, full)),
+        Err(error) => bug(&error, reporter),
+    }
+}
+
+/// The same for programs.
+fn report_json(path: &Path, pack: &Pack<Checked>, reporter: &Reporter) -> u8 {
+    let full = match full_kernel_size() {
+        Ok(full) => full,
+        Err(error) => return bug(&error, reporter),
+    };
+    let manifest = pack.manifest();
+    let document = manifest
+        .map(|manifest| document::document((path, &hex(&pack.render_id())), pack, &manifest, full));
+    match mapped::unchanged(pack).and(document) {
+        Ok(document) if reporter.document(&document) => OK,
+        Ok(_) => IO,
         Err(error) => {
-            reporter.failure(&format!("{error}\nThis is a bug of rtc, not of your scene."));
-            BUG
+            reporter.failure(&format!("{}: {error}", path.shown()));
+            IO
         }
     }
+}
+
+fn bug(error: &CompileError, reporter: &Reporter) -> u8 {
+    reporter.failure(&format!("{error}\nThis is a bug of rtc, not of your scene."));
+    BUG
 }
 
 /// Every feature of the kernel; `full`: the size of the kernel that has all of them.

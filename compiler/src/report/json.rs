@@ -1,9 +1,9 @@
 //! A diagnostic as one line of JSON, modelled on rustc's `--error-format=json`.
 //!
-//! `{"message", "code", "level", "lint", "spans": [...], "children": [...], "rendered"}`; byte
+//! `{"schema", "message", "code", "level", "lint", "spans": [...], "children": [...], "rendered"}`; byte
 //! offsets count from 0, lines and columns from 1, columns in characters. Texts are not escaped but for
 //! what JSON needs and what steers terminals; texts of thousands of characters lose their middle. Where
-//! not all are told, a last line of level `note` says how many more there are.
+//! not all are told, a last line of level `note` says how many more there are. `docs/json.md` has the keys.
 
 use lang::diagnostic::{Applicability, Diagnostic, Edit, Fix, Severity};
 use lang::source::{SourceSet, Span};
@@ -11,8 +11,16 @@ use serde_json::{Value, json};
 
 use super::text::{escape_json, shortened};
 
+/// Name of these objects, and their version.
+const SCHEMA: &str = "rtc.diagnostic/1";
+
 /// One line, without a line break.
 pub(super) fn render(sources: &SourceSet, diagnostic: &Diagnostic) -> String {
+    one_line(&object(sources, diagnostic))
+}
+
+/// The object of that line.
+pub(super) fn object(sources: &SourceSet, diagnostic: &Diagnostic) -> Value {
     let level = match diagnostic.severity {
         Severity::Error => "error",
         Severity::Warning => "warning",
@@ -32,7 +40,8 @@ pub(super) fn render(sources: &SourceSet, diagnostic: &Diagnostic) -> String {
     let helps = diagnostic.helps.iter().map(|help| remark("help", help));
     let fixes = super::human::shown_fixes(diagnostic).map(|fix| suggestion(sources, fix));
     let children: Vec<Value> = notes.chain(helps).chain(fixes).collect();
-    one_line(&json!({
+    json!({
+        "schema": SCHEMA,
         "message": shortened(&diagnostic.message),
         "code": diagnostic.code.0,
         "level": level,
@@ -40,7 +49,7 @@ pub(super) fn render(sources: &SourceSet, diagnostic: &Diagnostic) -> String {
         "spans": spans,
         "children": children,
         "rendered": super::human::render(sources, diagnostic, false),
-    }))
+    })
 }
 
 /// A failure that has no place in a source text.
@@ -60,12 +69,13 @@ pub(super) fn warning(message: &str) -> String {
 
 fn bare(level: &str, message: &str) -> String {
     one_line(&json!({
-        "message": message, "code": null, "level": level, "spans": [], "children": []
+        "schema": SCHEMA, "message": message, "code": null, "level": level, "lint": null,
+        "spans": [], "children": [], "rendered": null,
     }))
 }
 
 /// Strings keep their characters; those that steer a terminal are written as JSON's escapes.
-fn one_line(value: &Value) -> String {
+pub(super) fn one_line(value: &Value) -> String {
     let json = value.to_string();
     escape_json(&json).into_owned()
 }
