@@ -4,6 +4,7 @@
 //! or written, 70 a bug of ours.
 
 mod args;
+mod bounds;
 mod build;
 mod cache;
 mod check;
@@ -44,6 +45,7 @@ Examples:
   rtc scene.rts --explain-features   explain which features the kernel has, and which lines need them
   rtc explain E0301                  explain an error, with an example
   rtc show --resolved scene.rts      print every value, defaults included
+  rtc show --bounds scene.rts        print where everything is
   rtc inspect scene.pack             print what a pack contains; with --json for programs";
 
 /// Compile a text scene into a render pack.

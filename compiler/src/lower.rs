@@ -10,11 +10,13 @@
 )]
 
 pub mod albedo;
+mod bounds;
 mod camera;
 mod closed;
 mod extent;
 mod files;
 mod finish;
+mod fit;
 mod fresnel;
 mod geometry;
 mod grain;
@@ -22,6 +24,7 @@ mod hidden;
 mod inside;
 mod light;
 mod light_tree;
+mod listing;
 mod lowered;
 mod material;
 mod medium;
@@ -32,6 +35,7 @@ mod order;
 mod pieces;
 mod power;
 mod rows;
+mod seen;
 mod share;
 mod sheet;
 mod shutter;
@@ -61,7 +65,10 @@ use self::world::{Sections, World};
 use crate::normalize::Normalization;
 use crate::stage::Stages;
 
+pub use bounds::Bounds;
 pub use files::{Files, Meshes};
+pub use fit::framed;
+pub use listing::{Listed, Listing, listing};
 pub use lowered::{Counters, LowerError, Lowered, Reused, Times};
 pub use rows::{Kept, Rows};
 pub use share::{Instancing, MIN_SAVED, MIN_TRIANGLES, UnknownInstancing};
@@ -93,6 +100,8 @@ pub fn lower(
     let inside = medium::matters(scene, materials.records());
     closed::check(scene, (files, stages), inside, diagnostics)?;
     thick::check(scene, files.assets(), diagnostics);
+    let look = seen::Look { scene, bodies: &bodies, materials: &materials, stages };
+    seen::check(&look, diagnostics)?;
     let world = World { bodies: &bodies, materials: &materials, stages, trees, inside };
     let progress = world.begin()?;
     let frame = progress.frame();

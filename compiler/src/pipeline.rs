@@ -19,7 +19,7 @@ use pack::{PackError, PackWriter};
 use shaders::{FeatureSet, LayoutError, Linked, ShaderError};
 
 use crate::import::ImportError;
-use crate::lower::{self, LowerError, Lowered, Rows};
+use crate::lower::{self, Files as _, Listing, LowerError, Lowered, Rows};
 use crate::stage::{KeyOf, Share, Stages};
 use files::{Origin, SceneFiles};
 
@@ -129,6 +129,11 @@ pub fn compile_after(
         return Err(CompileError::Scene);
     };
     clock.phase("read files");
+    let framed = lower::framed(scene, found.assets(), diagnostics);
+    if scene.camera.fit.is_some() && framed.is_none() {
+        return Err(CompileError::Scene);
+    }
+    let scene = framed.as_ref().unwrap_or(scene);
     let lowered = lower::lower(scene, &found, &options.trees, stages, diagnostics)?;
     drop(found);
     if diagnostics.iter().any(Diagnostic::is_error) {
@@ -155,6 +160,23 @@ pub fn compile_after(
     let source = stages.pack().and_then(|pack| pack.witness());
     let phases = clock.phases;
     Ok(Compiled { lowered, features, kernel, manifest, recipe_id, files, source, reused, phases })
+}
+
+/// Where everything in a scene is. Faults in its files are added to `diagnostics`.
+///
+/// # Errors
+/// As those of `compile`.
+pub fn list(
+    (scene, sources): (&Scene, &SourceSet),
+    options: &Options<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<Listing, CompileError> {
+    let (session, stages) = (Session::once(), Stages::new());
+    let origin = Origin { scene, sources, options, session: &session, stages: &stages };
+    match SceneFiles::new(origin, diagnostics)? {
+        Some((found, _, _)) => Ok(lower::listing(scene, &found)?),
+        None => Err(CompileError::Scene),
+    }
 }
 
 /// Whether the kernel is valid and reads what the compiler writes; then its size.

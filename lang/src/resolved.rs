@@ -155,10 +155,11 @@ fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {
     block(out, &format!("render {}: path", render.name.text), &fields)
 }
 
-fn camera_fields(camera: &Camera) -> [(&'static str, String); 8] {
+fn camera_fields(camera: &Camera) -> Vec<(&'static str, String)> {
     let [open, close] = camera.shutter;
     let shutter = format!("{}..{}", units::show(open, Dim::TIME), units::show(close, Dim::TIME));
-    [
+    let fit = camera.fit.as_ref().map(|fit| ("fit", fit.instance.text.clone()));
+    let fields = [
         ("from", vector(camera.from, "m")),
         ("to", vector(camera.to, "m")),
         ("up", vector(camera.up, "")),
@@ -167,7 +168,8 @@ fn camera_fields(camera: &Camera) -> [(&'static str, String); 8] {
         ("aperture", length(2.0 * camera.lens_radius)),
         ("focus", length(camera.focus_distance)),
         ("shutter", shutter),
-    ]
+    ];
+    fit.into_iter().chain(fields).collect()
 }
 
 fn texture_name(scene: &Scene, texture: usize) -> &str {

@@ -3,6 +3,7 @@
 use clap::Args;
 
 use super::args::{ReportArgs, SCENE, SceneArgs, printed};
+use super::bounds::bounds;
 use super::compile::analyze;
 
 #[derive(Debug, Args)]
@@ -12,6 +13,9 @@ pub(super) struct ShowArgs {
     /// Print every value with its unit, defaults included, expressions evaluated.
     #[arg(long)]
     resolved: bool,
+    /// Print where everything is: bounds, triangles and parts of every asset and instance.
+    #[arg(long, conflicts_with = "resolved")]
+    bounds: bool,
     #[command(flatten)]
     report: ReportArgs,
 }
@@ -24,6 +28,10 @@ pub(super) fn show(args: &ShowArgs) -> u8 {
     };
     reporter.diagnostics(&analysis.sources, &analysis.diagnostics);
     let Some(scene) = &analysis.scene else { return SCENE };
+    if args.bounds {
+        let text = bounds(&args.scene, (&analysis, scene), &reporter);
+        return text.map_or_else(|code| code, |text| printed(&reporter, &text));
+    }
     let text = if args.resolved { lang::resolved(scene) } else { summary(scene) };
     printed(&reporter, &text)
 }
@@ -33,7 +41,7 @@ fn summary(scene: &lang::scene::Scene) -> String {
     let [width, height] = scene.film.size;
     let output = scene.render.output.as_deref().unwrap_or("named after the pack");
     format!(
-        "instances  {}\nmaterials  {}\ntextures   {}\nassets     {}\nlights     {}\nsky        {}\ncamera     {}\nfilm       {width} x {height} px\nsamples    {}\ndepth      {}\noutput     {output}\n\n`rtc show --resolved` prints every value.\n",
+        "instances  {}\nmaterials  {}\ntextures   {}\nassets     {}\nlights     {}\nsky        {}\ncamera     {}\nfilm       {width} x {height} px\nsamples    {}\ndepth      {}\noutput     {output}\n\n`rtc show --resolved` prints every value, `rtc show --bounds` where everything is.\n",
         scene.instances.len(),
         scene.materials.len(),
         scene.textures.len(),

@@ -45,7 +45,7 @@ pub(super) fn check(
 }
 
 /// The surface that the parts of a file form which a shape names.
-fn surface(
+pub(super) fn surface(
     asset: usize,
     part: Option<&str>,
     (files, stages): (&dyn Files, &Stages),

@@ -13,7 +13,7 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use pack::abi::{self, LightKind, MaterialKind, material_flag};
+use pack::abi::{self, LightKind, material_flag};
 use rayon::prelude::*;
 
 use super::material::MaterialTable;
@@ -67,7 +67,7 @@ pub(super) struct Scene<'a> {
 /// Of each light, whether it is hidden; empty where none is worth the name.
 pub(super) fn lights(scene: &Scene<'_>, sections: &Sections) -> Vec<bool> {
     let records = scene.materials.records();
-    let opaque: Vec<bool> = (0..).zip(records).map(|(i, m)| opaque(scene, i, m)).collect();
+    let opaque = scene.materials.opaque();
     let mut key = KeyOf::stage("visibility of lights");
     key.key(scene.world).bytes(bytemuck::bytes_of(scene.camera));
     for (material, opaque) in records.iter().zip(&opaque) {
@@ -94,16 +94,6 @@ pub(super) fn lights(scene: &Scene<'_>, sections: &Sections) -> Vec<bool> {
             scene.lights.iter().zip(&hidden).filter(|(_, h)| **h).map(|(l, _)| power(l)).sum();
         if lost > PAYS * all { hidden } else { Vec::new() }
     })
-}
-
-/// Whether material `i` stops light.
-fn opaque(scene: &Scene<'_>, i: u32, material: &abi::Material) -> bool {
-    let holes = material.flags & (material_flag::ALPHA_CLIP | material_flag::THROUGH) != 0;
-    let kind = MaterialKind::from_tag(material.kind);
-    // That principled materials may transmit is said by their flags.
-    let transmits =
-        kind.is_none_or(|kind| kind != MaterialKind::Principled && kind.traits().transmits);
-    !holes && !transmits && !scene.materials.looks(i).has_inside
 }
 
 /// Independent numbers: pcg4d of Jarzynski & Olano 2020, as in `sampler/pcg.wgsl`.

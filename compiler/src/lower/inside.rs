@@ -169,7 +169,7 @@ fn overlap(a: &str, b: &str, scene: &Scene) -> Diagnostic {
 
 /// Distance from `eye` along `UP` to a triangle, in lengths of `UP`.
 /// Moller & Trumbore 1997, in `f64`.
-fn hit_triangle([a, b, c]: &[DVec3; 3], eye: DVec3) -> Option<f64> {
+pub(super) fn hit_triangle([a, b, c]: &[DVec3; 3], eye: DVec3) -> Option<f64> {
     let (edge1, edge2) = (*b - *a, *c - *a);
     let p = UP.cross(edge2);
     let det = edge1.dot(p);

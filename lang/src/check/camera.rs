@@ -5,13 +5,16 @@ use super::fields::Fields;
 use super::light::unit;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
-use crate::scene::{Camera, Film, Name, ToneMap};
+use crate::scene::{Camera, Film, Fit, Name, Side, ToneMap};
 use crate::schema;
 use crate::schema::camera::CameraType;
 use crate::units::{self, Dim};
 
 /// Focal length when nothing is said, metres.
 const DEFAULT_LENS: f64 = 0.05;
+
+/// From where a camera looks at what it frames when nothing is said: the front, the right and above.
+const FRONT: [f64; 3] = [0.6, 0.45, 1.0];
 
 /// Sine of the smallest angle between view and up, where the image would still be upright.
 const MIN_UP_SINE: f64 = 1e-6;
@@ -98,10 +101,38 @@ pub(super) fn default_film(span: crate::source::Span) -> Film {
     film(name, &fields).expect("every field of a film has a default")
 }
 
-/// Builds the camera. `None` only for fields with faults.
-pub(super) fn camera(name: Name, fields: &Fields, film: &Film) -> Option<Camera> {
+/// How the camera frames an instance.
+fn fit(instance: Name, fields: &Fields) -> Fit {
+    let side = match (fields.has("from"), fields.has("to")) {
+        (true, false) => Side::From,
+        _ => Side::Along,
+    };
+    Fit { instance, side, has_focus: fields.has("focus") }
+}
+
+/// Where the camera is; for one that frames something where it looks from.
+fn place(fields: &Fields, fit: Option<&Fit>) -> Option<[[f64; 3]; 2]> {
+    match (fields.vector("from"), fields.vector("to"), fit) {
+        (Some(from), Some(to), _) => Some([from, to]),
+        (Some(from), None, Some(_)) => {
+            let [x, y, z] = from;
+            Some([from, [x - FRONT[0], y - FRONT[1], z - FRONT[2]]])
+        }
+        (None, _, Some(_)) => Some([FRONT, [0.0; 3]]),
+        _ => None,
+    }
+}
+
+/// Builds the camera; `framed`: the instance that it names. `None` only for fields with faults.
+pub(super) fn camera(
+    name: Name,
+    framed: Option<Name>,
+    fields: &Fields,
+    film: &Film,
+) -> Option<Camera> {
     let CameraType::Perspective = CameraType::of(fields.schema);
-    let (from, to) = (fields.vector::<3>("from")?, fields.vector::<3>("to")?);
+    let fit = framed.map(|instance| fit(instance, fields));
+    let [from, to] = place(fields, fit.as_ref())?;
     let aspect = f64::from(film.size[1]) / f64::from(film.size[0]);
     let sensor = fields.number("sensor.width")?;
     let (across, up) = match (fields.number("fov.horizontal"), fields.number("fov.vertical")) {
@@ -125,6 +156,7 @@ pub(super) fn camera(name: Name, fields: &Fields, film: &Film) -> Option<Camera>
     };
     Some(Camera {
         name,
+        fit,
         from,
         to,
         up: fields.vector("up")?,

@@ -92,7 +92,10 @@ impl Fields {
             None => true,
             Some(written) => matches!(written.value, Value::Default),
         };
-        self.schema.fields.iter().filter(|field| field.is_required()).filter(absent).collect()
+        // A camera that frames something finds its place itself.
+        let found = |field: &&Field| self.has("fit") && ["from", "to"].contains(&field.name);
+        let required = self.schema.fields.iter().filter(|field| field.is_required());
+        required.filter(absent).filter(|field| !found(field)).collect()
     }
 
     /// Is the field written, with something else than `none` or `default`?

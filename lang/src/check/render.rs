@@ -38,7 +38,9 @@ impl Checker {
             Choice::Fault => return None,
         };
         let Choice::Item(camera) = camera else { return None };
-        let camera = camera::camera(name(ev, camera), self.sound(camera)?, &film)?;
+        let fields_of_camera = self.sound(camera)?;
+        let framed = framed(ev, fields_of_camera);
+        let camera = camera::camera(name(ev, camera), framed, fields_of_camera, &film)?;
         camera::check_built(ev, &camera);
         let sky = match sky {
             Choice::Item(sky) => Some(sky::read(name(ev, sky), self.sound(sky)?)?),
@@ -57,9 +59,12 @@ impl Checker {
             sampler: Sampler::of(fields.word("sampler")?)?,
             output: fields.text("output"),
         };
-        if let Some(fields) = atmosphere.and_then(|id| self.sound(id)) {
+        if let Some(fields) =
+            atmosphere.and_then(|id| self.sound(id)).filter(|_| camera.fit.is_none())
+        {
             medium::warn_of_blindness(ev, fields, &camera, &render);
         }
+        warn_of_samples(ev, fields, &render);
         Some(View { camera, film, sky, render, atmosphere })
     }
 
@@ -67,6 +72,34 @@ impl Checker {
     pub(super) fn sound(&self, id: ItemId) -> Option<&Fields> {
         self.fields.get(&id).filter(|fields| fields.ok)
     }
+}
+
+/// The instance that a camera frames, and where it says so.
+fn framed(ev: &Evaluator<'_>, camera: &Fields) -> Option<Name> {
+    let (id, span) = (camera.item("fit")?, camera.value_span("fit")?);
+    Some(Name { text: ev.program.full_name(id), span })
+}
+
+/// Sobol's points are evenly spread in aligned sets whose sizes are powers of two; sets of this size are rendered
+/// together.
+const SET: u32 = 16;
+
+/// Warns where the last of those sets is not complete.
+fn warn_of_samples(ev: &mut Evaluator<'_>, fields: &Fields, render: &Render) {
+    let samples = render.samples;
+    let even = samples.is_multiple_of(SET) || samples.is_power_of_two();
+    let Some(span) = fields.value_span("samples").filter(|_| !even) else { return };
+    if render.sampler != Sampler::Sobol {
+        return;
+    }
+    let better =
+        if samples < SET { samples.next_power_of_two() } else { samples.next_multiple_of(SET) };
+    let text = format!("{samples} samples break up the last set of `sobol` points");
+    let warning = Diagnostic::warning(Code("W0715"), "uneven_samples", text)
+        .at(span, format!("neither a power of two nor a multiple of {SET}"))
+        .with_note("points are evenly spread within complete sets; a part of one gains little")
+        .with_help(format!("write `samples = {better}`"));
+    ev.tell(warning);
 }
 
 /// Which declaration `render` takes.

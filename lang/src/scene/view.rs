@@ -8,6 +8,9 @@ use crate::schema::words;
 pub struct Camera {
     /// Declared name.
     pub name: Name,
+    /// What it is to frame; then `from`, `to` and, where it is not declared, `focus_distance` follow from where that
+    /// is.
+    pub fit: Option<Fit>,
     /// Eye, metres.
     pub from: [f64; 3],
     /// Point in the middle of the image, metres.
@@ -24,6 +27,35 @@ pub struct Camera {
     pub focus_distance: f64,
     /// Shutter opens and closes, seconds relative to the frame.
     pub shutter: [f64; 2],
+}
+
+/// What a camera frames.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fit {
+    /// The instance, as scenes name it without an index, and where the camera says so.
+    pub instance: Name,
+    /// From which side it is seen.
+    pub side: Side,
+    /// The camera says how far away things are sharp.
+    pub has_focus: bool,
+}
+
+/// From which side a camera sees what it frames.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// It looks along the way from `Camera::from` to `Camera::to`.
+    Along,
+    /// It looks from `Camera::from` to the middle of what it frames.
+    From,
+}
+
+impl Fit {
+    /// Whether an instance of this name is what is framed, or a part of it: `a[3]` and `a.lid` are of `a`.
+    #[must_use]
+    pub fn frames(&self, instance: &str) -> bool {
+        let rest = instance.strip_prefix(self.instance.text.as_str());
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['[', '.']))
+    }
 }
 
 /// What the picture is written to.

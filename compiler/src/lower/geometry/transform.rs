@@ -32,13 +32,13 @@ impl Transform {
     }
 
     /// All of it, for keys.
-    pub(super) fn numbers(&self) -> [f64; 12] {
+    pub(in crate::lower) fn numbers(&self) -> [f64; 12] {
         let [x, y, z] = self.linear.to_cols_array_2d();
         let rows = [x, y, z, self.translation.to_array()];
         std::array::from_fn(|i| rows[i / 3][i % 3])
     }
 
-    pub(super) fn point(&self, p: DVec3) -> DVec3 {
+    pub(in crate::lower) fn point(&self, p: DVec3) -> DVec3 {
         self.linear * p + self.translation
     }
 

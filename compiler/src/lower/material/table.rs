@@ -90,6 +90,19 @@ impl<'a> MaterialTable<'a> {
         }
     }
 
+    /// Of each material, whether it stops light.
+    pub(in crate::lower) fn opaque(&self) -> Vec<bool> {
+        let stops = |material: &abi::Material| {
+            let holes = material.flags & (material_flag::ALPHA_CLIP | material_flag::THROUGH) != 0;
+            let kind = MaterialKind::from_tag(material.kind);
+            // That principled materials may transmit is said by their flags.
+            let transmits =
+                kind.is_none_or(|kind| kind != MaterialKind::Principled && kind.traits().transmits);
+            !holes && !transmits && !has_inside(material)
+        };
+        self.records.iter().map(stops).collect()
+    }
+
     /// The index of a material, if it is known.
     pub(super) fn position(&self, of: MaterialRef) -> Option<u32> {
         self.refs.iter().position(|known| *known == of).map(|index| index as u32)
