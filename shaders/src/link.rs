@@ -9,8 +9,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::sync::LazyLock;
 
-/// Name of the entry point.
+/// Name of the entry point of a scene's kernel.
 const ENTRY: &str = "render";
+
+/// Module and name of the entry point of AOVs.
+const AOV: (&str, &str) = ("kernel/aov.wgsl", "aov");
 
 /// One kernel.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -73,37 +76,52 @@ type Ready<'t> = BTreeMap<&'t str, Parts<'t>>;
 
 /// The kernel for `features`.
 pub fn link(features: &FeatureSet) -> Result<Linked, ShaderError> {
+    link_roots(features, &[(generate::root_module(features), ENTRY)])
+}
+
+/// The same with the entry point of AOVs beside `render`, for `features` with geometry.
+pub fn link_with_aov(features: &FeatureSet) -> Result<Linked, ShaderError> {
+    link_roots(features, &[(generate::root_module(features), ENTRY), AOV])
+}
+
+fn link_roots(features: &FeatureSet, roots: &[Root<'_>]) -> Result<Linked, ShaderError> {
     let generated = generate::generated_texts(features)?;
     let written = modules::module_texts().iter().copied();
     let all: Vec<(&str, &str)> =
         written.chain(generated.iter().map(|(name, text)| (*name, text.as_str()))).collect();
-    link_ready(&all, &FILES, generate::root_module(features))
+    link_ready(&all, &FILES, roots)
 }
 
 /// The kernel that begins in module `root` of `modules`, each a name and a text: what [`link`] does, for
 /// any set of modules.
 pub fn link_modules(modules: &[(&str, &str)], root: &str) -> Result<Linked, ShaderError> {
-    link_ready(modules, &Ready::new(), root)
+    link_ready(modules, &Ready::new(), &[(root, ENTRY)])
 }
+
+/// A module and the entry point in it.
+type Root<'r> = (&'r str, &'r str);
 
 /// `ready`: some of the modules.
 fn link_ready<'t>(
     modules: &[(&'t str, &'t str)],
     ready: &'t Ready<'t>,
-    root: &str,
+    roots: &[Root<'_>],
 ) -> Result<Linked, ShaderError> {
     let texts: BTreeMap<&str, &str> = modules.iter().copied().collect();
     let (open, done) = (Vec::new(), BTreeSet::new());
     let mut walk = Walk { texts, ready, open, done, modules: Vec::new() };
-    let unknown = || ShaderError::NoEntry { file: root.to_owned() };
-    let (name, text) = walk.texts.get_key_value(root).ok_or_else(unknown)?;
-    walk.visit(name, text)?;
+    let unknown = |root: &str| ShaderError::NoEntry { file: root.to_owned() };
+    for (root, _) in roots {
+        let (name, text) = walk.texts.get_key_value(root).ok_or_else(|| unknown(root))?;
+        if !walk.done.contains(name) {
+            walk.visit(name, text)?;
+        }
+    }
     let modules = walk.modules;
     let names = declared(&modules)?;
-    if !names.contains_key(ENTRY) {
-        return Err(unknown());
-    }
-    Ok(paste(&modules, &reached(&modules, &names)))
+    let entry = |(root, entry): &Root<'_>| names.get(entry).copied().ok_or_else(|| unknown(root));
+    let entries = roots.iter().map(entry).collect::<Result<_, _>>()?;
+    Ok(paste(&modules, &reached(&modules, &names, entries)))
 }
 
 /// A module of the kernel; imported modules come before those that import them.
@@ -172,13 +190,13 @@ fn declared<'m>(
     Ok(names)
 }
 
-/// The declarations that the entry point needs, itself included.
+/// The declarations that the entry points need, themselves included.
 fn reached(
     modules: &[Module<'_>],
     names: &BTreeMap<&str, (usize, usize)>,
+    mut open: Vec<(usize, usize)>,
 ) -> BTreeSet<(usize, usize)> {
     let mut found = BTreeSet::new();
-    let mut open = vec![names[ENTRY]];
     while let Some((m, d)) = open.pop() {
         if found.insert((m, d)) {
             let words = &modules[m].parts.declarations[d].words;

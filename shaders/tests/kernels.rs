@@ -13,7 +13,7 @@ use common::feature_sets;
 use forms::rewrites;
 use naga::valid::ModuleInfo;
 use naga::{Expression, Function, Handle, MathFunction, Module, Statement};
-use shaders::{FeatureSet, check_layouts, link, validate};
+use shaders::{FeatureSet, check_layouts, link, link_with_aov, validate};
 use std::collections::BTreeSet;
 
 fn kernel(name: &str, features: &FeatureSet) -> (Module, ModuleInfo) {
@@ -40,6 +40,23 @@ fn every_single_feature_and_every_pair_is_sound() {
             .collect()
     });
     assert!(forms.is_empty(), "forms that drivers rewrite: {forms:#?}");
+}
+
+/// CPUs run the full kernel with its AOVs. The picture's part of it is the full kernel to the byte.
+#[test]
+fn aovs_are_sound_and_leave_the_picture_alone() {
+    let full = FeatureSet::full();
+    let linked = link_with_aov(&full).expect("links");
+    let (module, info) = validate(&linked).unwrap_or_else(|e| panic!("{e}"));
+    let entries: Vec<&str> = module.entry_points.iter().map(|entry| entry.name.as_str()).collect();
+    assert!(entries.contains(&"render") && entries.contains(&"aov"), "{entries:?}");
+    check_layouts(&module).unwrap_or_else(|e| panic!("{e}"));
+    check_arithmetic("aov", &module);
+    let forms = rewrites(&module, &info);
+    assert!(forms.is_empty(), "forms that drivers rewrite: {forms:#?}");
+    let picture = link(&full).expect("links").text;
+    let lines: BTreeSet<&str> = linked.text.lines().collect();
+    assert!(picture.lines().all(|line| lines.contains(line)));
 }
 
 /// Function and form of what drivers may compute in another order; everything else is asserted.
@@ -210,6 +227,9 @@ fn every_declaration_of_every_module_is_in_some_kernel() {
         missing.extend(declared_functions(text).map(|function| (*file, function)));
     }
     let lens = FeatureSet { lens: true, ..FeatureSet::empty() };
+    let with_aov = link_with_aov(&FeatureSet::full()).expect("links").text;
+    let present: BTreeSet<&str> = declared_functions(&with_aov).collect();
+    missing.retain(|(_, function)| !present.contains(function));
     // The full one has most of them.
     let first = [&FeatureSet::full(), &lens];
     for features in first.into_iter().chain(feature_sets().iter().map(|(_, features)| features)) {

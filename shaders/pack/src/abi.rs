@@ -8,6 +8,7 @@
 //! It does not know naga, wgpu, files or the language.
 
 mod albedo;
+mod aov;
 mod camera;
 mod field;
 mod film;
@@ -25,6 +26,7 @@ mod tag;
 mod texture;
 
 pub use albedo::{AlbedoTable, albedo_tables, albedo_words};
+pub use aov::AovSample;
 pub use camera::Camera;
 pub use field::{AbiRecord, Field, FieldType, Record};
 pub use film::FilmPixel;
@@ -76,5 +78,6 @@ pub fn records() -> Vec<Record> {
         Record::of::<LightNode>(),
         Record::of::<Texture>(),
         Record::of::<FilmPixel>(),
+        Record::of::<AovSample>(),
     ]
 }

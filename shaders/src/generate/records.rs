@@ -53,13 +53,15 @@ const TABLES: &[Table] = &[
     heap("Texture", "texture", "abi/texture.wgsl", "texture_at"),
 ];
 
-/// Where the record that the kernel writes is; the others are in [`TABLES`].
-const FILM: (&str, &str) = ("FilmPixel", "abi/film.wgsl");
+/// Records that the kernel writes: name, beginning of the function's name, module; the others are in [`TABLES`].
+const WRITTEN: [(&str, &str, &str); 2] =
+    [("FilmPixel", "film", "abi/film.wgsl"), ("AovSample", "aov", "abi/aov.wgsl")];
 
 /// The module of each struct, and its text; the same for every scene. A record that has no table is an error of
 /// the test that parses them all.
 pub(crate) fn structs() -> Vec<(&'static str, String)> {
-    let modules = TABLES.iter().map(|table| (table.record, table.module)).chain([FILM]);
+    let written = WRITTEN.map(|(record, _, module)| (record, module));
+    let modules = TABLES.iter().map(|table| (table.record, table.module)).chain(written);
     modules
         .filter_map(|(name, module)| {
             let record = abi::records().into_iter().find(|record| record.name == name)?;
@@ -89,13 +91,14 @@ pub(crate) fn text() -> String {
     let mut text =
         String::from("// Generated: loaders of the records, from their field tables.\n\n");
     let mut modules: Vec<&str> = TABLES.iter().map(|table| table.module).collect();
-    modules.extend([FILM.1, "scene/bindings.wgsl"]);
+    modules.extend(WRITTEN.map(|(_, _, module)| module));
+    modules.push("scene/bindings.wgsl");
     text += &super::wgsl::imports(modules);
     for Record { name, fields, size, .. } in abi::records() {
         if let Some(table) = TABLES.iter().find(|table| table.record == name) {
             text += &loaders(table, fields, size / 16);
-        } else if name == FILM.0 {
-            text += &film_store(fields, size / 16);
+        } else if let Some((_, stem, _)) = WRITTEN.iter().find(|written| written.0 == name) {
+            text += &store(name, stem, fields, size / 16);
         }
     }
     text
@@ -146,9 +149,9 @@ fn decode(field: &Field, word: &str) -> String {
     }
 }
 
-/// `film_store(i, pixel)`: the only write of the kernel.
-fn film_store(fields: &[Field], n_words: usize) -> String {
-    let mut text = String::from("\nfn film_store(i: u32, pixel: FilmPixel) {\n");
+/// `film_store(i, pixel)` and `aov_store(i, pixel)`: each the only write of its kernel.
+fn store(record: &str, stem: &str, fields: &[Field], n_words: usize) -> String {
+    let mut text = format!("\nfn {stem}_store(i: u32, pixel: {record}) {{\n");
     for w in 0..n_words {
         let lanes: Vec<String> =
             fields.iter().filter(|field| field.offset / 16 == w).map(encode).collect();
