@@ -302,8 +302,12 @@ fn material_kind(found: u32) -> Option<ElementFault> {
     (!known.contains(&found)).then_some(ElementFault::OneOf { found, known })
 }
 
-/// Kinds that refract need a real refractive index, kinds with bumps a step.
-fn material(record: &Material, _: &Contents<'_>) -> Option<Broken> {
+/// Kinds that refract need a real refractive index, kinds with bumps a step, and what asks about objects their table.
+fn material(record: &Material, pack: &Contents<'_>) -> Option<Broken> {
+    let shown = !pack.triangles.is_empty() || !pack.spheres.is_empty();
+    if record.flags & material_flag::OBJECT != 0 && shown && pack.objects.is_empty() {
+        return index(0, (Kind::OBJECT, 0)).map(|fault| ("flags", fault));
+    }
     let traits = MaterialKind::from_tag(record.kind)?.traits();
     if traits.pattern {
         // The height of the bumps is divided by it.
