@@ -13,6 +13,7 @@ mod check;
 mod console;
 mod exit;
 mod guard;
+mod layers;
 mod measure;
 mod open;
 mod outputs;

@@ -7,18 +7,19 @@ use crate::job::{Job, Precision};
 use crate::kernel;
 use crate::kernel::walk::{Companion, Tree};
 use crate::run::Run;
+use crate::schedule::WorkItem;
 use crate::setup::Setup;
 use crate::signals::Event;
 use glam::{UVec3, UVec4};
 #[cfg(target_arch = "x86_64")]
 use kernel_wide::render::{self as wide, Tile};
 use pack::Kind;
-use pack::abi::{FilmPixel, Frame};
+use pack::abi::{AovSample, FilmPixel, Frame};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use thiserror::Error;
 #[cfg(feature = "gpu")]
-use {crate::region::Rect, crate::schedule::WorkItem, rayon::prelude::*};
+use {crate::region::Rect, rayon::prelude::*};
 
 /// Pixels of a block: 32 × 32.
 const BLOCK: u64 = 32 * 32;
@@ -157,11 +158,7 @@ fn render_with(
     job: &Job,
     run: &Run<'_>,
 ) -> Result<(), CpuError> {
-    check_stack(setup)?;
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(job.threads.unwrap_or(0))
-        .thread_name(|i| format!("rtr-{i}"))
-        .build()?;
+    let pool = pool(setup, job)?;
     // A first block each shows something before the tree is made, which takes all threads a moment, and may be all.
     let rendered = pool.broadcast(|_| next_block(tile, setup, run, &mut Vec::new()));
     if rendered.into_iter().all(|rendered| rendered) {
@@ -169,6 +166,27 @@ fn render_with(
         pool.broadcast(|_| worker(tile, setup, run));
     }
     Ok(())
+}
+
+/// The threads of the job, for a scene that the kernel can render.
+pub(crate) fn pool(setup: &Setup<'_>, job: &Job) -> Result<rayon::ThreadPool, CpuError> {
+    check_stack(setup)?;
+    Ok(rayon::ThreadPoolBuilder::new()
+        .num_threads(job.threads.unwrap_or(0))
+        .thread_name(|i| format!("rtr-{i}"))
+        .build()?)
+}
+
+/// What each sample of the item shows beside radiance, pixel by pixel, in single precision.
+pub(crate) fn aovs(setup: &Setup<'_>, item: &WorkItem) -> Vec<AovSample> {
+    let n = usize::try_from(item.cost()).expect("an item is small");
+    let mut samples = vec![AovSample::default(); n];
+    let frame = setup.frame(item);
+    let inputs = Inputs::new(setup, &frame);
+    let mut kernel = bound!(f32, inputs, bytemuck::cast_slice_mut(&mut samples));
+    kernel.companion = Companion::new(inputs.tree);
+    each_pixel([item.tile.w, item.tile.h], &|| false, |pixel| kernel.aov(pixel));
+    samples
 }
 
 pub(crate) fn check_stack(setup: &Setup<'_>) -> Result<(), CpuError> {

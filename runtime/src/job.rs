@@ -1,6 +1,7 @@
 //! What to render, in one value: size, crop, samples, seed, limits.
 
 use crate::convergence::Measure;
+use crate::layers::Wanted;
 use crate::region::{Rect, SampleRange};
 use crate::replicate::REPLICATES_U32;
 use crate::scene::Scene;
@@ -86,6 +87,8 @@ pub struct Job {
     /// Whether the error is measured: then the picture is the mean of `convergence::REPLICATES`
     /// pictures, and `samples` are those of each.
     pub measure: Option<Measure>,
+    /// What the picture holds beside radiance.
+    pub wanted: Wanted,
 }
 
 /// A job that cannot be run.
@@ -139,6 +142,7 @@ impl Job {
             submission: Duration::from_millis(100),
             timestamps: true,
             measure: None,
+            wanted: Wanted::default(),
         }
     }
 

@@ -27,10 +27,12 @@ mod control;
 pub mod convergence;
 mod cpu;
 mod film;
+mod gather;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 mod job;
 pub mod kernel;
+pub mod layers;
 mod left_out;
 mod mark;
 mod memory;

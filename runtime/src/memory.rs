@@ -40,7 +40,7 @@ pub fn film_bytes(job: &Job, saved: bool) -> u64 {
         (false, true) => 2 * KEPT + BATCH,
         (false, false) => KEPT + BATCH,
     };
-    job.crop.pixels() * pixel
+    job.crop.pixels() * (pixel + job.wanted.bytes())
 }
 
 /// Bytes of a pixel while it is written, at most: means, planes of an EXR with residuals, and the file.
@@ -118,6 +118,7 @@ mod tests {
             submission: Duration::from_millis(100),
             timestamps: true,
             measure,
+            wanted: crate::layers::Wanted::default(),
         }
     }
 

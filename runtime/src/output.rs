@@ -6,6 +6,7 @@
 mod exr;
 mod merge;
 mod picture;
+mod planes;
 mod png;
 
 pub(crate) use self::exr::parse_bad;
@@ -14,7 +15,7 @@ pub use self::merge::{Identity, MergeError, merge};
 pub use self::picture::{Meta, OutputError, Picture};
 pub(crate) use self::picture::{parse_ranges, ranges_text};
 pub(crate) use self::png::encode_rgb;
-pub use self::png::{encode_png, tone_map};
+pub use self::png::{encode_png, encode_png16, tone_map};
 
 use std::path::Path;
 
@@ -25,6 +26,8 @@ pub enum Format {
     Exr,
     /// Eight bits, tone-mapped.
     Png,
+    /// A PNG of sixteen bits, tone-mapped.
+    Png16,
 }
 
 impl Format {
@@ -51,5 +54,6 @@ pub fn encode(format: Format, picture: &Picture, residual: bool) -> Result<Vec<u
     match format {
         Format::Exr => encode_exr(picture, residual),
         Format::Png => encode_png(picture),
+        Format::Png16 => encode_png16(picture),
     }
 }

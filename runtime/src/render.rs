@@ -2,6 +2,7 @@
 
 use crate::control::Control;
 use crate::cpu;
+use crate::gather::{GatherError, gather};
 use crate::job::{Job, JobError};
 use crate::memory::{self, TooLarge};
 use crate::outcome::Outcome;
@@ -10,6 +11,7 @@ use crate::preview::Previewer;
 use crate::run::{Framing, Run, Shared};
 use crate::saver::{Saver, Session};
 use crate::scene::Scene;
+use crate::schedule::Stop;
 use crate::signals::Signals;
 use crate::zeros::NoMemory;
 use std::sync::Arc;
@@ -123,7 +125,33 @@ pub fn render_session(
         (finished, error)
     });
     let finished = finished.ok_or(RenderError::Salvaged)?;
-    Ok(run.shared().outcome(finished, device_error, control.signals()))
+    let mut outcome = run.shared().outcome(finished, device_error, control.signals());
+    if !job.wanted.is_empty() {
+        add_layers(scene, job, &mut outcome, control);
+    }
+    Ok(outcome)
+}
+
+/// Gives a picture that has come to its end its layers. One that was interrupted has none, and is not transparent: it is
+/// there to be gone on with.
+fn add_layers(scene: &Scene, job: &Job, outcome: &mut Outcome, control: &Control) {
+    let signals = control.signals();
+    let ended = matches!(outcome.stop, Stop::Complete | Stop::TimeLimit | Stop::ErrorReached);
+    if !ended || outcome.device_error.is_some() || outcome.film().samples().1 == 0 {
+        signals.note("warning: the picture is not finished: it has no layers");
+        return;
+    }
+    signals.note(&format!("layers: {} ({})", job.wanted.text(), cpu::name(job)));
+    match gather(scene, job, &mut outcome.picture.film, signals) {
+        Ok(layers) => outcome.picture.layers = Some(layers),
+        Err(GatherError::Cancelled) => {
+            signals.note("warning: interrupted while layers were made: the picture has none");
+            outcome.stop = Stop::Cancelled;
+        }
+        Err(error @ (GatherError::Cpu(_) | GatherError::Bug(_))) => {
+            outcome.device_error = Some(format!("the picture has no layers: {error}"));
+        }
+    }
 }
 
 /// Starts the threads that save what is rendered and show it.

@@ -77,6 +77,48 @@ fn parts_made_by_two_runs_merge_to_one_picture() {
 }
 
 #[test]
+fn layers_go_through_files_and_merging() {
+    let folder = folder();
+    let run = |args: &[&str]| {
+        let output = rtr(folder.path(), args);
+        assert_eq!(output.status.code(), Some(0), "{args:?} {}", text(&output.stderr));
+        text(&output.stderr)
+    };
+    let layers = ["--layers", "albedo,normal,depth,crypto,alpha", "--layer-names", "plain"];
+    let with = |args: &[&'static str]| [&["marbles.pack"], args, &layers].concat();
+    let log = run(&with(&["-o", "whole.exr", "-o", "whole.png", "--transparent"]));
+    assert!(log.contains("layers: albedo,normal,depth,crypto,alpha (CPU kernel"), "{log}");
+    run(&with(&["-o", "a.exr", "--transparent", "--samples", "0..16"]));
+    run(&with(&["-o", "b.exr", "--transparent", "--samples", "16..32"]));
+    run(&["merge", "a.exr", "b.exr", "-o", "merged.png"]);
+    let read = |name: &str| std::fs::read(folder.path().join(name)).expect("it is there");
+    assert_eq!(read("merged.png"), read("whole.png"));
+    let picture = runtime::output::read_exr(&folder.path().join("whole.exr")).expect("an EXR");
+    let layers = picture.layers.expect("it has layers");
+    assert_eq!((layers.samples, layers.nearest.len()), (32, 72 * 40));
+}
+
+#[test]
+fn layers_that_cannot_be_are_refused_in_a_line() {
+    let folder = folder();
+    for (args, expected) in [
+        (["--layers", "depht", "-o", "a.exr"], "a similar value exists: 'depth'"),
+        (["--layers", "depht", "-o", "a.exr"], "[possible values: albedo, normal, depth, "),
+        (
+            ["--layers", "variance", "-o", "a.exr"],
+            "error: the layer `variance` is there only where",
+        ),
+        (["--layers", "depth", "-o", "a.png"], "error: a PNG has no layer `depth`: write an EXR"),
+    ] {
+        let output = rtr(folder.path(), &[&["marbles.pack"], args.as_slice()].concat());
+        assert_eq!(output.status.code(), Some(2), "{args:?}");
+        let log = text(&output.stderr);
+        assert!(log.contains(expected), "{log}");
+    }
+    assert_eq!(files(folder.path()), ["marbles.pack"]);
+}
+
+#[test]
 fn what_is_wrong_is_said_in_one_line_with_an_exit_code() {
     let folder = folder();
     std::fs::write(folder.path().join("scene.rts"), "rts 1\n").expect("it can be written");

@@ -85,6 +85,25 @@ fn a_killed_run_goes_on_to_the_same_picture() {
     assert_eq!(at("a.png"), at("whole.png"));
 }
 
+/// Checkpoints do not hold layers: whoever goes on makes them of all samples, and may ask for other ones.
+#[test]
+fn a_killed_run_goes_on_to_the_same_layers() {
+    let folder = folder();
+    let layers = ["--layers", "albedo,depth,crypto", "--transparent"];
+    let whole = [&["--spp", SPP, "-o", "whole.exr"], layers.as_slice()].concat();
+    let (code, log) = rtr(folder.path(), &whole);
+    assert_eq!(code, Some(0), "{log}");
+    killed(folder.path(), &["--spp", SPP]);
+    let resumed = [&["--spp", SPP, "-o", "a.exr", "--resume"], layers.as_slice()].concat();
+    let (code, log) = rtr(folder.path(), &resumed);
+    assert_eq!(code, Some(0), "{log}");
+    assert!(log.contains("resuming from a.exr.checkpoint: "), "{log}");
+    let read = |name: &str| read_exr(&folder.path().join(name)).expect("a picture");
+    let (resumed, whole) = (read("a.exr"), read("whole.exr"));
+    assert_same(&resumed.film, &whole.film);
+    assert!(whole.layers.is_some() && resumed.layers == whole.layers);
+}
+
 #[test]
 fn a_checkpoint_of_another_run_is_refused_in_one_line() {
     let folder = folder();

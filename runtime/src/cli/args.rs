@@ -1,5 +1,6 @@
 //! Arguments as clap reads them, and the parsers of their values.
 
+use super::layers::LayerArgs;
 use crate::convergence::Goal;
 use crate::output::Format;
 use crate::region::{Rect, SampleRange};
@@ -25,6 +26,8 @@ Examples:
   rtr scene.pack --until-error p95:0.05 --time 5m      until 95 % of the pixels are within 5 %
   rtr scene.pack --report error.csv --reference ref.exr   error against a converged picture
   rtr bench old.pack new.pack --time 30s  compare their errors at equal time
+  rtr scene.pack --layers albedo,normal,depth,crypto   layers for denoising and compositing
+  rtr scene.pack --transparent -o a.png   no sky behind it: a PNG with alpha
   rtr scene.pack --watch --time 10s       render again whenever the pack changes
   rtr view scene.pack                     look around in a browser while it renders
   rtr check scene.pack                    is single precision enough?
@@ -82,7 +85,8 @@ pub(super) struct MergeArgs {
     /// Output file, .exr or .png; may be given several times; `-` is standard output.
     #[arg(short, long, required = true, value_name = "FILE")]
     pub(super) output: Vec<PathBuf>,
-    /// Format of outputs without a known extension [default: png for standard output, pipes and devices].
+    /// Format of outputs without a known extension; png16 also makes every PNG one of 16 bits [default: png for
+    /// standard output, pipes and devices].
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub(super) format: Option<Format>,
     /// Print errors only.
@@ -301,7 +305,8 @@ pub(super) struct RenderArgs {
     /// name in the working folder, as .exr and .png].
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Vec<PathBuf>,
-    /// Format of outputs without a known extension [default: png for standard output, pipes and devices].
+    /// Format of outputs without a known extension; png16 also makes every PNG one of 16 bits [default: png for
+    /// standard output, pipes and devices].
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub(super) format: Option<Format>,
     /// Use the file name given by the scene even if that replaces a file.
@@ -385,6 +390,8 @@ pub(super) struct RenderArgs {
     pub(super) precision: PrecisionArg,
     #[command(flatten)]
     pub(super) error: ErrorArgs,
+    #[command(flatten)]
+    pub(super) layers: LayerArgs,
 }
 
 /// How far a run is, said to whom.

@@ -72,14 +72,16 @@ pub(super) fn save(console: &Console, path: &Path, bytes: &[u8]) -> Result<(), E
 pub(super) fn room(format: Format, job: &Job, residual: bool) -> u64 {
     let pixel = match format {
         Format::Png => 3,
+        Format::Png16 => 6,
         Format::Exr => 12 * (1 + u64::from(residual)),
     };
     job.crop.pixels() * pixel
 }
 
-/// The format of an output: `wanted`, else what the name says, else for a stream, whose name says nothing, PNG.
+/// The format of an output: what the name says, in sixteen bits if that is `wanted`; else `wanted`, else for a stream, whose name says nothing, PNG.
 pub(super) fn format(path: &Path, wanted: Option<Format>) -> Result<Format, String> {
     match (Format::of(path), wanted) {
+        (Ok(Format::Png), Some(Format::Png16)) => Ok(Format::Png16),
         (Ok(format), _) | (Err(_), Some(format)) => Ok(format),
         (Err(_), None) if files::is_stream(path) => Ok(Format::Png),
         (Err(error), None) => Err(error.to_string()),
@@ -169,6 +171,8 @@ mod tests {
         assert_eq!(format(path, None), Ok(Format::Png));
         assert_eq!(format(path, Some(Format::Exr)), Ok(Format::Exr));
         assert_eq!(format(Path::new("a.exr"), Some(Format::Png)), Ok(Format::Exr));
+        assert_eq!(format(Path::new("a.png"), Some(Format::Png16)), Ok(Format::Png16));
+        assert_eq!(format(Path::new("a.exr"), Some(Format::Png16)), Ok(Format::Exr));
         assert!(format(Path::new("a.tiff"), None).is_err());
     }
 }

@@ -5,6 +5,7 @@ use super::change::Change;
 use super::console::{Console, Watched, quit, reset_interrupts};
 use super::exit::Exit;
 use super::guard::{Guard, ThreadError};
+use super::layers;
 use super::measure;
 use super::open::{How, is_stdin, open};
 use super::outputs::{Claim, Output, Use, outputs, prove, room, with_extension};
@@ -84,6 +85,10 @@ pub(super) fn command(
             return Exit::World;
         }
     };
+    let formats: Vec<_> = outputs.iter().map(|output| output.format).collect();
+    if let Err(exit) = layers::check(&console, &scene, &job, &formats) {
+        return exit;
+    }
     let checkpoint = checkpoint_path(args, &outputs);
     if let Err(exit) = prove_all(args, &console, &job, &outputs, &checkpoint) {
         return exit;
@@ -181,6 +186,7 @@ fn job(args: &RenderArgs, scene: &Scene) -> Job {
     job.submission = args.submission;
     job.estimator = args.estimator as u32;
     job.clamp_indirect = args.clamp_indirect;
+    job.wanted = args.layers.wanted();
     job.precision = match args.precision {
         PrecisionArg::F32 => Precision::F32,
         PrecisionArg::F64 => Precision::F64,

@@ -8,7 +8,9 @@
 use super::picture::{
     Meta, OutputError, Picture, clamp_text, parse_clamp, parse_ranges, ranges_text,
 };
+use super::planes::{self, COLOURS, combined};
 use crate::film::{BadSample, Counters, Film};
+use crate::layers::{LayerNames, Layers};
 use crate::region::{Rect, SampleRange};
 use ::exr::meta::MetaData;
 use ::exr::prelude::attribute::Chromaticities;
@@ -19,7 +21,6 @@ use ::exr::prelude::{
 use std::io::{BufReader, Cursor};
 use std::path::Path;
 
-const COLOURS: [&str; 3] = ["R", "G", "B"];
 const RESIDUALS: [&str; 3] = ["residual.R", "residual.G", "residual.B"];
 const SAMPLES: &str = "samples";
 const VARIANCE: &str = "variance.Y";
@@ -34,10 +35,13 @@ const REC_709: [[f32; 2]; 4] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06], [0.312
 pub fn encode_exr(picture: &Picture, residual: bool) -> Result<Vec<u8>, OutputError> {
     let film = &picture.film;
     let means = film.means();
-    let (names, planes) = (COLOURS, planes(&means, round));
-    let mut channels: Vec<_> = names.iter().zip(planes).map(|(n, p)| channel(n, p)).collect();
+    let layers = picture.layers.as_ref();
+    let style = layers.map_or(LayerNames::Plain, |layers| layers.wanted.names);
+    let names = COLOURS.map(|component| combined(style, component));
+    let rounded = names.iter().zip(colours(&means, round));
+    let mut channels: Vec<_> = rounded.map(|(n, p)| channel(n, p)).collect();
     if residual {
-        let rest = self::planes(&means, |x| {
+        let rest = colours(&means, |x| {
             let rest = round(x - f64::from(round(x)));
             if rest.is_finite() { rest } else { 0.0 }
         });
@@ -46,7 +50,10 @@ pub fn encode_exr(picture: &Picture, residual: bool) -> Result<Vec<u8>, OutputEr
     if !film.variance.is_empty() {
         channels.push(channel(VARIANCE, film.variance.iter().map(|v| round(*v)).collect()));
     }
-    if !film.is_even() {
+    if let Some(layers) = layers {
+        channels.extend(planes::channels(layers, residual, &film.counts));
+    }
+    if !film.is_even() || layers.is_some_and(planes::counts_samples) {
         channels.push(AnyChannel::new(SAMPLES, FlatSamples::U32(film.counts.clone())));
     }
     let mut attributes = LayerAttributes {
@@ -55,6 +62,11 @@ pub fn encode_exr(picture: &Picture, residual: bool) -> Result<Vec<u8>, OutputEr
         ..LayerAttributes::default()
     };
     attributes.other.extend(attributes_of(picture));
+    let texts = layers.map(planes::attributes).unwrap_or_default();
+    attributes.other.extend(texts.into_iter().map(|(name, value)| {
+        let text = |s: &str| Text::new_or_none(s).unwrap_or_default();
+        (text(&name), AttributeValue::Text(text(&value)))
+    }));
     let size = (film.region.w as usize, film.region.h as usize);
     let layer = Layer::new(
         size,
@@ -82,7 +94,7 @@ fn signed(x: u32) -> i32 {
     i32::try_from(x).unwrap_or(i32::MAX)
 }
 
-fn planes(means: &[[f64; 3]], f: impl Fn(f64) -> f32) -> [Vec<f32>; 3] {
+fn colours(means: &[[f64; 3]], f: impl Fn(f64) -> f32) -> [Vec<f32>; 3] {
     [0, 1, 2].map(|c| means.iter().map(|rgb| f(rgb[c])).collect())
 }
 
@@ -91,7 +103,7 @@ fn channel(name: &str, values: Vec<f32>) -> AnyChannel<FlatSamples> {
 }
 
 fn attributes_of(picture: &Picture) -> Vec<(Text, AttributeValue)> {
-    let Picture { film, meta } = picture;
+    let Picture { film, meta, .. } = picture;
     let text = |s: &str| AttributeValue::Text(Text::new_or_none(s).unwrap_or_default());
     let number = |n: u64| text(&n.to_string());
     let Counters { rays, bad, first_bad, depth, overflows, leaks, removed } = film.counters;
@@ -142,8 +154,8 @@ pub fn read_exr(path: &Path) -> Result<Picture, OutputError> {
         .map_err(|error| OutputError::Read { path: path.to_owned(), message: error.to_string() })?;
     let foreign = |message: String| OutputError::Foreign { path: path.to_owned(), message };
     let fields = Fields { layer: &image.layer_data.attributes };
-    let (film, meta) = parse(&image, &fields).map_err(foreign)?;
-    Ok(Picture { film, meta })
+    let (film, meta, layers) = parse(&image, &fields).map_err(foreign)?;
+    Ok(Picture { film, meta, layers })
 }
 
 /// Before memory is taken: whether the file can hold the pixels that it claims, and holds them without loss. Sums are
@@ -174,7 +186,10 @@ fn check_claims(path: &Path) -> Result<(), OutputError> {
 
 type ReadImage = Image<Layer<AnyChannels<FlatSamples>>>;
 
-fn parse(image: &ReadImage, fields: &Fields<'_>) -> Result<(Film, Meta), String> {
+/// What a file holds.
+type Parsed = (Film, Meta, Option<Layers>);
+
+fn parse(image: &ReadImage, fields: &Fields<'_>) -> Result<Parsed, String> {
     let meta = Meta {
         render_id: fields.text("render_id")?,
         seed: fields.number("seed")?,
@@ -202,11 +217,36 @@ fn parse(image: &ReadImage, fields: &Fields<'_>) -> Result<(Film, Meta), String>
         leaks: fields.number("media_leaks")?,
         removed: fields.float("clamp_indirect_removed").unwrap_or(0.0),
     };
-    Ok((parse_film(image, ranges, counters)?, meta))
+    let source = Read { image, fields };
+    let names = planes::names_of(&source).unwrap_or(LayerNames::Plain);
+    let film = parse_film(image, names, ranges, counters)?;
+    let layers = planes::parse(&source, film.sums.len())?;
+    Ok((film, meta, layers))
+}
+
+/// Channels and texts of a file.
+struct Read<'a> {
+    image: &'a ReadImage,
+    fields: &'a Fields<'a>,
+}
+
+impl planes::Source for Read<'_> {
+    fn floats(&self, channel: &str) -> Option<&[f32]> {
+        let list = &self.image.layer_data.channel_data.list;
+        match list.iter().find(|c| c.name.eq(channel)).map(|c| &c.sample_data) {
+            Some(FlatSamples::F32(values)) => Some(values),
+            _ => None,
+        }
+    }
+
+    fn text(&self, attribute: &str) -> Option<String> {
+        self.fields.text(attribute).ok()
+    }
 }
 
 fn parse_film(
     image: &ReadImage,
+    names: LayerNames,
     ranges: Vec<SampleRange>,
     counters: Counters,
 ) -> Result<Film, String> {
@@ -241,7 +281,8 @@ fn parse_film(
         }
     }
     for (c, (colour, residual)) in COLOURS.iter().zip(RESIDUALS).enumerate() {
-        let Some(FlatSamples::F32(mean)) = find(colour).map(|channel| &channel.sample_data) else {
+        let colour = combined(names, colour);
+        let Some(FlatSamples::F32(mean)) = find(&colour).map(|channel| &channel.sample_data) else {
             return Err(format!("channel `{colour}` of 32-bit floats is missing"));
         };
         for (i, mean) in mean.iter().enumerate() {

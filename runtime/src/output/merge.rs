@@ -2,6 +2,7 @@
 
 use super::picture::{Meta, Picture, clamp_text, ranges_text};
 use crate::job::Job;
+use crate::layers::Wanted;
 use crate::region::{Rect, insert_range};
 use crate::scene::Scene;
 use thiserror::Error;
@@ -79,6 +80,9 @@ pub fn merge(mut parts: Vec<Picture>) -> Result<Picture, MergeError> {
             insert_range(&mut whole.film.ranges, range);
         }
         whole.film.counters.add(&part.film.counters);
+        if let (Some(layers), Some(more)) = (&mut whole.layers, &part.layers) {
+            layers.add(more);
+        }
         add_meta(&mut whole.meta, &part.meta);
     }
     Ok(whole)
@@ -103,6 +107,10 @@ fn check(parts: &[Picture]) -> Result<(), MergeError> {
                 return Err(MergeError::Differs { part, what, found, expected });
             }
         }
+        let (found, expected) = (layers_text(picture), layers_text(first));
+        if found != expected {
+            return Err(MergeError::Differs { part, what: "layers", found, expected });
+        }
         if picture.film.replicates() > 1 {
             return Err(MergeError::Replicates { part });
         }
@@ -117,6 +125,14 @@ fn check(parts: &[Picture]) -> Result<(), MergeError> {
         }
     }
     Ok(())
+}
+
+/// What a picture holds beside radiance, as people read it.
+fn layers_text(picture: &Picture) -> String {
+    let Some(layers) = &picture.layers else { return "none".to_owned() };
+    let Wanted { transparent, names, .. } = &layers.wanted;
+    let sky = if *transparent { ", transparent" } else { "" };
+    format!("{} ({}{sky})", layers.wanted.text(), names.name())
 }
 
 /// What parts of one picture share, and what a run that goes on shares with the one before.

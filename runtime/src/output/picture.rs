@@ -1,6 +1,7 @@
 //! A film with all that is known about it, and what can go wrong with its files.
 
 use crate::film::Film;
+use crate::layers::Layers;
 use crate::region::{SampleRange, insert_range};
 use files::ShowPath as _;
 use std::path::PathBuf;
@@ -13,6 +14,8 @@ pub struct Picture {
     pub film: Film,
     /// The rest.
     pub meta: Meta,
+    /// What it holds beside radiance.
+    pub layers: Option<Layers>,
 }
 
 /// What is known about a picture beside its pixels; all of it is stored in the EXR.

@@ -1,23 +1,79 @@
-//! Film → 8-bit sRGB PNG: exposure, tone curve, encoding, the same bytes on every machine.
+//! Film → sRGB PNG of 8 or 16 bits: exposure, tone curve, encoding, the same bytes on every machine.
 
 use super::picture::{OutputError, Picture};
+use crate::layers::Layer;
 use image::ImageEncoder as _;
 use pack::abi::ToneMap;
 use std::io;
 
-/// The tone-mapped picture.
+/// The tone-mapped picture, in 8 bits.
 pub fn encode_png(picture: &Picture) -> Result<Vec<u8>, OutputError> {
+    let (means, alphas) = straight(picture);
+    let pixels = tone_map(&means, picture.meta.exposure, picture.meta.tone_map);
+    let size = [picture.film.region.w, picture.film.region.h];
+    if alphas.is_empty() {
+        return encode_rgb(&pixels, size);
+    }
+    let with_alpha = |([r, g, b], alpha): (&[u8; 3], &f64)| [*r, *g, *b, eight_bits(*alpha)];
+    let pixels: Vec<[u8; 4]> = pixels.iter().zip(&alphas).map(with_alpha).collect();
+    encode_as(pixels.as_flattened(), size, image::ExtendedColorType::Rgba8)
+}
+
+/// The tone-mapped picture, in 16 bits.
+pub fn encode_png16(picture: &Picture) -> Result<Vec<u8>, OutputError> {
+    let (means, alphas) = straight(picture);
+    let encoder = SrgbEncoder::new(u16::MAX);
+    let curve = Curve::new(picture.meta.exposure, picture.meta.tone_map);
+    let pixels = means.iter().map(|rgb| rgb.map(|x| encoder.encode(curve.of(x))));
+    let size = [picture.film.region.w, picture.film.region.h];
+    if alphas.is_empty() {
+        let pixels: Vec<[u16; 3]> = pixels.collect();
+        let bytes = bytemuck::cast_slice(pixels.as_flattened());
+        return encode_as(bytes, size, image::ExtendedColorType::Rgb16);
+    }
+    let with_alpha = |([r, g, b], alpha): ([u16; 3], &f64)| [r, g, b, sixteen_bits(*alpha)];
+    let pixels: Vec<[u16; 4]> = pixels.zip(&alphas).map(with_alpha).collect();
+    let bytes = bytemuck::cast_slice(pixels.as_flattened());
+    encode_as(bytes, size, image::ExtendedColorType::Rgba16)
+}
+
+/// The colours of what is there, not what of it is seen, as PNGs have them; and alpha where it is a layer.
+fn straight(picture: &Picture) -> (Vec<[f64; 3]>, Vec<f64>) {
     let film = &picture.film;
-    let pixels = tone_map(&film.means(), picture.meta.exposure, picture.meta.tone_map);
-    encode_rgb(&pixels, [film.region.w, film.region.h])
+    let layers = picture.layers.as_ref().filter(|layers| layers.has(Layer::Alpha));
+    let mut means = film.means();
+    let alphas = layers.map(|layers| (0..means.len()).map(|i| layers.alpha(i)).collect());
+    let alphas: Vec<f64> = alphas.unwrap_or_default();
+    for (mean, alpha) in means.iter_mut().zip(&alphas).filter(|(_, alpha)| **alpha > 0.0) {
+        *mean = mean.map(|x| x / alpha);
+    }
+    (means, alphas)
+}
+
+/// A share from 0 to 1, which PNGs hold as it is.
+#[expect(clippy::cast_possible_truncation, reason = "at most 255")]
+fn eight_bits(share: f64) -> u8 {
+    (share.clamp(0.0, 1.0) * 255.0).round() as u8
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "at most 65535")]
+fn sixteen_bits(share: f64) -> u16 {
+    (share.clamp(0.0, 1.0) * 65535.0).round() as u16
 }
 
 /// Pixels, row by row, as a PNG file.
 pub(crate) fn encode_rgb(pixels: &[[u8; 3]], size: [u32; 2]) -> Result<Vec<u8>, OutputError> {
+    encode_as(pixels.as_flattened(), size, image::ExtendedColorType::Rgb8)
+}
+
+fn encode_as(
+    bytes: &[u8],
+    [w, h]: [u32; 2],
+    kind: image::ExtendedColorType,
+) -> Result<Vec<u8>, OutputError> {
     let mut file = Vec::new();
     let encoder = image::codecs::png::PngEncoder::new(io::Cursor::new(&mut file));
-    let [w, h] = size;
-    let written = encoder.write_image(pixels.as_flattened(), w, h, image::ExtendedColorType::Rgb8);
+    let written = encoder.write_image(bytes, w, h, kind);
     written.map_err(|error| OutputError::Encode { message: error.to_string() })?;
     Ok(file)
 }
@@ -26,14 +82,30 @@ pub(crate) fn encode_rgb(pixels: &[[u8; 3]], size: [u32; 2]) -> Result<Vec<u8>, 
 /// are `None`.
 #[must_use]
 pub fn tone_map(means: &[[f64; 3]], exposure: f32, curve: u32) -> Vec<[u8; 3]> {
-    let scale = libm::exp2(f64::from(exposure));
-    let encoder = SrgbEncoder::new();
-    let map: fn(f64) -> f64 = match ToneMap::from_tag(curve) {
-        Some(ToneMap::Reinhard) => |x| if x.is_finite() { x / (1.0 + x) } else { 1.0 },
-        Some(ToneMap::Aces) => aces,
-        Some(ToneMap::None) | None => |x| x,
-    };
-    means.iter().map(|rgb| rgb.map(|x| encoder.encode(map((x * scale).max(0.0))))).collect()
+    let (encoder, curve) = (SrgbEncoder::new(u16::from(u8::MAX)), Curve::new(exposure, curve));
+    let byte = |x| u8::try_from(encoder.encode(curve.of(x))).expect("255 limits make 256 bytes");
+    means.iter().map(|rgb| rgb.map(byte)).collect()
+}
+
+/// Exposure and tone curve.
+struct Curve {
+    scale: f64,
+    map: fn(f64) -> f64,
+}
+
+impl Curve {
+    fn new(exposure: f32, curve: u32) -> Self {
+        let map: fn(f64) -> f64 = match ToneMap::from_tag(curve) {
+            Some(ToneMap::Reinhard) => |x| if x.is_finite() { x / (1.0 + x) } else { 1.0 },
+            Some(ToneMap::Aces) => aces,
+            Some(ToneMap::None) | None => |x| x,
+        };
+        Self { scale: libm::exp2(f64::from(exposure)), map }
+    }
+
+    fn of(&self, x: f64) -> f64 {
+        (self.map)((x * self.scale).max(0.0))
+    }
 }
 
 /// Narkowicz 2015, "ACES Filmic Tone Mapping Curve"; approaches 2.51 / 2.43 and is cut at 1 later.
@@ -44,24 +116,22 @@ fn aces(x: f64) -> f64 {
     x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14)
 }
 
-/// Nearest sRGB byte by comparison with the 255 linear values between neighbouring bytes: no
+/// Nearest sRGB number by comparison with the linear values between neighbouring numbers: no
 /// rounding of a power function can move a pixel.
 struct SrgbEncoder {
-    limits: [f64; 255],
+    limits: Vec<f64>,
 }
 
 impl SrgbEncoder {
-    fn new() -> Self {
-        let mut limits = [0.0; 255];
-        for (byte, limit) in (0_u32..).zip(&mut limits) {
-            *limit = srgb_to_linear((f64::from(byte) + 0.5) / 255.0);
-        }
-        Self { limits }
+    /// To numbers up to `most`.
+    fn new(most: u16) -> Self {
+        let limit = |number| srgb_to_linear((f64::from(number) + 0.5) / f64::from(most));
+        Self { limits: (0..most).map(limit).collect() }
     }
 
-    fn encode(&self, linear: f64) -> u8 {
-        let byte = self.limits.partition_point(|limit| *limit <= linear);
-        u8::try_from(byte).expect("255 limits make 256 bytes")
+    fn encode(&self, linear: f64) -> u16 {
+        let number = self.limits.partition_point(|limit| *limit <= linear);
+        u16::try_from(number).expect("there are at most 65535 limits")
     }
 }
 

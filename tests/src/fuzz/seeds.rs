@@ -227,7 +227,7 @@ fn parts() -> Made {
         tone_map: 1,
         complete: true,
     };
-    let of = |film: Film| Picture { film, meta: meta.clone() };
+    let of = |film: Film| Picture { film, meta: meta.clone(), layers: None };
     let crop = Rect { x: 1, y: 2, w: 5, h: 3 };
     let good = of(film(crop, range(0, 16)));
     let bytes = part(&good);
