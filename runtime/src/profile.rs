@@ -40,35 +40,38 @@ struct Segment {
 }
 
 impl<'a> Profile<'a> {
-    /// Records the rays of the job's image, on one thread.
+    /// Follows the samples of the job's image on one thread, and records the rays of the first `recorded` of each pixel.
     ///
     /// # Errors
     /// When the CPU kernel cannot run the scene.
-    pub fn record(scene: &'a Scene, job: &Job) -> Result<Self, Box<dyn std::error::Error>> {
+    pub fn record(
+        scene: &'a Scene,
+        job: &Job,
+        recorded: u32,
+    ) -> Result<Self, Box<dyn std::error::Error>> {
         let setup = scene.setup(job);
         cpu::check_stack(&setup).map_err(|error: CpuError| error.to_string())?;
         setup.tree();
         let frame = setup.frame_of(job);
         let mut profile = Self { setup, frame, rays: Vec::new(), lanes: Lanes::default() };
-        profile.record_rows(job);
+        profile.record_rows(job, recorded);
         Ok(profile)
     }
 
-    fn record_rows(&mut self, job: &Job) {
+    fn record_rows(&mut self, job: &Job, recorded: u32) {
         let Self { setup, frame, rays, lanes } = self;
         let mut kernel = cpu::kernel(setup, frame);
         let [width, height] = job.image_size;
         for y in 0..height {
             for x in (0..width).step_by(LANES) {
-                let columns = x..(x + 8).min(width);
-                let group: Vec<Vec<Segment>> =
-                    columns.map(|x| pixel(&mut kernel, [x, y], job, rays)).collect();
+                let mut segments = |x| pixel(&mut kernel, [x, y], job, (rays, recorded));
+                let group: Vec<Vec<Segment>> = (x..width).take(LANES).map(&mut segments).collect();
                 lanes.add(&group);
             }
         }
     }
 
-    /// How many rays there are.
+    /// How many rays were recorded.
     #[must_use]
     pub fn n_rays(&self) -> usize {
         self.rays.len()
@@ -80,7 +83,7 @@ impl<'a> Profile<'a> {
         self.lanes
     }
 
-    /// Traces all rays again, on one thread: how many of them hit something.
+    /// Traces these rays again, on one thread: how many of them hit something.
     #[must_use]
     pub fn trace(&self) -> usize {
         let mut kernel = cpu::kernel(&self.setup, &self.frame);
@@ -88,8 +91,13 @@ impl<'a> Profile<'a> {
     }
 }
 
-/// The segments of all samples of a pixel; every ray is added to `rays`.
-fn pixel(kernel: &mut Kernel<'_>, at: [u32; 2], job: &Job, rays: &mut Vec<Ray>) -> Vec<Segment> {
+/// The segments of all samples of a pixel; the rays of the first `recorded` are added to `rays`.
+fn pixel(
+    kernel: &mut Kernel<'_>,
+    at: [u32; 2],
+    job: &Job,
+    (rays, recorded): (&mut Vec<Ray>, u32),
+) -> Vec<Segment> {
     let pixel = UVec2::from(at);
     let mut segments = Vec::new();
     for sample in job.samples.start..job.samples.end {
@@ -99,7 +107,9 @@ fn pixel(kernel: &mut Kernel<'_>, at: [u32; 2], job: &Job, rays: &mut Vec<Ray>) 
             let ray = kernel.path_ray(path);
             let before = path.segments;
             let hit = kernel.trace(ray);
-            rays.push(ray);
+            if sample < job.samples.start + recorded {
+                rays.push(ray);
+            }
             kernel.path_advance(&mut path, hit);
             if path.segments > before {
                 let met = hit.prim != NONE;

@@ -31,8 +31,8 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
         let scene = packs.scene(name, Layout::Wide)?;
         let mut job = Job::of_scene(&scene);
         job.resize(SIZE);
-        job.samples = SampleRange { start: 0, end: TRACED };
-        let profile = Profile::record(&scene, &job)?;
+        job.samples = SampleRange { start: 0, end: SAMPLES };
+        let profile = Profile::record(&scene, &job, TRACED)?;
         let (mut traced, mut rendered) = (Vec::new(), Vec::new());
         for _ in 0..ROUNDS {
             let start = ProcessTime::now();
