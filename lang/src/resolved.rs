@@ -140,6 +140,9 @@ fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {
         output.clear();
         write!(output, "\"{path}\"")?;
     }
+    let layers: Vec<&str> = render.layers.iter().map(|layer| layer.word()).collect();
+    let layers =
+        if layers.is_empty() { "none".to_owned() } else { format!("[{}]", layers.join(", ")) };
     let fields = [
         ("camera", camera.name.text.clone()),
         ("film", film.name.text.clone()),
@@ -150,6 +153,7 @@ fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {
         ("roulette", render.roulette_depth.to_string()),
         ("seed", render.seed.to_string()),
         ("sampler", render.sampler.word().to_owned()),
+        ("layers", layers),
         ("output", output),
     ];
     block(out, &format!("render {}: path", render.name.text), &fields)

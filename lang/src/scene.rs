@@ -18,7 +18,7 @@ pub use common::{Name, Rgb};
 pub use file::{Asset, AssetFormat, Axis, ColorSpace, Texture, Wrap};
 pub use instance::Instance;
 pub use light::{Light, Tint};
-pub use view::{Camera, Film, Fit, Render, Sampler, Side, ToneMap};
+pub use view::{Camera, Film, Fit, Layer, Render, Sampler, Side, ToneMap};
 
 pub use crate::material::{
     Color, Inside, Material, MaterialModel, NormalMap, Pattern, Principled, Scalar,

@@ -273,6 +273,8 @@ pub enum FieldType {
     NormalSlot,
     /// One of these words.
     Word(&'static [Word]),
+    /// A list of these words, or one of them.
+    Words(&'static [Word]),
     /// The name of a declaration.
     Name(Kind),
     /// A shape, an object or a list of objects.
@@ -398,6 +400,7 @@ pub fn unit_of(ty: FieldType) -> Option<(Dim, &'static str)> {
         | FieldType::ColorSlot(_)
         | FieldType::NormalSlot
         | FieldType::Word(_)
+        | FieldType::Words(_)
         | FieldType::Name(_)
         | FieldType::Shape
         | FieldType::Text
@@ -432,6 +435,7 @@ pub fn type_text(ty: FieldType) -> String {
         FieldType::Word(words) => {
             words.iter().map(|(word, _)| format!("`{word}`")).collect::<Vec<_>>().join(" or ")
         }
+        FieldType::Words(_) => "list of words".to_owned(),
         FieldType::Name(kind) => format!("name of {}", kind.with_article()),
         FieldType::Shape => "shape, object, or list of objects".to_owned(),
         FieldType::Interval(b) => format!("interval of {}", noun(b.dim)),
@@ -463,6 +467,7 @@ pub fn range_text(ty: FieldType) -> String {
         FieldType::Vector(..)
         | FieldType::NormalSlot
         | FieldType::Word(_)
+        | FieldType::Words(_)
         | FieldType::Name(_)
         | FieldType::Shape
         | FieldType::Text

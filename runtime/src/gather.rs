@@ -15,6 +15,7 @@ use crate::signals::Signals;
 use pack::Manifest;
 use pack::abi::{AovSample, NONE};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use thiserror::Error;
 
@@ -145,13 +146,17 @@ impl<'a> Gatherer<'a> {
         (layers, backdrop)
     }
 
-    /// Layers of so many pixels without samples.
+    /// Layers of so many pixels without samples, and without the names of mattes, which may be many.
     fn empty(&self, n: usize) -> (Layers, Vec<[f64; 3]>) {
         let has = |layer| self.wanted.layers.contains(&layer);
         let sums = |there: bool| if there { vec![[0.0; 3]; n] } else { Vec::new() };
         let nearest = self.wanted.layers.iter().any(|layer| layer.is_nearest());
         let crypto = if has(Layer::Crypto) { self.mattes.as_slice() } else { &[] };
-        let matte = |matte: &Matte| Matte { shares: vec![Vec::new(); n], ..matte.clone() };
+        let matte = |matte: &Matte| Matte {
+            kind: matte.kind,
+            names: BTreeMap::new(),
+            shares: vec![Vec::new(); n],
+        };
         let layers = Layers {
             wanted: self.wanted.clone(),
             samples: 0,
@@ -219,6 +224,9 @@ impl<'a> Gatherer<'a> {
     /// The rows below each other.
     fn joined(&self, rows: Vec<(Layers, Vec<[f64; 3]>)>) -> (Layers, Vec<[f64; 3]>) {
         let (mut whole, mut backdrop) = self.empty(0);
+        for (matte, own) in whole.mattes.iter_mut().zip(&self.mattes) {
+            matte.names.clone_from(&own.names);
+        }
         for (row, sky) in rows {
             whole.samples = row.samples;
             whole.albedo.extend(row.albedo);
@@ -263,7 +271,7 @@ fn object_of(instance: &str) -> &str {
 
 /// For each name the number of its first place, from 1, and its id.
 fn numbered(names: &[&str]) -> Vec<(u32, u32)> {
-    let mut first = std::collections::BTreeMap::new();
+    let mut first = BTreeMap::new();
     for (name, number) in names.iter().zip(1_u32..) {
         first.entry(*name).or_insert(number);
     }

@@ -155,8 +155,8 @@ fn add_layers(scene: &Scene, job: &Job, outcome: &mut Outcome, control: &Control
 }
 
 /// Starts the threads that save what is rendered and show it.
-fn start_keepers<'scope, 'env>(
-    scope: &'scope Scope<'scope, 'env>,
+fn start_keepers<'scope>(
+    scope: &'scope Scope<'scope, '_>,
     shared: &'scope Shared,
     signals: &'scope Signals,
 ) {

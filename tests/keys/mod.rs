@@ -38,7 +38,9 @@ fn gather(value: &Value, prefix: &str, found: &mut BTreeSet<String>) {
             }
         }
         Value::Array(list) => {
-            list.iter().for_each(|value| gather(value, &format!("{prefix}[]"), found));
+            for value in list {
+                gather(value, &format!("{prefix}[]"), found);
+            }
         }
         _ => {}
     }

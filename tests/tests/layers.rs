@@ -1,5 +1,6 @@
 //! Layers: what they hold of a known scene, how an EXR names them, and that the picture stays what it is.
 
+use clap::ValueEnum as _;
 use exr::prelude::{AttributeValue, FlatSamples, ReadChannels as _, ReadLayers as _};
 use runtime::layers::{Layer, LayerNames, Wanted};
 use runtime::output::{self, Picture, encode_png, encode_png16, merge, read_exr};
@@ -143,6 +144,27 @@ fn layers_hold_what_the_scene_says() {
     assert_eq!(file.at(&layer("Debug Sample Count"), ["X"], PANE), [32.0]);
     let alpha = |at| file.at(&layer("Combined"), ["A"], at);
     assert_eq!([CUBE, PANE, NOTHING].map(alpha), [[1.0], [1.0], [0.0]]);
+}
+
+#[test]
+fn a_scene_may_ask_for_every_layer() {
+    let names: Vec<&str> = Layer::value_variants().iter().map(|layer| layer.name()).collect();
+    let fields = lang::schema::types_of(lang::schema::Kind::Render).iter().flat_map(|ty| ty.fields);
+    let words = fields.filter_map(|field| match field.ty {
+        lang::schema::FieldType::Words(words) => Some(words),
+        _ => None,
+    });
+    let words: Vec<&str> = words.flatten().map(|(word, _)| *word).collect();
+    assert_eq!(words, names);
+    let text = format!(
+        "rts 1
+{THINGS}camera eye: perspective {{ from = (0, 0, 5)m, to = (0, 0, 0)m }}
+render main: path {{ camera = eye, layers = [{}] }}
+",
+        names.join(", ")
+    );
+    let manifest = tests::scene::pack(&text).manifest().expect("a manifest");
+    assert_eq!(manifest.layers, names);
 }
 
 #[test]

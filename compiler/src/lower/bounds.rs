@@ -81,6 +81,14 @@ pub(super) fn corners(instance: &Instance, assets: &[MeshFacts]) -> Vec<[f64; 3]
     boxes.into_iter().flat_map(corners_between).map(|p| place(instance, p)).collect()
 }
 
+/// What an instance of a sphere is in the world: centre and radius.
+pub(super) fn ball(instance: &Instance) -> Option<([f64; 3], f64)> {
+    let Shape::Sphere { radius } = instance.shape else { return None };
+    // All axes are scaled alike, or it would be no sphere.
+    let [x, y, z] = instance.world_from_object.map(|row| row[0]);
+    Some((place(instance, [0.0; 3]), radius * DVec3::new(x, y, z).length()))
+}
+
 fn corners_between([lo, hi]: [[f64; 3]; 2]) -> [[f64; 3]; 8] {
     std::array::from_fn(|i| [0, 1, 2].map(|k| if i >> k & 1 == 0 { lo[k] } else { hi[k] }))
 }

@@ -1,13 +1,13 @@
-//! `fit = NAME` of a camera: the place from which the boxes around an instance just fit into the image.
+//! `fit = NAME` of a camera: the place from which an instance just fits into the image: a sphere, else boxes around it.
 //!
 //! The way that the camera looks is given, so this is exact: each edge of the image bounds how near the camera may
 //! come, and where it may be across. It does not know files: boxes come from what is known of them.
 
 use glam::DVec3;
 use lang::diagnostic::{Code, Diagnostic};
-use lang::scene::{Camera, Fit, Scene, Side};
+use lang::scene::{Camera, Fit, Instance, Scene, Side};
 
-use super::bounds::{Bounds, corners};
+use super::bounds::{Bounds, ball, corners};
 use crate::import::MeshFacts;
 
 /// Share of half the image that a thing fills.
@@ -23,9 +23,8 @@ pub fn framed(
 ) -> Option<Scene> {
     let fit = scene.camera.fit.as_ref()?;
     let shown = scene.instances.iter().filter(|instance| fit.frames(&instance.name.text));
-    let points: Vec<DVec3> =
-        shown.flat_map(|instance| corners(instance, assets)).map(DVec3::from).collect();
-    match camera(&scene.camera, fit, &points) {
+    let balls: Vec<Ball> = shown.flat_map(|instance| balls(instance, assets)).collect();
+    match camera(&scene.camera, fit, &balls) {
         Ok(camera) => Some(Scene { camera, ..scene.clone() }),
         Err(error) => {
             diagnostics.push(*error);
@@ -34,9 +33,26 @@ pub fn framed(
     }
 }
 
-fn camera(camera: &Camera, fit: &Fit, points: &[DVec3]) -> Result<Camera, Box<Diagnostic>> {
+/// A sphere, or a point.
+#[derive(Clone, Copy)]
+struct Ball {
+    center: DVec3,
+    radius: f64,
+}
+
+/// What must be in the image for all of an instance to be.
+fn balls(instance: &Instance, assets: &[MeshFacts]) -> Vec<Ball> {
+    let of = |center: [f64; 3], radius| Ball { center: center.into(), radius };
+    match ball(instance) {
+        Some((center, radius)) => vec![of(center, radius)],
+        None => corners(instance, assets).into_iter().map(|corner| of(corner, 0.0)).collect(),
+    }
+}
+
+fn camera(camera: &Camera, fit: &Fit, balls: &[Ball]) -> Result<Camera, Box<Diagnostic>> {
     let (name, at) = (&fit.instance.text, fit.instance.span);
-    let Some(bounds) = Bounds::of(points.iter().map(DVec3::to_array)) else {
+    let boxes = balls.iter().filter_map(|ball| Bounds::of_sphere(ball.center.into(), ball.radius));
+    let Some(bounds) = Bounds::union(boxes) else {
         let text = format!("the camera cannot frame `{name}`, which is not in the world");
         let error = Diagnostic::error(Code("E0713"), text)
             .at(at, "nothing to frame")
@@ -63,16 +79,19 @@ fn camera(camera: &Camera, fit: &Fit, points: &[DVec3]) -> Result<Camera, Box<Di
     }
     let right = right.normalize();
     let up = right.cross(forward);
-    let seen: Vec<DVec3> = points
+    let seen: Vec<Ball> = balls
         .iter()
-        .map(|p| *p - middle)
-        .map(|p| DVec3::new(p.dot(right), p.dot(up), p.dot(forward)))
+        .map(|Ball { center, radius }| (*center - middle, *radius))
+        .map(|(p, radius)| {
+            let center = DVec3::new(p.dot(right), p.dot(up), p.dot(forward));
+            Ball { center, radius }
+        })
         .collect();
     let half =
         [camera.fov_horizontal, camera.fov_vertical].map(|angle| FILLED * libm::tan(0.5 * angle));
     let across = [0, 1].map(|axis| between(&seen, axis, half[axis]));
     // In front of the camera, too, and never at it.
-    let depth = seen.iter().fold(0.0, |most: f64, p| most.max(-p.z));
+    let depth = seen.iter().fold(0.0, |most: f64, ball| most.max(ball.radius - ball.center.z));
     let size = (DVec3::from(bounds.hi) - DVec3::from(bounds.lo)).length();
     let distance = across[0].0.max(across[1].0).max(depth + 1e-3 * size);
     if size <= 0.0 || !distance.is_finite() {
@@ -90,11 +109,15 @@ fn camera(camera: &Camera, fit: &Fit, points: &[DVec3]) -> Result<Camera, Box<Di
     })
 }
 
-/// How far from the middle a camera must be for all points to be between two edges of the image, and how far across
-/// it is then. A point at `x` across and `z` behind the middle is if |x - across| <= (distance + z) half.
-fn between(points: &[DVec3], axis: usize, half: f64) -> (f64, f64) {
+/// How far from the middle a camera must be for all balls to be between two edges of the image, and how far across
+/// it is then. A point at `x` across and `z` behind the middle is if |x - across| <= (distance + z) half; a sphere
+/// if that holds with its radius to spare, at a right angle to the plane through the edge.
+fn between(balls: &[Ball], axis: usize, half: f64) -> (f64, f64) {
+    let slant = (1.0 + half * half).sqrt();
     let most = |sign: f64| {
-        points.iter().fold(f64::NEG_INFINITY, |most, p| most.max(sign * p[axis] - half * p.z))
+        balls.iter().fold(f64::NEG_INFINITY, |most, Ball { center, radius }| {
+            most.max(sign * center[axis] - half * center.z + radius * slant)
+        })
     };
     let (high, low) = (most(1.0), most(-1.0));
     ((high + low) / (2.0 * half), (high - low) / 2.0)
@@ -170,9 +193,13 @@ render r: path {{ camera = c }}
     #[test]
     fn points_touch_both_edges() {
         let points = [DVec3::new(-1.0, 0.0, 0.0), DVec3::new(2.0, 0.0, 3.0)];
-        let (distance, across) = between(&points, 0, 0.5);
+        let balls = points.map(|center| Ball { center, radius: 0.0 });
+        let (distance, across) = between(&balls, 0, 0.5);
         for (p, side) in points.iter().zip([-1.0, 1.0]) {
             assert!((p.x - across - side * (distance + p.z) * 0.5).abs() < 1e-12);
         }
+        // A sphere alone is in the middle, and touches the planes through both edges.
+        let (distance, across) = between(&[Ball { center: DVec3::X, radius: 2.0 }], 0, 0.75);
+        assert!((across - 1.0).abs() < 1e-12 && (distance * 0.6 - 2.0).abs() < 1e-12);
     }
 }

@@ -47,7 +47,9 @@ struct Boxed<'a> {
 /// When a mesh cannot be loaded that must be looked at.
 pub(super) fn check(look: &Look<'_>, diagnostics: &mut Vec<Diagnostic>) -> Result<(), ImportError> {
     let things = boxed(look);
-    if look.bodies.things.iter().all(|thing| thing.motion == DVec3::ZERO) {
+    // Light in the air is seen wherever its lamp is.
+    let is_clear = look.scene.render.atmosphere.is_none();
+    if is_clear && look.bodies.things.iter().all(|thing| thing.motion == DVec3::ZERO) {
         diagnostics.extend(empty_frame(look.scene, &things));
     }
     let eye = DVec3::from(look.scene.camera.from);

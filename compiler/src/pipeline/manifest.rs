@@ -39,6 +39,7 @@ impl Context<'_> {
             scene: scene.render.name.text.clone(),
             rtc_version: env!("CARGO_PKG_VERSION").to_owned(),
             output: scene.render.output.clone(),
+            layers: scene.render.layers.iter().map(|l| l.word().to_owned()).collect(),
             files: texts.chain(assets).collect(),
             materials: lowered
                 .material_names

@@ -7,7 +7,7 @@ use crate::eval::{Evaluator, Scope, with_unit_fix};
 use crate::resolve::{did_you_mean, quoted_list};
 use crate::schema::{Bounds, Default, Field, FieldType, Kind, MAX_FILM_SIDE, TypeSchema, Word};
 use crate::source::Span;
-use crate::syntax::{Expr, ExprKind, Ident};
+use crate::syntax::{Entry, Expr, ExprKind, Ident};
 use crate::units::{self, Dim};
 
 /// Where a value is going.
@@ -54,6 +54,9 @@ impl Evaluator<'_> {
         scope: Scope<'_>,
     ) -> Value {
         let slot = Slot { schema, field, expr, module: scope.module };
+        if let (FieldType::Words(words), ExprKind::List(entries)) = (field.ty, &expr.kind) {
+            return self.words(slot, words, entries, scope);
+        }
         match &expr.kind {
             ExprKind::If { condition, then, otherwise } => {
                 let taken = self.condition(condition, scope);
@@ -91,7 +94,7 @@ impl Evaluator<'_> {
 
     fn word(&mut self, slot: Slot<'_>, name: &Ident) -> Value {
         match slot.field.ty {
-            FieldType::Word(words) => self.one_of(slot, words, name),
+            FieldType::Word(words) | FieldType::Words(words) => self.one_of(slot, words, name),
             FieldType::Axis => {
                 let known = ["x", "y", "z"].contains(&name.text.as_str());
                 let error =
@@ -140,6 +143,33 @@ impl Evaluator<'_> {
         self.fault(error.with_note(format!("it is one of {}", quoted_list(&all))))
     }
 
+    /// A list of words; every one that is none is reported.
+    fn words(
+        &mut self,
+        slot: Slot<'_>,
+        words: &'static [Word],
+        entries: &[Entry],
+        scope: Scope<'_>,
+    ) -> Value {
+        let mut values = Vec::new();
+        for entry in entries {
+            let value = match &entry.value.kind {
+                ExprKind::Path(path) if entry.key.is_none() && path.segments.len() == 1 => {
+                    self.one_of(slot, words, &path.segments[0])
+                }
+                _ => {
+                    let value = self.eval(&entry.value, scope);
+                    self.fit(slot, value)
+                }
+            };
+            values.push((value, entry.value.span));
+        }
+        if values.iter().any(|(value, _)| !matches!(value, Value::Word(_))) {
+            return Value::Poison;
+        }
+        Value::List(values.into())
+    }
+
     /// Turns a value into what the field wants, or reports why not.
     fn fit(&mut self, slot: Slot<'_>, value: Value) -> Value {
         if let Value::Poison | Value::Default = value {
@@ -185,7 +215,7 @@ impl Evaluator<'_> {
             FieldType::Scale => self.fit_scale(slot, value),
             FieldType::Axis if matches!(value, Value::Axis(_)) => value,
             FieldType::Axis => self.wrong_kind(slot, &value, "an axis such as `+y`"),
-            FieldType::Word(words) => {
+            FieldType::Word(words) | FieldType::Words(words) => {
                 let all: Vec<String> = words.iter().map(|(word, _)| (*word).to_owned()).collect();
                 let wanted = format!("one of {}", quoted_list(&all));
                 self.wrong_kind(slot, &value, &wanted)
@@ -428,7 +458,7 @@ impl Evaluator<'_> {
 }
 
 fn wants_word(ty: FieldType) -> bool {
-    matches!(ty, FieldType::Word(_) | FieldType::LengthUnit | FieldType::Axis)
+    matches!(ty, FieldType::Word(_) | FieldType::Words(_) | FieldType::LengthUnit | FieldType::Axis)
 }
 
 /// No limit but those of the language; the lower end is zero.

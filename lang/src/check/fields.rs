@@ -187,6 +187,21 @@ impl Fields {
         }
     }
 
+    /// Words of a list, or one alone.
+    pub(crate) fn words(&self, name: &str) -> Vec<&'static str> {
+        match self.get(name) {
+            Some(Value::Word(word)) => vec![word],
+            Some(Value::List(values)) => {
+                let word = |(value, _): &(Value, Span)| match value {
+                    Value::Word(word) => Some(*word),
+                    _ => None,
+                };
+                values.iter().filter_map(word).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
     /// A text in quotes.
     pub(crate) fn text(&self, name: &str) -> Option<String> {
         match self.get(name) {

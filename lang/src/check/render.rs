@@ -5,7 +5,7 @@ use super::{Checker, camera, ids_of, medium, sky};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::eval::Evaluator;
 use crate::resolve::{ItemId, quoted_list};
-use crate::scene::{Camera, Film, Name, Render, Sampler, Sky};
+use crate::scene::{Camera, Film, Layer, Name, Render, Sampler, Sky};
 use crate::schema::Kind;
 use crate::source::Span;
 use crate::syntax::{File, ItemKind};
@@ -57,6 +57,7 @@ impl Checker {
             roulette_depth: fields.integer("roulette")?,
             seed: fields.integer("seed")?,
             sampler: Sampler::of(fields.word("sampler")?)?,
+            layers: fields.words("layers").into_iter().filter_map(Layer::of).collect(),
             output: fields.text("output"),
         };
         if let Some(fields) =

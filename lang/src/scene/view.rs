@@ -93,6 +93,36 @@ words! {
     }
 }
 
+words! {
+    /// What a picture holds beside radiance.
+    pub enum Layer {
+        /// For denoisers.
+        Albedo = "albedo" "of the first surface that is not specular, for denoisers",
+        /// For denoisers.
+        Normal = "normal" "of that surface, for denoisers",
+        /// Along the view axis.
+        Depth = "depth" "distance along the view axis, metres",
+        /// In the world.
+        Position = "position" "the point in the world, metres",
+        /// On the surface.
+        Uv = "uv" "texture coordinates",
+        /// Instances with their copies.
+        Object = "object" "number of the instance with all its copies",
+        /// Instances.
+        Instance = "instance" "number of the instance",
+        /// Materials.
+        Material = "material" "number of the material",
+        /// All three.
+        Crypto = "crypto" "Cryptomatte of objects, instances and materials",
+        /// Of the noise.
+        Variance = "variance" "of the mean luminance, where the error is measured",
+        /// Of each pixel.
+        Samples = "samples" "of the pixel",
+        /// Where the sky is not.
+        Alpha = "alpha" "share of the samples that see the scene",
+    }
+}
+
 /// How the picture is made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Render {
@@ -110,6 +140,8 @@ pub struct Render {
     pub seed: u32,
     /// Where random numbers come from.
     pub sampler: Sampler,
+    /// What the picture holds beside radiance, as declared.
+    pub layers: Vec<Layer>,
     /// Where the picture goes, as written; relative to the working directory of `rtr`.
     pub output: Option<String>,
 }

@@ -61,9 +61,9 @@ const PERSPECTIVE: TypeSchema = TypeSchema {
             "fit",
             FieldType::Name(Kind::Instance),
             Default::Absent("the camera stays where `from` and `to` say"),
-            "The instance that is to fill the image: the camera is put where the box around it just fits, with 5 % \
-             to spare. `from` and `to` then only say which way it looks, `from` alone from where; without them it \
-             looks from the front, the right and above.",
+            "The instance that is to fill the image: the camera is put where it just fits, a mesh with the boxes around \
+             its parts, with 5 % to spare. `from` and `to` then only say which way it looks, `from` alone from where; \
+             without them it looks from the front, the right and above.",
         )
         .foreign(&[("frame", "common use"), ("frame_selected", "Blender")]),
         Field::new(

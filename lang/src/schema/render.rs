@@ -1,7 +1,7 @@
 //! The render: `render NAME: path { ... }`.
 
 use super::{Default, Field, FieldType, Kind, TypeSchema};
-use crate::scene::Sampler;
+use crate::scene::{Layer, Sampler};
 
 pub(super) const TYPES: &[&TypeSchema] = &[&PATH];
 
@@ -84,6 +84,13 @@ const PATH: TypeSchema = TypeSchema {
             "Which random numbers; both converge to the same picture. Powers of two suit `sobol` best as `samples`.",
         )
         .foreign(&[("sampling_pattern", "Blender")]),
+        Field::new(
+            "layers",
+            FieldType::Words(Layer::WORDS),
+            Default::Absent("none; `rtr --layers` asks for others"),
+            "What the EXR holds beside the picture, such as `[albedo, normal, depth]`.",
+        )
+        .foreign(&[("aovs", "Mitsuba"), ("passes", "Blender")]),
         Field::new(
             "output",
             FieldType::Text,

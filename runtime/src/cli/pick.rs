@@ -9,6 +9,7 @@ use crate::control::Control;
 use crate::job::Job;
 use crate::pick::{Pick, PickError, pick};
 use crate::scene::Scene;
+use std::fmt::Write as _;
 use std::path::Path;
 
 pub(super) fn command(args: &RenderArgs) -> Exit {
@@ -61,7 +62,8 @@ fn shown(json: &str) -> String {
         } else {
             let mut units = [0; 2];
             for unit in c.encode_utf16(&mut units) {
-                text += &format!("\\u{unit:04x}");
+                // Writing to a string cannot fail.
+                let _ = write!(text, "\\u{unit:04x}");
             }
         }
     }

@@ -33,7 +33,9 @@ pub(super) fn text(progress: Progress, wanted: &Wanted, elapsed: Duration) -> St
     if let Some(left) = left(progress, wanted, elapsed)
         && let Ok(left) = Duration::try_from_secs_f64(left)
     {
-        text += &format!(", {} left", duration_text(left));
+        text += ", ";
+        text += &duration_text(left);
+        text += " left";
     }
     text
 }

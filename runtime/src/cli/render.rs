@@ -86,6 +86,7 @@ pub(super) fn command(
         }
     };
     let formats: Vec<_> = outputs.iter().map(|output| output.format).collect();
+    job.wanted = args.layers.wanted(&scene, &job, &formats);
     if let Err(exit) = layers::check(&console, &scene, &job, &formats) {
         return exit;
     }
@@ -186,7 +187,6 @@ fn job(args: &RenderArgs, scene: &Scene) -> Job {
     job.submission = args.submission;
     job.estimator = args.estimator as u32;
     job.clamp_indirect = args.clamp_indirect;
-    job.wanted = args.layers.wanted();
     job.precision = match args.precision {
         PrecisionArg::F32 => Precision::F32,
         PrecisionArg::F64 => Precision::F64,

@@ -76,13 +76,13 @@ fn serve(args: &ViewArgs, console: &Console) -> Result<(), Exit> {
     }
     session.close();
     wake(address);
-    end(source, server);
+    drop(source);
+    end(&server);
     Ok(())
 }
 
 /// Waits for the last answers, not for ever.
-fn end(source: Source, server: JoinHandle<()>) {
-    drop(source);
+fn end(server: &JoinHandle<()>) {
     let until = Instant::now() + PATIENCE;
     while !server.is_finished() {
         if Instant::now() > until {

@@ -73,7 +73,7 @@ fn picture(session: &Session, task: &Task) -> Result<(), String> {
         match step(session, task, &job, pass)? {
             None => return Ok(()),
             Some((outcome, took)) => {
-                let mut sums = Sums::new(size);
+                let mut sums = Sums::new(size).map_err(|error| format!("error: {error}"))?;
                 sums.add(outcome.film(), 0);
                 let progress =
                     Progress { rays_per_second: rate(&outcome, took), ..Progress::default() };
@@ -88,7 +88,7 @@ fn picture(session: &Session, task: &Task) -> Result<(), String> {
 /// The picture of the whole size.
 fn whole(session: &Session, task: &Task) -> Result<(), String> {
     let size = task.job.image_size;
-    let mut sums = Sums::new(size);
+    let mut sums = Sums::new(size).map_err(|error| format!("error: {error}"))?;
     let (mut most, mut spent, mut rays) = (1, Duration::ZERO, 0);
     let mut error = None;
     while sums.samples() < task.spp {

@@ -4,14 +4,16 @@ use super::client::{self, Door};
 use super::http::{self, TOO_MANY};
 use super::session::Session;
 use std::fmt;
-use std::io;
-use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpListener, TcpStream};
+use std::io::{self, Read as _};
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, Shutdown, SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 /// Connections at once. A page has one for events, and two or three for what it asks meanwhile.
 const MAX_CLIENTS: usize = 32;
+/// Bytes that are read of a request that is refused.
+const MOST_LEFT: u64 = 64 << 10;
 /// For one read or write.
 const PATIENCE: Duration = Duration::from_secs(5);
 
@@ -120,13 +122,23 @@ fn serve_one(
     stream.set_read_timeout(Some(PATIENCE))?;
     stream.set_write_timeout(Some(PATIENCE))?;
     stream.set_nodelay(true)?;
-    if !is_room {
-        return client::refuse(TOO_MANY, &mut stream);
-    }
-    match http::read(&mut stream) {
-        Ok(request) => client::answer(session, door, &request, &mut stream),
-        Err(status) => client::refuse(status, &mut stream),
-    }
+    let refused = if is_room {
+        match http::read(&mut stream) {
+            Ok(request) => return client::answer(session, door, &request, &mut stream),
+            Err(status) => status,
+        }
+    } else {
+        TOO_MANY
+    };
+    client::refuse(refused, &mut stream)?;
+    linger(&mut stream)
+}
+
+/// Reads some of what was not: a connection that is closed before is reset, and the answer may be lost.
+fn linger(stream: &mut TcpStream) -> io::Result<()> {
+    stream.shutdown(Shutdown::Write)?;
+    stream.set_read_timeout(Some(Duration::from_millis(200)))?;
+    io::copy(&mut stream.take(MOST_LEFT), &mut io::sink()).map(drop)
 }
 
 /// One of the places that there are.

@@ -4,15 +4,16 @@
 //! their mean. It renders nothing.
 
 use crate::film::Film;
-use crate::region::SampleRange;
+use crate::region::{Rect, SampleRange};
 use crate::replicate::{REPLICATES, luminance, moments};
+use crate::zeros::{NoMemory, zeros};
 use half::f16;
 use pack::abi::BATCH;
 
 /// A picture on its way.
 pub(super) struct Sums {
     /// Sums of radiance over all samples, linear Rec. 709, row by row.
-    sums: Vec<[f64; 3]>,
+    radiance: Vec<[f64; 3]>,
     /// Sums of luminance of each replicate.
     lumas: Vec<[f64; REPLICATES]>,
     /// Samples of every pixel in each replicate.
@@ -20,10 +21,10 @@ pub(super) struct Sums {
 }
 
 impl Sums {
-    /// Nothing of an image of so many pixels.
-    pub(super) fn new([w, h]: [u32; 2]) -> Self {
-        let n = w as usize * h as usize;
-        Self { sums: vec![[0.0; 3]; n], lumas: vec![[0.0; REPLICATES]; n], counts: [0; REPLICATES] }
+    /// Nothing of an image of so many pixels, when there is memory for it.
+    pub(super) fn new(size: [u32; 2]) -> Result<Self, NoMemory> {
+        let n = Rect::whole(size).pixels();
+        Ok(Self { radiance: zeros(n)?, lumas: zeros(n)?, counts: [0; REPLICATES] })
     }
 
     /// Samples of every pixel.
@@ -49,7 +50,7 @@ impl Sums {
     /// Adds a film of an evenly sampled image of the same size.
     pub(super) fn add(&mut self, film: &Film, replicate: u32) {
         let replicate = replicate as usize % REPLICATES;
-        for ((sum, lumas), more) in self.sums.iter_mut().zip(&mut self.lumas).zip(&film.sums) {
+        for ((sum, lumas), more) in self.radiance.iter_mut().zip(&mut self.lumas).zip(&film.sums) {
             for (sum, more) in sum.iter_mut().zip(more) {
                 *sum += more;
             }
@@ -61,9 +62,9 @@ impl Sums {
     /// The mean of every pixel as three 16-bit floats, little endian, row by row.
     pub(super) fn bytes(&self) -> Vec<u8> {
         let scale = 1.0 / f64::from(self.samples().max(1));
-        let mut bytes = Vec::with_capacity(6 * self.sums.len());
+        let mut bytes = Vec::with_capacity(6 * self.radiance.len());
         let most = f64::from(f16::MAX);
-        for value in self.sums.as_flattened() {
+        for value in self.radiance.as_flattened() {
             let mean = (value * scale).clamp(0.0, most);
             bytes.extend(f16::from_f64(mean).to_le_bytes());
         }
@@ -91,7 +92,6 @@ impl Sums {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::region::Rect;
 
     fn film(value: f64, samples: u32) -> Film {
         let mut film = Film::new([2, 1], Rect::whole([2, 1]));
@@ -102,7 +102,7 @@ mod tests {
 
     #[test]
     fn replicates_take_turns_and_share_their_rounds() {
-        let mut sums = Sums::new([2, 1]);
+        let mut sums = Sums::new([2, 1]).unwrap();
         let mut turns = Vec::new();
         for most in [1, 9, 9, 9, 7, 2, 2, 2, 100] {
             let (replicate, samples) = sums.next(most);
@@ -117,7 +117,7 @@ mod tests {
 
     #[test]
     fn the_spread_of_the_replicates_is_the_error() {
-        let mut sums = Sums::new([2, 1]);
+        let mut sums = Sums::new([2, 1]).unwrap();
         for (replicate, value) in [(0, 1.0), (1, 1.0), (2, 3.0), (3, 3.0)] {
             assert_eq!(sums.error(), None);
             sums.add(&film(value, 1), replicate);

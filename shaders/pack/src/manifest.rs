@@ -21,6 +21,9 @@ pub struct Manifest {
     pub rtc_version: String,
     /// Output that the scene asks for, as written there.
     pub output: Option<String>,
+    /// Layers that the scene asks for, as written there.
+    #[serde(deserialize_with = "list")]
+    pub layers: Vec<String>,
     /// Source files and assets as the scene names them; `Named::file` is an index here.
     #[serde(deserialize_with = "list")]
     pub files: Vec<String>,
@@ -229,6 +232,7 @@ mod tests {
     fn example() -> Manifest {
         Manifest {
             scene: "bunny".to_owned(),
+            layers: vec!["depth".to_owned()],
             output: Some("bunny.exr".to_owned()),
             files: vec!["bunny.rts".to_owned()],
             materials: vec![Named { name: "clay".to_owned(), file: 0, line: 7 }],
