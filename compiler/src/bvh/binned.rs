@@ -68,6 +68,14 @@ pub(super) struct BinSplit {
     pub(super) right: Bounds,
 }
 
+impl BinSplit {
+    /// Half-areas weighted by counts, of `n` fragments.
+    pub(super) fn cost(&self, n: usize) -> f32 {
+        self.left.half_area() * self.n_left as f32
+            + self.right.half_area() * (n - self.n_left) as f32
+    }
+}
+
 impl Bins {
     const EMPTY: Self = Self { bounds: [[Bounds::EMPTY; N_BINS]; 3], counts: [[0; N_BINS]; 3] };
 

@@ -36,16 +36,16 @@ pub(super) enum Rule {
 }
 
 /// A range of fragments to turn into a subtree.
-struct Range<'a> {
-    frags: &'a mut [Fragment],
+pub(super) struct Range<'a> {
+    pub(super) frags: &'a mut [Fragment],
     /// Position of the range in the whole list.
-    first: u32,
+    pub(super) first: u32,
     /// Inner levels that may still be used.
-    levels: u32,
-    rule: Rule,
-    bounds: Bounds,
+    pub(super) levels: u32,
+    pub(super) rule: Rule,
+    pub(super) bounds: Bounds,
     /// Bounds of the doubled centroids.
-    centroids: Bounds,
+    pub(super) centroids: Bounds,
 }
 
 /// A built subtree.
@@ -180,7 +180,7 @@ fn fork(mut range: Range) -> Part {
 }
 
 /// Appends the subtree's nodes and returns the word of its root.
-fn grow(mut range: Range, out: &mut Vec<Node>) -> u32 {
+pub(super) fn grow(mut range: Range, out: &mut Vec<Node>) -> u32 {
     if range.frags.len() <= SWEEP_MAX {
         range.frags.sort_unstable_by_key(Fragment::index);
         if range.rule == Rule::Cost {

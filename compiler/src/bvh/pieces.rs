@@ -34,6 +34,10 @@ impl Split {
 
 /// Takes unused places out; renumbers `order` and the splits themselves.
 pub(super) fn compact(splits: &mut Vec<Split>, order: &mut [u32], n: usize) {
+    if splits.iter().all(|split| split.piece == NONE) {
+        splits.clear();
+        return;
+    }
     let first = u32::try_from(n).expect("at most 2^27 primitives");
     let mut number = first;
     let numbers: Vec<u32> = splits

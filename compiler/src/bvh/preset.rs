@@ -16,7 +16,7 @@ pub enum Preset {
     /// Binned surface-area heuristic, no spatial splits: every triangle is in one leaf. Quickest to
     /// build; the oracle for the others.
     Fast,
-    /// Surface-area heuristic with spatial splits.
+    /// Surface-area heuristic with spatial splits where they pay.
     #[default]
     Default,
     /// As `Default`, with twice the planes, tried in more nodes, and twice the room for references.
@@ -51,6 +51,9 @@ pub(super) struct SpatialRules {
     /// Spatial splits are looked for where the children of the best object split overlap by this part
     /// of their parent's area.
     pub(super) min_overlap: f32,
+    /// How many may be looked for in vain, one below the other, before only samples of large nodes are asked;
+    /// `None`: any number.
+    pub(super) patience: Option<u32>,
 }
 
 impl Preset {
@@ -77,10 +80,10 @@ impl Preset {
         match self {
             Self::Fast => "binned16-sweep24-v1, leaf 8, inner levels 47, node cost 1",
             Self::Default => {
-                "sbvh16-v1, leaf 8, inner levels 47, node cost 1, extra 0.3, overlap 0.1"
+                "sbvh16-v2, leaf 8, inner levels 47, node cost 1, extra 0.3, overlap 0.1, patience 6"
             }
             Self::Extreme => {
-                "sbvh32-v1, leaf 8, inner levels 47, node cost 1, extra 0.6, overlap 0.01"
+                "sbvh32-v2, leaf 8, inner levels 47, node cost 1, extra 0.6, overlap 0.01"
             }
             Self::ObjectMedian => "object-median-v1, leaf 2, inner levels 47",
             Self::SpatialMedian => "spatial-median-v1, leaf 2, inner levels 47",
@@ -91,10 +94,12 @@ impl Preset {
     pub(super) fn spatial(self) -> Option<SpatialRules> {
         match self {
             Self::Default => {
-                Some(SpatialRules { bins: Fineness::Coarse, extra: 30, min_overlap: 0.1 })
+                let (bins, patience) = (Fineness::Coarse, Some(6));
+                Some(SpatialRules { bins, extra: 30, min_overlap: 0.1, patience })
             }
             Self::Extreme => {
-                Some(SpatialRules { bins: Fineness::Fine, extra: 60, min_overlap: 0.01 })
+                let (bins, patience) = (Fineness::Fine, None);
+                Some(SpatialRules { bins, extra: 60, min_overlap: 0.01, patience })
             }
             Self::Fast | Self::ObjectMedian | Self::SpatialMedian => None,
         }

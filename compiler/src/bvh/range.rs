@@ -6,6 +6,8 @@ use super::pieces::Split;
 
 /// No range is given room for more than this many references for each that it has.
 const MOST_PER_REFERENCE: usize = 4;
+/// Fragments of a range that are asked for their length, about; all of fewer.
+const ASKED: usize = 1 << 13;
 /// Steps of a fragment's length, by the length of its node.
 const SIZE_STEPS: f32 = 1_073_741_824.0; // 2^30
 
@@ -24,6 +26,8 @@ pub(super) struct Range<'a> {
     pub(super) bounds: Bounds,
     /// Bounds of the doubled centroids.
     pub(super) centroids: Bounds,
+    /// How many more spatial splits may be looked for in vain.
+    pub(super) patience: u32,
 }
 
 /// The two sides of a split: how many go where, and their bounds.
@@ -34,6 +38,19 @@ pub(super) struct Sides {
 }
 
 impl<'a> Range<'a> {
+    /// The range of `n` fragments, which are followed by free places.
+    pub(super) fn whole(
+        frags: &'a mut [Fragment],
+        n: usize,
+        splits: &'a mut [Split],
+        patience: u32,
+    ) -> Self {
+        let [bounds, centroids] = build::measure(&frags[..n]);
+        let next = u32::try_from(n).expect("at most 2^27 primitives");
+        let levels = build::MAX_INNER_LEVELS;
+        Self { frags, n, splits, next, levels, bounds, centroids, patience }
+    }
+
     /// Whether median splits would get both sides into leaves within the levels below this one.
     pub(super) fn fits(&self, counts: [usize; 2]) -> bool {
         self.levels > 0 && build::levels_needed(counts[0].max(counts[1])) < self.levels
@@ -46,7 +63,7 @@ impl<'a> Range<'a> {
 
     /// The two sides as ranges of their own; free places go with them.
     pub(super) fn part(self, sides: &Sides) -> [Range<'a>; 2] {
-        let Range { frags, n, splits, next, levels, bounds, .. } = self;
+        let Range { frags, n, splits, next, levels, bounds, patience, .. } = self;
         let [n_left, n_right] = sides.counts;
         debug_assert_eq!(n, n_left + n_right);
         let free = splits.len();
@@ -66,18 +83,23 @@ impl<'a> Range<'a> {
             levels: levels - 1,
             bounds: sides.bounds[k],
             centroids: sides.centroids[k],
+            patience,
         };
         [side(left, left_splits, next, 0), side(right, right_splits, right_next, 1)]
     }
 }
 
 /// How many of the free places the left side gets: its part of the sum of the fragments' sizes, in
-/// units of the size `unit`. Long fragments among short ones are what is split.
+/// units of the size `unit`; of many fragments some are asked. Long fragments among short ones are what is split.
 fn share(free: usize, sides: [&[Fragment]; 2], unit: f32) -> usize {
     if free == 0 {
         return 0;
     }
-    let wants = |part: &[Fragment]| part.iter().map(|f| size(f, unit)).sum::<u64>();
+    let step = (sides[0].len() + sides[1].len()).div_ceil(ASKED).max(1);
+    let wants = |part: &[Fragment]| {
+        let asked = part.iter().step_by(step).map(|f| size(f, unit));
+        asked.sum::<u64>().saturating_mul(step as u64)
+    };
     let [l, r] = sides.map(|part| u128::from(wants(part)) + part.len() as u128);
     let for_left = free as u128 * l / (l + r);
     let for_left = usize::try_from(for_left).expect("at most `free`");

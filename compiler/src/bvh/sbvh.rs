@@ -8,11 +8,15 @@
 //!
 //! What decides is relative to the node and never to the scene: a few giant triangles do not switch
 //! splits off elsewhere.
+//!
+//! Looking for spatial splits costs several times what the other splits do, and in most meshes it is in vain. Where they
+//! pay, they pay from large nodes downwards. So large ranges ask a sample of their fragments first, and small ranges look
+//! only where one of the last splits above them was worth it; elsewhere the tree is that of `build`.
 
 use pack::abi::{CHILD_INNER, MAX_LEAF, Node};
 
 use super::binned::{self, Bins, Mapping};
-use super::build::{self, MAX_INNER_LEVELS, NODE_COST, PARALLEL_BINS_MIN, PARALLEL_MIN, Part};
+use super::build::{self, NODE_COST, PARALLEL_BINS_MIN, PARALLEL_MIN, Part, Rule};
 use super::cut::Cut;
 use super::fragment::{Bounds, Fragment};
 use super::input::Corners;
@@ -26,11 +30,25 @@ use super::words::leaf_word;
 /// A spatial split must cost at most this part of the best object split: pieces take memory.
 const MAX_COST: f32 = 0.985;
 
+/// Ranges of more fragments look for spatial splits whatever was above them, if a sample says so.
+const SAMPLED_FROM: usize = 1 << 11;
+/// A sample is every so manyth fragment, or of few fragments this many: rare long ones decide.
+const SAMPLE: (usize, usize) = (32, 128);
+/// Trees of more fragments begin with a sample. For fewer, which may miss the few that are worth it, looking is cheap.
+const LARGE: usize = 1 << 15;
+
 /// What does not change during a build.
 #[derive(Clone, Copy)]
 struct Context<'a> {
     corners: Corners<'a>,
     rules: SpatialRules,
+}
+
+impl Context<'_> {
+    /// Whether spatial splits were looked for in vain too often above the range.
+    fn gives_up(&self, range: &Range) -> bool {
+        self.rules.patience.is_some() && range.patience == 0
+    }
 }
 
 /// Builds the nodes over `n` fragments, which are followed by free places. Returns the tree in pieces
@@ -42,11 +60,10 @@ pub(super) fn build(
     corners: Corners,
     rules: SpatialRules,
 ) -> (Bounds, Part) {
-    let [bounds, centroids] = build::measure(&frags[..n]);
-    let next = u32::try_from(n).expect("at most 2^27 primitives");
-    let levels = MAX_INNER_LEVELS;
-    let range = Range { frags, n, splits, next, levels, bounds, centroids };
-    (bounds, fork(range, Context { corners, rules }))
+    // A large range has nothing above it that speaks for splits.
+    let patience = rules.patience.filter(|_| n <= LARGE).unwrap_or(0);
+    let range = Range::whole(frags, n, splits, patience);
+    (range.bounds, fork(range, Context { corners, rules }))
 }
 
 fn fork(range: Range, context: Context) -> Part {
@@ -75,6 +92,9 @@ struct Chunk {
 impl Chunk {
     /// Appends the subtree's nodes and returns the word of its root.
     fn grow(&mut self, mut range: Range, context: Context) -> u32 {
+        if range.splits.is_empty() || (context.gives_up(&range) && range.n <= SAMPLED_FROM) {
+            return self.plain(range);
+        }
         let sides = if range.n <= SWEEP_MAX {
             match small(&mut range, context) {
                 Some(sides) => range.part(&sides),
@@ -90,6 +110,18 @@ impl Chunk {
         let right = self.grow(right, context);
         (self.nodes[at].left, self.nodes[at].right) = (left, right);
         CHILD_INNER | u32::try_from(at).expect("a tree has few enough nodes")
+    }
+
+    /// As `grow`, without spatial splits.
+    fn plain(&mut self, range: Range) -> u32 {
+        let Range { frags, n, levels, bounds, centroids, .. } = range;
+        let frags = &mut frags[..n];
+        let first = u32::try_from(self.order.len()).expect("a chunk is small");
+        let rule = Rule::Cost;
+        let range = build::Range { frags, first, levels, rule, bounds, centroids };
+        let word = build::grow(range, &mut self.nodes);
+        self.order.extend(frags.iter().map(Fragment::piece));
+        word
     }
 
     fn leaf(&mut self, range: &Range) -> u32 {
@@ -108,10 +140,7 @@ fn divide<'a>(mut range: Range<'a>, context: Context) -> [Range<'a>; 2] {
         if parallel { Bins::fill_parallel(frags, &mapping) } else { Bins::fill(frags, &mapping) };
     let object = bins.best().filter(|s| range.fits([s.n_left, range.n - s.n_left]));
     let limit = match &object {
-        Some(s) if range.overlaps(&s.left, &s.right, context.rules.min_overlap) => {
-            let n_right = range.n - s.n_left;
-            s.left.half_area() * s.n_left as f32 + s.right.half_area() * n_right as f32
-        }
+        Some(s) if range.overlaps(&s.left, &s.right, context.rules.min_overlap) => s.cost(range.n),
         Some(_) => 0.0,
         None => range.bounds.half_area() * range.n as f32,
     };
@@ -161,11 +190,35 @@ fn small(range: &mut Range, context: Context) -> Option<Sides> {
 }
 
 /// Makes the best spatial split if it costs less than `MAX_COST * limit` and there is room for its
-/// pieces.
+/// pieces; remembers whether it was worth looking.
 fn spatial(range: &mut Range, context: Context, limit: f32, parallel: bool) -> Option<Sides> {
     if range.splits.is_empty() || !(limit > 0.0 && limit.is_finite()) {
         return None;
     }
+    let looks = !context.gives_up(range) || is_promising(range, context);
+    let sides = if looks { cheaper(range, context, limit, parallel) } else { None };
+    range.patience = match &sides {
+        Some(_) => context.rules.patience.unwrap_or(0),
+        None => range.patience.saturating_sub(1),
+    };
+    sides
+}
+
+/// Whether a spatial split of some of the fragments costs less than another split of them. Both are of the same
+/// sample, whose boxes are too small for either.
+fn is_promising(range: &Range, context: Context) -> bool {
+    let (every, least) = SAMPLE;
+    let step = every.min(range.n / least).max(1);
+    let sample: Vec<Fragment> = range.frags[..range.n].iter().step_by(step).copied().collect();
+    let object = Bins::fill(&sample, &Mapping::new(&range.centroids)).best();
+    let Some(object) = object else { return true };
+    let slabs = Slabs::<16>::new(&range.bounds);
+    let spatial = SpatialBins::fill(&sample, context.corners, &slabs).best(&slabs);
+    spatial.is_some_and(|s| s.cost < object.cost(sample.len()))
+}
+
+/// The best spatial split, see [`spatial`].
+fn cheaper(range: &mut Range, context: Context, limit: f32, parallel: bool) -> Option<Sides> {
     let limit = limit * MAX_COST;
     let best = match context.rules.bins {
         Fineness::Coarse if range.n <= SWEEP_MAX => candidate::<8>(range, context, parallel),

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use compiler::bvh::{self, Bounds, Fragment, Input, Preset, Tree};
 use pack::abi::{ChildRef, NONE};
 
-use crate::shapes::{KINDS, Tri, degenerate, fragments};
+use crate::shapes::{KINDS, Rng, Tri, degenerate, fragments};
 use crate::verify;
 
 fn build(preset: Preset, triangles: &[Tri]) -> Tree {
@@ -50,7 +50,7 @@ fn threads_do_not_change_a_byte() {
     let kinds = [("soup", 150_000), ("long", 70_000), ("nested", 20_000), ("same", 20_000)];
     for (preset, (kind, n)) in Preset::ALL.into_iter().flat_map(|p| kinds.map(|k| (p, k))) {
         let one = on_threads(1, preset, kind, n);
-        for threads in [2, 4] {
+        for threads in [2, 3, 4] {
             let many = on_threads(threads, preset, kind, n);
             assert_eq!(
                 bytemuck::cast_slice::<_, u8>(&one.nodes),
@@ -105,6 +105,56 @@ fn pieces_are_few_and_worth_it() {
         assert!(tree.order.len() <= most, "{preset}: {} references", tree.order.len());
         assert!(sah(&tree) < 0.8 * sah(&whole), "{preset}: {} {}", sah(&tree), sah(&whole));
     }
+}
+
+/// Gentle hills of `2 * n * n` triangles.
+fn hills(n: u16) -> Vec<Tri> {
+    let at = |i: u16, j: u16| {
+        let (x, z) = (f32::from(i) * 0.1, f32::from(j) * 0.1);
+        [x, libm::sinf(0.7 * x) * libm::cosf(0.6 * z), z]
+    };
+    let quad = |i: u16, j: u16| {
+        let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+        [[a, b, c], [a, c, d]]
+    };
+    (0..n).flat_map(|i| (0..n).flat_map(move |j| quad(i, j))).collect()
+}
+
+/// `n` blades of grass on these hills, which overlap without being in each other's way.
+fn grass(n: usize, size: f32) -> Vec<Tri> {
+    let mut rng = Rng::new(3);
+    let blade = |_| {
+        let (x, z) = (rng.range(0.0, size), rng.range(0.0, size));
+        let y = libm::sinf(0.7 * x) * libm::cosf(0.6 * z);
+        let (lean, tall) = ([rng.range(-0.1, 0.1), rng.range(-0.1, 0.1)], rng.range(0.1, 0.35));
+        [[x, y, z], [x + 0.016, y, z], [x + lean[0], y + tall, z + lean[1]]]
+    };
+    (0..n).map(blade).collect()
+}
+
+#[test]
+fn ordinary_meshes_are_not_split() {
+    let mut meadow = grass(60_000, 20.0);
+    meadow.extend(hills(200));
+    for (name, triangles) in [("hills", hills(250)), ("meadow", meadow)] {
+        let tree = build(Preset::Default, &triangles);
+        verify::tree(&tree, &triangles);
+        let (n_splits, n) = (tree.splits.len(), triangles.len());
+        assert!(n_splits * 100 <= n, "{name}: {n_splits} splits of {n} triangles");
+    }
+}
+
+#[test]
+fn an_ordinary_mesh_does_not_switch_splits_off_beside_it() {
+    let mut triangles = degenerate("long", 20_000);
+    let alone = build(Preset::Default, &triangles).splits.len();
+    // Small, as places for pieces are shared by the lengths of triangles.
+    let away = |p: [f32; 3]| [p[0] * 0.05 + 3.0, p[1] * 0.05, p[2] * 0.05];
+    triangles.extend(hills(250).into_iter().map(|t| t.map(away)));
+    let tree = build(Preset::Default, &triangles);
+    verify::tree(&tree, &triangles);
+    let beside = tree.splits.len();
+    assert!(beside * 10 >= alone * 9, "{beside} splits, {alone} without the hills");
 }
 
 /// Two crossed bundles of long triangles beside one that is a million times larger.
