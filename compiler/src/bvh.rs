@@ -157,10 +157,14 @@ fn build_with_splits(rules: preset::SpatialRules, input: Input<'_>) -> Result<Tr
 /// Checks what was built.
 fn finish(mut tree: Tree) -> Result<Tree, BvhError> {
     tree.bounds = tree.bounds.without_lanes();
-    check::permutation(&tree.order)?;
     let Tree { nodes, order, root, .. } = &tree;
     let children = |i: usize| [nodes[i].left, nodes[i].right];
-    tree.depth = check::tree_depth(nodes.len(), order.len(), *root, children)?;
+    let (complete, depth) = rayon::join(
+        || check::permutation(order),
+        || check::tree_depth(nodes.len(), order.len(), *root, children),
+    );
+    complete?;
+    tree.depth = depth?;
     Ok(tree)
 }
 

@@ -5,7 +5,7 @@
 //! are built by `rayon::join` into arenas of their own, which are strung together afterwards: the
 //! bytes are the same for any number of threads.
 
-use pack::abi::{CHILD_INNER, ChildRef, MAX_LEAF, Node};
+use pack::abi::{CHILD_INNER, ChildRef, MAX_LEAF, NONE, Node};
 use rayon::prelude::*;
 
 use super::binned::{self, Bins, Mapping};
@@ -115,44 +115,54 @@ impl Part {
 
     /// Everything in depth-first order, and the root word.
     pub(super) fn string(self) -> (Flat, u32) {
-        let mut out = Flat {
-            nodes: Vec::with_capacity(self.n_nodes()),
-            order: Vec::with_capacity(self.n_pieces()),
-        };
-        let root = self.append(&mut out);
-        (out, root)
+        // Memory that the system hands out as zeros is first touched where it is filled.
+        let mut nodes: Vec<Node> = bytemuck::zeroed_vec(self.n_nodes());
+        let mut order: Vec<u32> = bytemuck::zeroed_vec(self.n_pieces());
+        let root = self.put(&mut nodes, &mut order, [0, 0]);
+        (Flat { nodes, order }, root)
     }
 
-    /// Appends the subtree and returns the word of its root.
-    fn append(self, out: &mut Flat) -> u32 {
-        let base = index_of(&out.nodes);
+    /// Fills what the subtree takes of nodes and pieces, which begins at `nodes_from` and `pieces_from` of all;
+    /// returns the word of its root.
+    fn put(
+        self,
+        nodes: &mut [Node],
+        order: &mut [u32],
+        [nodes_from, pieces_from]: [usize; 2],
+    ) -> u32 {
+        let (base, prims) = (index_of(nodes_from), index_of(pieces_from));
         match self {
-            Self::Chunk { nodes, root, order } => {
-                let prims = u32::try_from(out.order.len()).expect("at most 2^27 pieces");
-                out.order.extend_from_slice(&order);
-                out.nodes.extend(nodes.iter().map(|n| Node {
-                    left: shift_word(n.left, base, prims),
-                    right: shift_word(n.right, base, prims),
-                    ..*n
-                }));
+            Self::Chunk { nodes: own, root, order: pieces } => {
+                order.copy_from_slice(&pieces);
+                for (slot, n) in nodes.iter_mut().zip(own) {
+                    let (left, right) =
+                        (shift_word(n.left, base, prims), shift_word(n.right, base, prims));
+                    *slot = Node { left, right, ..n };
+                }
                 shift_word(root, base, prims)
             }
             Self::Fork { node, sides } => {
                 let [left, right] = *sides;
-                out.nodes.push(node);
-                let left = left.append(out);
-                let right = right.append(out);
-                let node = &mut out.nodes[base as usize];
-                (node.left, node.right) = (left, right);
+                let (n_nodes, n_pieces) = (left.n_nodes(), left.n_pieces());
+                let Some((slot, rest)) = nodes.split_first_mut() else { return NONE };
+                let (left_nodes, right_nodes) = rest.split_at_mut(n_nodes);
+                let (left_order, right_order) = order.split_at_mut(n_pieces);
+                let left_from = [nodes_from + 1, pieces_from];
+                let right_from = [nodes_from + 1 + n_nodes, pieces_from + n_pieces];
+                let (left, right) = rayon::join(
+                    || left.put(left_nodes, left_order, left_from),
+                    || right.put(right_nodes, right_order, right_from),
+                );
+                *slot = Node { left, right, ..node };
                 CHILD_INNER | base
             }
         }
     }
 }
 
-/// Index of the next node.
-fn index_of(nodes: &[Node]) -> u32 {
-    u32::try_from(nodes.len()).expect("a tree has fewer nodes than its 2^27 primitives")
+/// A position as words hold it.
+fn index_of(position: usize) -> u32 {
+    u32::try_from(position).expect("a tree has fewer nodes than its 2^27 pieces")
 }
 
 /// A node whose children are not known yet.
@@ -192,7 +202,7 @@ pub(super) fn grow(mut range: Range, out: &mut Vec<Node>) -> u32 {
         }
     }
     let at = out.len();
-    let word = CHILD_INNER | index_of(out);
+    let word = CHILD_INNER | index_of(out.len());
     let [left, right] = split(&mut range);
     out.push(node_of(&left.bounds, &right.bounds));
     let left = grow(left, out);
@@ -299,7 +309,7 @@ fn grow_small(
     let s = best.filter(fits).unwrap_or_else(|| sweep::median(frags));
     sweep::partition(frags, &s);
     let at = out.len();
-    let word = ChildRef::Inner(index_of(out)).encode().expect("a tree has few enough nodes");
+    let word = ChildRef::Inner(index_of(out.len())).encode().expect("a tree has few enough nodes");
     out.push(node_of(&s.left, &s.right));
     let (left, right) = frags.split_at_mut(s.n_left);
     let mid = first + u32::try_from(s.n_left).expect("at most 24");

@@ -11,7 +11,9 @@ use std::ops::Range;
 
 use pack::abi::{CHILD_INNER, ChildRef, Instance, NONE, Node};
 use pack::bvh::InnerNode;
+use rayon::prelude::*;
 
+use super::build::PARALLEL_MIN;
 use super::fragment::{Bounds, MAX_PRIMITIVES};
 use super::top::{self, InstanceLeaf, MAX_TOP_LEVELS, Piece, Top};
 use super::words::{as_spheres, shift_word};
@@ -63,14 +65,16 @@ pub struct Joined {
 /// # Errors
 /// When there are too many references.
 pub fn join(groups: &[Group]) -> Result<Joined, BvhError> {
-    join_groups(groups, &[]).map(|(joined, _)| joined)
+    let (mut joined, _) = join_groups(groups, &[])?;
+    joined.stack_need = pack::bvh::stack_need(&joined.nodes, &[], joined.root);
+    Ok(joined)
 }
 
 /// The joined tree; and where some groups overlap in more places than could be separated, what they were taken apart
 /// into.
 type Overlapping = (Joined, Option<Vec<Piece>>);
 
-/// Joins groups and instances.
+/// Joins groups and instances; how long the stack must be is left to the caller.
 pub(super) fn join_groups(
     groups: &[Group],
     instances: &[InstanceLeaf],
@@ -100,9 +104,8 @@ pub(super) fn join_groups(
     if pieces.is_empty() {
         return Ok((out, None));
     }
-    let members: Vec<Vec<u32>> = groups.iter().map(scene_order).collect();
+    let members: Vec<Vec<u32>> = groups.par_iter().map(scene_order).collect();
     out.root = write(&top::build(&mut pieces, MAX_TOP_LEVELS), groups, &members, &mut out);
-    out.stack_need = pack::bvh::stack_need(&out.nodes, &[], out.root);
     debug_assert_eq!([out.triangle_order.len(), out.sphere_order.len()], counts);
     Ok((out, overlapping.then_some(pieces)))
 }
@@ -180,6 +183,7 @@ pub fn stack_need<N: InnerNode>(
 fn scene_order(group: &Group) -> Vec<u32> {
     let mut order = group.tree.primitives();
     match group.members.as_slice() {
+        [one] if one.start == 0 => {}
         [one] => order.iter_mut().for_each(|i| *i += one.start),
         ranges => {
             let table: Vec<u32> = ranges.iter().flat_map(Clone::clone).collect();
@@ -245,8 +249,7 @@ fn write(top: &Top, groups: &[Group], members: &[Vec<u32>], out: &mut Joined) ->
                 let word = shift_word(word, nodes, prims);
                 if group.kind == GroupKind::Spheres { as_spheres(word) } else { word }
             };
-            let copies = group.tree.nodes[span.nodes].iter();
-            out.nodes.extend(copies.map(|n| Node {
+            let copy = |n: &Node| Node {
                 left_lo: pad_lo(n.left_lo),
                 left: word(n.left),
                 left_hi: pad_hi(n.left_hi),
@@ -254,7 +257,13 @@ fn write(top: &Top, groups: &[Group], members: &[Vec<u32>], out: &mut Joined) ->
                 right_lo: pad_lo(n.right_lo),
                 right_hi: pad_hi(n.right_hi),
                 ..Node::default()
-            }));
+            };
+            let nodes = &group.tree.nodes[span.nodes];
+            if nodes.len() < PARALLEL_MIN {
+                out.nodes.extend(nodes.iter().map(copy));
+            } else {
+                out.nodes.par_extend(nodes.par_iter().with_min_len(PARALLEL_MIN).map(copy));
+            }
             word(piece.word)
         }
     }

@@ -7,6 +7,7 @@
 
 use glam::Vec3;
 use pack::abi::ChildRef;
+use rayon::prelude::*;
 
 use super::join::Joined;
 
@@ -27,7 +28,11 @@ pub(super) fn visits(tree: &Joined, triangles: &[[[f32; 3]; 3]]) -> u64 {
         return 0;
     }
     let segment = |i| (corner(i), (corner(i * STRIDE + N_SEGMENTS / 2) - corner(i)) * REACH);
-    (0..N_SEGMENTS).map(segment).map(|(from, along)| visits_of(tree, from, along)).sum()
+    (0..N_SEGMENTS)
+        .into_par_iter()
+        .map(segment)
+        .map(|(from, along)| visits_of(tree, from, along))
+        .sum()
 }
 
 fn visits_of(tree: &Joined, from: Vec3, along: Vec3) -> u64 {

@@ -260,12 +260,16 @@ fn triangles<'a>(
     members: &[Range<u32>],
     moves: &Moves<'_>,
 ) -> Input<'a> {
-    let indices = members.iter().flat_map(Clone::clone);
-    let fragment = |(i, t): (u32, u32)| {
+    let fragment = |i: u32, t: u32| {
         let box_ = Fragment::of_triangle(&primitives.triangles[t as usize], i);
         moves.triangle(t).map_or(box_, |motion| box_.swept(motion))
     };
-    let fragments = (0..).zip(indices).map(fragment).collect();
+    let fragments = match members {
+        [one] => one.clone().into_par_iter().map(|t| fragment(t - one.start, t)).collect(),
+        parts => {
+            (0..).zip(parts.iter().flat_map(Clone::clone)).map(|(i, t)| fragment(i, t)).collect()
+        }
+    };
     let part = |r: &Range<u32>| &primitives.triangles[r.start as usize..r.end as usize];
     let corners = match members {
         [one] => Cow::Borrowed(part(one)),

@@ -12,6 +12,7 @@ use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
 use glam::Vec4;
 use pack::abi::{ChildRef, NONE, Node};
+use rayon::prelude::*;
 
 use super::Tree;
 use super::fragment::{Bounds, ordered_bits};
@@ -160,10 +161,14 @@ pub(super) fn pieces(trees: &[&Tree], instances: &[InstanceLeaf]) -> (Vec<Piece>
 pub(super) fn clusters(n_groups: usize, pieces: &[Piece]) -> Vec<Vec<usize>> {
     let mut weights = vec![0.0_f32; n_groups];
     let mut shared = BTreeMap::<(usize, usize), f32>::new();
-    for a in pieces {
-        weights[a.group] += a.weight;
+    // Quadratic, hence side by side.
+    let met = |a: &Piece| -> BTreeSet<usize> {
         let meets = |b: &&Piece| b.group != a.group && overlap(&a.bounds, &b.bounds);
-        let met: BTreeSet<usize> = pieces.iter().filter(meets).map(|b| b.group).collect();
+        pieces.iter().filter(meets).map(|b| b.group).collect()
+    };
+    let met: Vec<BTreeSet<usize>> = pieces.par_iter().map(met).collect();
+    for (a, met) in pieces.iter().zip(met) {
+        weights[a.group] += a.weight;
         for other in met {
             *shared.entry((a.group, other)).or_default() += a.weight;
         }

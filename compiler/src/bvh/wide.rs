@@ -8,10 +8,12 @@ use std::fmt;
 use std::str::FromStr;
 
 use pack::abi::{CHILD_INNER, ChildRef, MAX_STACK, Node, WideNode};
+use rayon::prelude::*;
 use thiserror::Error;
 
 use super::collapse::Collapse;
 use super::quantize::quantize;
+use super::words::shift_word;
 use super::{BvhError, word_of};
 
 /// How inner nodes are stored.
@@ -95,14 +97,72 @@ fn widen_one(
     root: u32,
     out: &mut Vec<WideNode>,
 ) -> Result<u32, BvhError> {
-    let from = out.len();
-    let (word, need) = write(best, root, out)?;
-    if need <= MAX_STACK {
-        return Ok(word);
+    let mut wide = fork(best, root, FORKS)?;
+    if wide.need > MAX_STACK {
+        // Four children may wait where two did not: a tree that is as deep as binary trees may be stays binary.
+        wide = fork(&Collapse::none(nodes), root, FORKS)?;
     }
-    // Four children may wait where two did not: a tree that is as deep as binary trees may be stays binary.
-    out.truncate(from);
-    write(&Collapse::none(nodes), root, out).map(|(word, _)| word)
+    let word = shift_word(wide.word, word_of(out.len()), 0);
+    wide.append(out);
+    Ok(word)
+}
+
+/// Levels of nodes whose children are written side by side: work for many threads.
+const FORKS: u32 = 3;
+
+/// A subtree of wide nodes, its references from its own beginning.
+struct Wide {
+    nodes: Vec<WideNode>,
+    word: u32,
+    /// What may wait on the stack below it.
+    need: u32,
+}
+
+impl Wide {
+    fn append(self, out: &mut Vec<WideNode>) {
+        let base = word_of(out.len());
+        if out.is_empty() {
+            *out = self.nodes;
+            return;
+        }
+        out.extend(self.nodes.into_iter().map(|mut node| {
+            for word in [&mut node.child0, &mut node.child1, &mut node.child2, &mut node.child3] {
+                *word = shift_word(*word, base, 0);
+            }
+            node
+        }));
+    }
+}
+
+/// The subtree below `root`, its children side by side on as many levels as `forks` says.
+fn fork(collapse: &Collapse<'_>, root: u32, forks: u32) -> Result<Wide, BvhError> {
+    let ChildRef::Inner(index) = ChildRef::decode(root) else {
+        return Ok(Wide { nodes: Vec::new(), word: root, need: 0 });
+    };
+    if forks == 0 {
+        let mut nodes = Vec::new();
+        let (word, need) = write(collapse, root, &mut nodes)?;
+        return Ok(Wide { nodes, word, need });
+    }
+    let mut children = Vec::with_capacity(4);
+    collapse.children_of(index, &mut children);
+    let below: Vec<Wide> = children
+        .par_iter()
+        .map(|child| fork(collapse, child.1, forks - 1))
+        .collect::<Result<_, _>>()?;
+    let mut nodes =
+        Vec::with_capacity(1 + below.iter().map(|wide| wide.nodes.len()).sum::<usize>());
+    let mut node = quantize(&children)?;
+    nodes.push(node);
+    let fields = [&mut node.child0, &mut node.child1, &mut node.child2, &mut node.child3];
+    let (mut others, mut need) = (0_u32, 0);
+    for (field, wide) in fields.into_iter().zip(below) {
+        *field = shift_word(wide.word, word_of(nodes.len()), 0);
+        (others, need) = (others + 1, need.max(wide.need));
+        wide.append(&mut nodes);
+    }
+    nodes[0] = node;
+    Ok(Wide { nodes, word: CHILD_INNER, need: need + others - 1 })
 }
 
 /// Returns the reference and what may wait on the stack below it.
