@@ -70,7 +70,12 @@ impl Normalization {
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "the one rounding of the whole conversion")]
     pub fn length(&self, metres: f64) -> f32 {
-        libm::scalbn(metres, self.exponent) as f32
+        let metres = match u64::try_from(self.exponent + 1023) {
+            // The product with a power of two is what `scalbn` gives, many times quicker.
+            Ok(biased @ 1..=2046) => metres * f64::from_bits(biased << 52),
+            _ => libm::scalbn(metres, self.exponent),
+        };
+        metres as f32
     }
 
     /// A quantity per metre (absorption, scattering) per unit of the normalised frame.
@@ -132,6 +137,19 @@ mod tests {
         let n = Normalization::of_bounds([0.0; 3], [f64::from_bits(1), 0.0, 0.0]);
         assert!(n.exponent <= 1023 && n.scale().is_finite());
         assert!(n.point([f64::from_bits(1), 0.0, 0.0]).iter().all(|x| x.is_finite()));
+    }
+
+    #[test]
+    #[expect(clippy::cast_possible_truncation, reason = "what is tested")]
+    fn a_length_is_scaled_as_by_scalbn() {
+        let lengths = [0.0, -0.0, 1.0, -0.3, 1e-300, 5e-324, 1e300, f64::MAX, f64::INFINITY];
+        for exponent in [-1025, -1023, -1022, -1021, -150, -149, -1, 0, 1, 127, 128, 1022, 1023] {
+            let frame = Normalization { center: [0.0; 3], exponent };
+            for x in lengths {
+                let expected = libm::scalbn(x, exponent) as f32;
+                assert_eq!(frame.length(x).to_bits(), expected.to_bits(), "{x} {exponent}");
+            }
+        }
     }
 
     #[test]

@@ -6,7 +6,7 @@
 //! touch must share them too. Ids depend on the set of positions alone, not on the order of the
 //! triangles or on threads, and a sort has no bad case that a hostile mesh could provoke.
 
-use rayon::slice::ParallelSliceMut;
+use rayon::prelude::*;
 
 /// Ids of the corners of all triangles.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -28,8 +28,9 @@ pub fn weld(triangles: &[[[f32; 3]; 3]]) -> Welded {
     assert!(u32::try_from(n_corners).is_ok(), "the tree allows 2^27 triangles, far fewer");
     let corners = triangles.as_flattened();
     // One number per corner: 96 bits of position, then the corner itself.
+    let numbered = corners.par_iter().enumerate();
     let mut keys: Vec<u128> =
-        (0..).zip(corners).map(|(corner, p)| position_bits(p) << 32 | corner).collect();
+        numbered.map(|(corner, p)| position_bits(p) << 32 | corner as u128).collect();
     keys.par_sort_unstable();
     let mut ids = vec![[0; 3]; triangles.len()];
     let flat = ids.as_flattened_mut();

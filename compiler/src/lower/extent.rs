@@ -30,6 +30,11 @@ impl Extent {
         (self.all[0][0] <= self.all[1][0]).then(|| self.all.map(DVec3::from))
     }
 
+    /// Both together.
+    pub(super) fn union(self, other: Self) -> Self {
+        Self { all: union(self.all, other.all), dark: union(self.dark, other.dark) }
+    }
+
     /// Adds a point, of something that gives light if it `glows`.
     pub(super) fn add(&mut self, p: DVec3, glows: bool) {
         // Zeros of either sign are one: the result does not depend on the order of the points.

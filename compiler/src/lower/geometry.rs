@@ -50,6 +50,8 @@ pub(super) struct Placement {
     pub(super) sphere_objects: Vec<u32>,
     /// What emits, in order of declaration.
     pub(super) emitters: Vec<Emitter>,
+    /// Index of each triangle of a part of a mesh that emits, its material, and its area as in `Emitter`.
+    glowing: Vec<(u32, u32, f64)>,
     /// Triangles that have no area.
     pub(super) dropped: u64,
     /// What the next compilation may take from the pack.
@@ -265,18 +267,7 @@ impl Placement {
             self.dropped += rest.dropped;
             rest
         } else {
-            let mut emitters = Vec::new();
-            triangles((body, form), files, |triangle, material| {
-                let corners = triangle.positions();
-                let index = (self.corners.len() - first) as u32;
-                let stays = self.add(stage, &corners, triangle.shade(material));
-                if stays && stage.materials.looks(material).glows {
-                    let [a, b, c] = corners;
-                    let area = 0.5 * (b - a).cross(c - a).length();
-                    let middle = corners.iter().sum::<DVec3>() / 3.0;
-                    emitters.push((index, material, stage.receivers.weigh(area, middle)));
-                }
-            });
+            let emitters = self.add_triangles(stage, (body, form), files);
             MeshRest { dropped: self.dropped - dropped, emitters }
         };
         self.emitters.extend(rest.emitters.iter().map(|(index, material, area)| Emitter {
@@ -288,6 +279,43 @@ impl Placement {
             tint: [0.0; 4],
         }));
         self.parts.push(Part::new(key_of(stage, body), first..self.corners.len(), rest));
+    }
+
+    /// Adds the triangles of a mesh that is read from its file. Of those that emit: the index of each among those
+    /// that were added, its material and its area.
+    fn add_triangles(
+        &mut self,
+        stage: &Stage<'_>,
+        mesh: (&Body, &MeshForm),
+        files: (&Meshes, &Pieces),
+    ) -> Vec<(u32, u32, f64)> {
+        let made = triangles(mesh, files, Self::default, |made, triangle, material| {
+            let corners = triangle.positions();
+            let index = made.corners.len() as u32;
+            let stays = made.add(stage, &corners, triangle.shade(material));
+            if stays && stage.materials.looks(material).glows {
+                let [a, b, c] = corners;
+                let area = 0.5 * (b - a).cross(c - a).length();
+                let middle = corners.iter().sum::<DVec3>() / 3.0;
+                made.glowing.push((index, material, stage.receivers.weigh(area, middle)));
+            }
+        });
+        let (mut n, mut emitters) = (0, Vec::new());
+        for part in &made {
+            emitters
+                .extend(part.glowing.iter().map(|(i, material, area)| (i + n, *material, *area)));
+            n += part.corners.len() as u32;
+            self.dropped += part.dropped;
+        }
+        let (corners, shades) = (&mut self.corners, &mut self.shades);
+        corners.reserve(n as usize);
+        shades.reserve(n as usize);
+        rayon::join(
+            || made.iter().for_each(|part| corners.extend_from_slice(&part.corners)),
+            || made.iter().for_each(|part| shades.extend_from_slice(&part.shades)),
+        );
+        self.labels.resize(self.corners.len(), [NONE; 3]);
+        emitters
     }
 
     /// Adds triangles of the last pack.

@@ -4,6 +4,7 @@
 //! of them a ray meets, the answer is the same.
 
 use pack::abi::{self, LightKind, NONE};
+use rayon::prelude::*;
 
 use super::geometry::Placement;
 use super::light::Geometry;
@@ -47,7 +48,7 @@ pub(super) fn order(
         let object = placement.sphere_objects[i as usize];
         abi::Sphere { center, radius, material, light: NONE, object, _pad0: 0 }
     };
-    let triangles = joined.triangle_order.iter().map(triangle).collect();
+    let triangles = joined.triangle_order.par_iter().map(triangle).collect();
     let spheres = joined.sphere_order.iter().map(sphere).collect();
     // They are as large as the pack: not all at once.
     drop((corners, welded));
@@ -55,7 +56,7 @@ pub(super) fn order(
     let n_triangles = shades.len();
     let mut ordered = Ordered {
         triangles,
-        shades: joined.triangle_order.iter().map(|i| shades[*i as usize]).collect(),
+        shades: joined.triangle_order.par_iter().map(|i| shades[*i as usize]).collect(),
         spheres,
         lights: Vec::new(),
         triangle_at: Vec::new(),
@@ -93,9 +94,8 @@ impl Ordered {
                 }
             }
         }
-        for (shade, &primitive) in self.shades.iter_mut().zip(&joined.triangle_order) {
-            shade.light = light_of[primitive as usize];
-        }
+        let shades = self.shades.par_iter_mut().zip(&joined.triangle_order);
+        shades.for_each(|(shade, &primitive)| shade.light = light_of[primitive as usize]);
         (self.lights, self.triangle_at) = (lights, triangle_at);
     }
 }

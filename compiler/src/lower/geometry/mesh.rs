@@ -1,6 +1,7 @@
 //! Triangles of a mesh file in the world, metres, with their shading data; and what is measured of them.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use glam::{DVec2, DVec3};
 use pack::abi::{self, NONE, TRI_SMOOTH};
@@ -46,8 +47,8 @@ pub(in crate::lower) fn measure(
     materials: &MaterialTable<'_>,
     inside: bool,
 ) -> Measured {
-    let mut found = Measured { extent: Extent::NOTHING, boundaries: Vec::new() };
-    triangles((body, form), (meshes, pieces), |corner, material| {
+    let nothing = || Measured { extent: Extent::NOTHING, boundaries: Vec::new() };
+    let measured = triangles((body, form), (meshes, pieces), nothing, |found, corner, material| {
         let looks = materials.looks(material);
         let corners = corner.positions();
         for p in corners {
@@ -57,26 +58,44 @@ pub(in crate::lower) fn measure(
             found.boundaries.push(Boundary::triangle(&corners, material, body.object));
         }
     });
-    found
+    measured.into_iter().fold(nothing(), |mut all, mut part| {
+        all.extent = all.extent.union(part.extent);
+        all.boundaries.append(&mut part.boundaries);
+        all
+    })
 }
 
-/// Calls `visit` with each triangle of the mesh `form` of `body` that is there, and its material.
-pub(in crate::lower) fn triangles(
+/// Triangles that are one piece of work.
+const CHUNK: usize = 1 << 14;
+
+/// Calls `visit` with each triangle of the mesh `form` of `body` that is there, and its material; many are visited
+/// side by side. What each piece of work makes of `start`, in the order of the triangles.
+pub(in crate::lower) fn triangles<T: Send>(
     (body, form): (&Body, &MeshForm),
     (meshes, pieces): (&Meshes, &Pieces),
-    mut visit: impl FnMut(Triangle<'_>, u32),
-) {
+    start: impl Fn() -> T + Sync,
+    visit: impl Fn(&mut T, Triangle<'_>, u32) + Sync,
+) -> Vec<T> {
     let file = &meshes[&form.asset];
-    for (index, material) in &form.parts {
-        let part = &file.parts[*index];
-        let pieces = pieces.0.get(&(form.asset, *index)).filter(|_| form.sheets.is_some());
-        for tri_idx in 0..part.triangles.len() {
+    let mut work = Vec::new();
+    for &(index, material) in &form.parts {
+        let n = file.parts[index].triangles.len();
+        let chunk = |from: usize| (index, material, from..n.min(from + CHUNK));
+        work.extend((0..n).step_by(CHUNK).map(chunk));
+    }
+    let make = |(index, material, range): (usize, u32, Range<usize>)| {
+        let part = &file.parts[index];
+        let pieces = pieces.0.get(&(form.asset, index)).filter(|_| form.sheets.is_some());
+        let mut made = start();
+        for tri_idx in range {
             let piece = pieces.map_or(0, |pieces| pieces[tri_idx]);
             if form.sheets.as_ref().is_none_or(|sheets| sheets.exists(piece)) {
-                visit(Triangle { body, form, part, tri_idx, piece }, *material);
+                visit(&mut made, Triangle { body, form, part, tri_idx, piece }, material);
             }
         }
-    }
+        made
+    };
+    work.into_par_iter().map(make).collect()
 }
 
 /// A triangle of a mesh.
