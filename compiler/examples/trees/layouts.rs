@@ -12,7 +12,7 @@ use runtime::kernel::walk::{Companion, Geometry, Tree};
 
 use crate::measure::{build, cpu_seconds, walked, walked_wide};
 use crate::other::{self, Yardstick};
-use crate::scene::Tri;
+use crate::scene::{Tri, VIEWS};
 use crate::walk::{Cost, Ray};
 
 /// Runs of each kernel; odd, so that the median is a measured value.
@@ -116,7 +116,7 @@ fn rays(tree: &Joined, triangles: &[Tri]) -> Vec<Ray> {
     for child in unscaled.nodes.as_flattened_mut() {
         (child.lo, child.hi) = (child.lo / SCALE, child.hi / SCALE);
     }
-    let rays = unscaled.rays(triangles).into_iter();
+    let rays = unscaled.rays(triangles, &VIEWS).into_iter();
     rays.map(|ray| Ray { origin: ray.origin * SCALE, dir: ray.dir }).collect()
 }
 

@@ -10,7 +10,7 @@ use glam::Vec3;
 use pack::abi::{ChildRef, Node, WideNode};
 
 use crate::other;
-use crate::scene::Tri;
+use crate::scene::{self, Tri};
 use crate::walk::{Child, Cost, Ray, Shape, To, Walked, pair};
 
 /// Builds of each tree; odd, so that the median is a measured value.
@@ -64,7 +64,7 @@ pub(crate) fn all(triangles: &[Tri], yardstick: Option<&Path>) -> Result<Rows, B
             note(name.to_owned(), cpu, &mut || other::read(&tree));
         }
     }
-    let rays = trees[1].rays(triangles);
+    let rays = trees[1].rays(triangles, &scene::VIEWS);
     let rows = took.into_iter().zip(&trees).map(|((name, mut times), tree)| {
         times.sort_by(f64::total_cmp);
         row(name, times[ROUNDS / 2], tree, triangles, &rays)

@@ -16,6 +16,17 @@ pub(crate) const PARTS: [(&str, usize); 4] = [
 /// Triangles of the ground, 400 m to 4 km.
 pub(crate) const GROUND: usize = 40;
 
+/// Where a camera is and what it looks at, metres.
+pub(crate) type View = [[f32; 3]; 2];
+
+/// What the scene is seen from.
+pub(crate) const VIEWS: [View; 4] = [
+    [[-80.0, 18.0, -80.0], [0.0, 3.0, 0.0]],
+    [[10.0, 6.0, -30.0], [0.0, 4.0, 20.0]],
+    [[60.0, 25.0, 70.0], [-20.0, 0.0, 0.0]],
+    [[0.0, 60.0, 0.0], [5.0, 0.0, 5.0]],
+];
+
 const TAU: f32 = std::f32::consts::TAU;
 
 /// PCG-XSH-RR, O'Neill 2014.

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use pack::abi::WIDTH;
 
-use crate::scene::{Rng, Tri, basis};
+use crate::scene::{Rng, Tri, View, basis};
 
 /// A child: its box and where it leads.
 #[derive(Clone, Copy)]
@@ -160,12 +160,10 @@ impl Walked {
     }
 
     /// Incoherent rays from inside the scene: cosine-distributed directions at what four cameras see.
-    pub(crate) fn rays(&self, triangles: &[Tri]) -> Vec<Ray> {
-        let eyes = [[-80.0, 18.0, -80.0], [10.0, 6.0, -30.0], [60.0, 25.0, 70.0], [0.0, 60.0, 0.0]];
-        let aims = [[0.0, 3.0, 0.0], [0.0, 4.0, 20.0], [-20.0, 0.0, 0.0], [5.0, 0.0, 5.0]];
+    pub(crate) fn rays(&self, triangles: &[Tri], views: &[View; 4]) -> Vec<Ray> {
         let mut rng = Rng::new(99);
         let mut rays = Vec::new();
-        for (origin, aim) in eyes.into_iter().zip(aims) {
+        for [origin, aim] in *views {
             let (origin, aim) = (Vec3::from_array(origin), Vec3::from_array(aim));
             let forward = (aim - origin).normalize();
             let [u, v] = basis(forward);
