@@ -10,7 +10,10 @@ from pathlib import Path
 
 import numpy as np
 
-import meadow
+import mesh_files
+import meshes
+import scenes
+import to_rts
 
 # Triangles: 2 of the plain, 2 SIDE^2 of terrain, 2 a petal, 2 SIDES a column.
 SIDE = 600
@@ -100,10 +103,21 @@ def write(folder):
         all_triangles.append(triangles + first)
         first += len(vertices)
     triangles = np.concatenate(all_triangles)
-    meadow.write_glb(folder / "landscape.glb", np.concatenate(all_vertices), triangles)
+    mesh_files.write_glb(folder / "landscape.glb", np.concatenate(all_vertices), triangles)
     (folder / "landscape.rts").write_text(RTS)
     return len(triangles)
 
 
+def write_meadow(folder):
+    """The scene that all renderers are given, and its meshes; the number of triangles."""
+    scene, count = scenes.MEADOW, 0
+    for name in scene.meshes():
+        vertices, triangles = meshes.make(name)
+        mesh_files.write_glb(folder / f"{name}.glb", vertices, triangles)
+        count += len(triangles)
+    (folder / "meadow.rts").write_text(to_rts.text(scene, scene.size))
+    return count
+
+
 if __name__ == "__main__":
-    print(write(Path(sys.argv[1])), meadow.write(Path(sys.argv[1])), "triangles")
+    print(write(Path(sys.argv[1])), write_meadow(Path(sys.argv[1])), "triangles")
