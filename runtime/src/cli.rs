@@ -13,6 +13,7 @@ mod check;
 mod console;
 mod exit;
 mod guard;
+mod layer_args;
 mod layers;
 mod measure;
 mod open;

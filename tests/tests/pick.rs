@@ -60,7 +60,7 @@ fn at(name: &str, line: u32) -> Option<Declared> {
 #[test]
 fn a_part_of_a_mesh_has_the_lines_of_its_object_and_asset() {
     let seen = surface([5, 2]);
-    assert_eq!((seen.instance, seen.light), (at("ground", 10), None));
+    assert_eq!((seen.instance, seen.light), (at("ground", 11), None));
     assert_eq!((seen.object, seen.shape), (at("slab", 5), at("mesh", 6)));
     assert_eq!((seen.asset, seen.part.as_deref()), (at("sheet", 2), Some("right")));
     assert_eq!(seen.material, at("clay", 3));
@@ -74,26 +74,26 @@ fn a_part_of_a_mesh_has_the_lines_of_its_object_and_asset() {
 #[test]
 fn instances_with_an_index_groups_and_lights_are_told_apart() {
     let ball = surface([2, 2]);
-    assert_eq!((ball.instance, ball.object), (at("balls[0]", 11), None));
-    assert_eq!((ball.shape, ball.material), (at("sphere", 12), at("glow", 4)));
-    assert_eq!(surface([1, 2]).instance, at("balls[1]", 11));
+    assert_eq!((ball.instance, ball.object), (at("balls[0]", 12), None));
+    assert_eq!((ball.shape, ball.material), (at("sphere", 13), at("glow", 4)));
+    assert_eq!(surface([1, 2]).instance, at("balls[1]", 12));
     let post = surface([2, 5]);
-    assert_eq!((post.instance, post.object), (at("posts.post", 16), at("post", 8)));
+    assert_eq!((post.instance, post.object), (at("posts.post", 17), at("post", 9)));
     assert!((post.position[1] - 0.5).abs() < 1e-5, "{:?}", post.position);
     let bulb = surface([5, 5]);
-    assert_eq!((bulb.instance, bulb.light), (None, at("bulb", 17)));
+    assert_eq!((bulb.instance, bulb.light), (None, at("bulb", 18)));
 }
 
 #[test]
 fn where_nothing_is_there_is_the_sky() {
     let pick = picked([0, 4]);
-    assert_eq!((pick.surface, pick.camera), (None, at("eye", 18)));
+    assert_eq!((pick.surface, pick.camera), (None, at("eye", 19)));
 }
 
 #[test]
 fn the_text_has_a_line_for_each_fact() {
     let text = picked([5, 2]).to_string();
-    let start = "pixel 5,2 of 8x8\ninstance  ground (test.rts:10)\nobject    slab (test.rts:5)\n";
+    let start = "pixel 5,2 of 8x8\ninstance  ground (test.rts:11)\nobject    slab (test.rts:5)\n";
     assert!(text.starts_with(start), "{text}");
     for line in ["shape     mesh (test.rts:6)", "part      right", "side      "] {
         assert!(text.contains(line), "{line}: {text}");

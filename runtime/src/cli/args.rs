@@ -1,6 +1,6 @@
 //! Arguments as clap reads them, and the parsers of their values.
 
-use super::layers::LayerArgs;
+use super::layer_args::LayerArgs;
 use crate::convergence::Goal;
 use crate::output::Format;
 use crate::region::{Rect, SampleRange};

@@ -70,7 +70,7 @@ impl Rays {
 
 /// The hits of eight rays.
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-pub fn trace(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::Ray) -> kernel::Hit {
+pub(crate) fn trace(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::Ray) -> kernel::Hit {
     let mut hits = [scalar::Hit::ZERO; 8];
     let Companion { scalar, avx2 } = &mut kernel.companion;
     let rays = Rays::of(ray);
