@@ -15,7 +15,7 @@ pub fn id_of(name: &str) -> u32 {
     }
 }
 
-/// MurmurHash3 x86 32 with seed 0 (Appleby, public domain).
+/// `MurmurHash3_x86_32` with seed 0 (Appleby, public domain).
 fn murmur3(bytes: &[u8]) -> u32 {
     let scrambled =
         |word: u32| word.wrapping_mul(0xcc9e_2d51).rotate_left(15).wrapping_mul(0x1b87_3593);

@@ -48,10 +48,10 @@ impl Matte {
         Self { kind, names, shares: Vec::new() }
     }
 
-    /// The shares of pixel `i`, largest first, then by number.
+    /// The shares of a pixel, largest first, then by number.
     #[must_use]
-    pub fn ranked(&self, i: usize) -> Vec<(u32, u32)> {
-        let mut shares = self.shares.get(i).cloned().unwrap_or_default();
+    pub fn ranked(shares: &[(u32, u32)]) -> Vec<(u32, u32)> {
+        let mut shares = shares.to_vec();
         shares.sort_by_key(|(id, n)| (std::cmp::Reverse(*n), *id));
         shares
     }

@@ -133,10 +133,9 @@ fn values(layers: &Layers, layer: Layer, c: usize) -> Vec<f64> {
 
 /// Pairs of a number and its share, largest share first.
 fn matte_channels(matte: &Matte, levels: usize, names: LayerNames, samples: u32) -> Vec<Channel> {
-    let n_pixels = matte.shares.len();
-    let mut planes = vec![vec![0.0_f32; n_pixels]; 4 * levels];
-    for i in 0..n_pixels {
-        for (rank, (id, n)) in matte.ranked(i).into_iter().take(2 * levels).enumerate() {
+    let mut planes = vec![vec![0.0_f32; matte.shares.len()]; 4 * levels];
+    for (i, shares) in matte.shares.iter().enumerate() {
+        for (rank, (id, n)) in Matte::ranked(shares).into_iter().take(2 * levels).enumerate() {
             planes[2 * rank][i] = f32::from_bits(id);
             planes[2 * rank + 1][i] = round(f64::from(n) / f64::from(samples.max(1)));
         }
@@ -201,7 +200,7 @@ pub(super) fn parse(source: &dyn Source, n: usize) -> Result<Option<Layers>, Str
     };
     let samples: Option<u32> = source.text("layer_samples").and_then(|text| text.parse().ok());
     let samples = samples.ok_or("`layer_samples` is malformed")?;
-    let mut layers = Layers { samples, wanted, ..Layers::default() };
+    let mut layers = Layers { wanted, samples, ..Layers::default() };
     if layers.has(Layer::Albedo) {
         layers.albedo = sums(source, &layers, Layer::Albedo, n)?;
     }
