@@ -30,7 +30,6 @@ pub struct Vertex {
 }
 
 /// Luminance that each step adds to the path, and the material of the vertex where it starts.
-#[must_use]
 pub fn events(sample: &Sample) -> impl Iterator<Item = (&Step, f64, Option<u32>)> {
     let (mut before, mut here, mut next) = (0.0, None, None);
     sample.steps.iter().map(move |step| {

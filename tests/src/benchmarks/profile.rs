@@ -43,8 +43,8 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
         }
         let pixels = f64::from(width) * f64::from(height);
         let rays = profile.n_rays() as f64 / (pixels * f64::from(TRACED));
-        let ray = median(traced.into_iter()) / profile.n_rays() as f64 * 1e9;
-        let sample = median(rendered.into_iter()) / (pixels * f64::from(SAMPLES)) * 1e9;
+        let ray = median(traced) / profile.n_rays() as f64 * 1e9;
+        let sample = median(rendered) / (pixels * f64::from(SAMPLES)) * 1e9;
         let lanes = profile.lanes();
         let _ = writeln!(
             text,
