@@ -53,6 +53,7 @@ fn surface(pixel: [u32; 2]) -> Surface {
     picked(pixel).surface.expect("something is there")
 }
 
+#[expect(clippy::unnecessary_wraps, reason = "what it is compared with may be nothing")]
 fn at(name: &str, line: u32) -> Option<Declared> {
     Some(Declared { name: name.to_owned(), file: Some("test.rts".to_owned()), line: Some(line) })
 }
