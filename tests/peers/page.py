@@ -5,6 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
+from references import LONGER
+
 # Width in pixels of a picture of the strip.
 THUMB = 200
 
@@ -105,6 +107,7 @@ def text(results, names, args, bound):
         machine=f"{platform.machine()} {platform.system().lower()}, {processor()}", threads=args.threads,
         renderers="; ".join(names.values()), times=times, rounds=args.rounds, bound=bound,
         replicates=args.replicates, reference=args.reference_seconds,
+        longer=", ".join(f"`{name}` {n} times that" for name, n in LONGER.items()),
         decides=equal_time(results, short, args.seconds), cost=cost(results, short), means=means(results, short),
         caption="From left to right: " + ", ".join(short) + "; the scenes from top to bottom as in the tables")
 
@@ -130,7 +133,7 @@ same error in about half the time.
 
 - **Error**: of each pixel's luminance `(Y - R)^2 / (R^2 + e^2)`, with `e` a hundredth of the mean of the reference `R`;
   the worst 0.1 % of the pixels are left out, the others averaged ([error.md](error.md) calls its root `ref_rel_trim`).
-- **Reference**: {replicates} independent pictures of each renderer, {reference:g} s in all for each, joined with the
+- **Reference**: {replicates} independent pictures of each renderer, {reference:g} s in all for each ({longer}), joined with the
   inverse of their noise as weights. It favours nobody where the means agree, and is less noisy than the best of the
   three. How noisy it still is, is known from the pictures it is made of, and taken off the error. What stays is that
   `R` is too low where light is rare and has not been met often: errors of scenes with bright specks come out some
