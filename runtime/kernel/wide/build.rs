@@ -12,7 +12,17 @@ fn main() -> Result<(), Box<dyn Error>> {
     let by_hand = native::ByHand {
         seams: &[trace],
         companion: Some("crate::render::Companion<'a>"),
-        ..native::ByHand::default()
+        entrances: &[
+            "ray_miss",
+            "box_inverse",
+            "triangle_shear",
+            "spheres_trace",
+            "order_triangle",
+            "order_skipped",
+            "candidate_triangle",
+            "dispatch_triangle_after",
+            "dispatch_ends",
+        ],
     };
     let text = native::generate_wide(&kernel.text, "kernel_f32::kernel", by_hand);
     // An error names the place in our modules, not in the linked text.

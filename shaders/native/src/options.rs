@@ -28,7 +28,7 @@ pub struct ByHand<'a> {
     /// A type that it needs, as seen from the generated module; it may have the lifetime `'a` of the resources, and
     /// has a default. `Kernel` gets a member `companion` of it that no translated function uses.
     pub companion: Option<&'a str>,
-    /// Functions that it calls from other crates. They are compiled once, with the module; all others are compiled
-    /// with whoever calls them. Their names in the WGSL.
+    /// Functions that it calls. The scalar forms compile them once, with the module, and all others with whoever calls
+    /// them; the wide form translates them even where nothing else calls them. Their names in the WGSL.
     pub entrances: &'a [&'a str],
 }

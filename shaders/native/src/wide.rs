@@ -5,7 +5,7 @@
 //! some lane asks for it, a loop until no lane is left; `return`, `break` and `continue` take lanes out of the mask;
 //! what is stored is stored in the lanes of the mask. Every lane has the bits of the scalar form.
 //!
-//! Only what the entry points call is translated, without what is done by hand. The module needs `glam`, `bytemuck` and
+//! Only what the entry points and hand-written code call is translated, without what is done by hand. The module needs `glam`, `bytemuck` and
 //! the scalar module, whose constants and structs it uses; all its functions are compiled for AVX2, so that calling an
 //! entry point is `unsafe` where that is not known to be there.
 
@@ -65,11 +65,18 @@ impl Context<'_> {
         Ok(out.finish())
     }
 
-    /// What the entry points call, be it over other functions; nothing that only a seam's own translation calls.
+    /// What the entry points and hand-written code call, be it over other functions; nothing that only a seam's own
+    /// translation calls.
     fn reached(&self) -> Vec<bool> {
         let mut reached = vec![false; self.module.functions.len()];
         let mut left: Vec<&Block> =
             self.module.entry_points.iter().map(|entry| &entry.function.body).collect();
+        for (handle, function) in self.module.functions.iter() {
+            if function.name.as_deref().is_some_and(|name| self.entrances.contains(&name)) {
+                reached[handle.index()] = true;
+                left.push(&function.body);
+            }
+        }
         while let Some(block) = left.pop() {
             let mut called = Vec::new();
             calls(block, &mut called);

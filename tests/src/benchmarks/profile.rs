@@ -27,7 +27,7 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
         | scene | ns a sample | rays a sample | trace, ns a ray | Mrays per CPU s | trace, share | shading, ns a sample | busy | materials |\n\
         |---|---|---|---|---|---|---|---|---|"
     );
-    for name in ["cornell", "cornell_sphere", "materials", "gltf", "mesh", "shrine"] {
+    for name in ["cornell", "cornell_sphere", "weekend", "materials", "gltf", "mesh", "shrine"] {
         let scene = packs.scene(name, Layout::Wide)?;
         let mut job = Job::of_scene(&scene);
         job.resize(SIZE);

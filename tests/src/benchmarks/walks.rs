@@ -32,7 +32,7 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
         | scene | nodes and walk | CPU s | Mrays | Mrays per CPU s | against the first |\n\
         |---|---|---|---|---|---|"
     );
-    for name in ["cornell", "materials", "gltf", "mesh", "shrine"] {
+    for name in ["cornell", "cornell_sphere", "weekend", "materials", "gltf", "mesh", "shrine"] {
         let (wide, binary) = (packs.scene(name, Layout::Wide)?, packs.scene(name, Layout::Binary)?);
         let mut runs: [Vec<Cost>; 4] = Default::default();
         for _ in 0..ROUNDS {

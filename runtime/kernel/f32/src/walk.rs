@@ -18,7 +18,8 @@ mod tree;
 mod triangles;
 
 pub use build::Geometry;
-pub use tree::{Companion, Tree};
+pub use stack::FAR_END;
+pub use tree::{Block, Companion, Node, Step, Tree};
 
 use crate::kernel::{CHILD_INNER, CHILD_OUT, CHILD_SPHERES, Hit, Kernel, NONE, Ray};
 use lanes::{Halves, Lanes};

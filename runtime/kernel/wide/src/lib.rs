@@ -5,4 +5,6 @@
 #![cfg(target_arch = "x86_64")]
 
 pub mod kernel;
+mod packet;
+mod packet_triangle;
 pub mod render;

@@ -1,17 +1,24 @@
 //! The tile of a frame, eight pixels at a time.
 //!
 //! Turns a tile into the pixels that the scalar kernel makes of it, bit for bit: the wide form of the same WGSL, with
-//! rays traced one by one. Only where the processor has AVX2.
+//! rays traced one by one, or together if the tree is small. Only where the processor has AVX2.
 
 use crate::kernel::{self, v};
+use crate::packet;
 use glam::UVec4;
-use kernel_f32::{kernel as scalar, walk};
+use kernel_f32::{
+    kernel as scalar,
+    walk::{self, Tree},
+};
 use pulp::x86::V3;
 
 /// What the wide kernel needs beside it: the scalar one, which traces.
 pub struct Companion<'a> {
     scalar: scalar::Kernel<'a>,
     avx2: V3,
+    /// The tree, if rays are to be traced together.
+    small: Option<&'a Tree>,
+    pub(crate) stack: packet::Stack,
 }
 
 /// What a tile is rendered with.
@@ -71,8 +78,11 @@ impl Rays {
 /// The hits of eight rays.
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
 pub(crate) fn trace(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::Ray) -> kernel::Hit {
+    if let Some(tree) = kernel.companion.small {
+        return packet::trace(kernel, tree, mask, ray);
+    }
     let mut hits = [scalar::Hit::ZERO; 8];
-    let Companion { scalar, avx2 } = &mut kernel.companion;
+    let Companion { scalar, avx2, .. } = &mut kernel.companion;
     let rays = Rays::of(ray);
     let mut left = v::bits(mask);
     while left != 0 {
@@ -93,6 +103,7 @@ pub fn render(avx2: V3, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
 fn render_groups(avx2: V3, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
     let Tile { scalar, film, size } = tile;
+    let small = scalar.companion.tree().filter(|tree| tree.is_small());
     let mut kernel = kernel::Kernel {
         frame_words: scalar.frame_words,
         film_words: film,
@@ -102,7 +113,7 @@ fn render_groups(avx2: V3, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
         shade_words: scalar.shade_words,
         sphere_words: scalar.sphere_words,
         texel_words: scalar.texel_words,
-        companion: Companion { scalar, avx2 },
+        companion: Companion { scalar, avx2, small, stack: packet::Stack::default() },
     };
     for y in 0..size[1] {
         for x in (0..size[0]).step_by(8) {

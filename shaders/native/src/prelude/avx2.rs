@@ -128,6 +128,12 @@ lanes! {
     fn clamp_f(x: F, low: F, high: F) -> F {
         F(_mm256_min_ps(_mm256_max_ps(x.0, low.0), high.0))
     }
+    /// The least of all lanes.
+    fn least_f(a: F) -> f32 {
+        let halves = _mm_min_ps(_mm256_castps256_ps128(a.0), _mm256_extractf128_ps::<1>(a.0));
+        let pairs = _mm_min_ps(halves, _mm_movehl_ps(halves, halves));
+        _mm_cvtss_f32(_mm_min_ss(pairs, _mm_movehdup_ps(pairs)))
+    }
     fn eq_f(a: F, b: F) -> B { B(_mm256_castps_si256(_mm256_cmp_ps::<_CMP_EQ_OQ>(a.0, b.0))) }
     fn ne_f(a: F, b: F) -> B { B(_mm256_castps_si256(_mm256_cmp_ps::<_CMP_NEQ_UQ>(a.0, b.0))) }
     fn lt_f(a: F, b: F) -> B { B(_mm256_castps_si256(_mm256_cmp_ps::<_CMP_LT_OQ>(a.0, b.0))) }

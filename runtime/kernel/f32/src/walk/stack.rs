@@ -1,7 +1,7 @@
 //! The children that a ray may still enter.
 
 /// By how much the far end of a box grows; see `box_enter`.
-pub(super) const FAR_END: f32 = 1.000_001;
+pub const FAR_END: f32 = 1.000_001;
 
 /// A child whose box the ray meets.
 #[derive(Clone, Copy, Debug, Default)]

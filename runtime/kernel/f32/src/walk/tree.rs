@@ -19,24 +19,27 @@ pub(super) const MOVING: u32 = 1 << 28;
 /// The bits of an index of blocks.
 pub(super) const BLOCK_INDEX: u32 = TWO_BLOCKS - 1;
 
+/// The nodes of a small tree, at most.
+const SMALL: usize = 128;
+
 /// Up to eight children. That of a child that is not there is inside out: no ray meets it.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
-pub(super) struct Node {
+pub struct Node {
     /// For each axis the lower ends of all boxes, then the upper ones.
-    pub(super) ends: [[[f32; WIDTH]; 2]; 3],
+    pub ends: [[[f32; WIDTH]; 2]; 3],
     /// References.
-    pub(super) children: [u32; WIDTH],
+    pub children: [u32; WIDTH],
 }
 
 /// Up to four triangles that stand still.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
-pub(super) struct Block {
+pub struct Block {
     /// For each corner x, y and z; lanes without a triangle of their own repeat the last.
     pub(super) corners: [[[f32; BLOCK]; 3]; 3],
     /// Which triangles of the pack they are; `NONE` in the other lanes.
-    pub(super) triangles: [u32; BLOCK],
+    pub triangles: [u32; BLOCK],
 }
 
 /// A tree, and those of its instances.
@@ -55,7 +58,55 @@ pub struct Tree {
     pub(super) uncut: bool,
 }
 
+/// What a reference leads to.
+#[derive(Clone, Copy, Debug)]
+pub enum Step<'a> {
+    /// More references.
+    Node(&'a Node),
+    /// A leaf of triangles that stand still.
+    Triangles(&'a [Block]),
+    /// A leaf of spheres, as in the pack.
+    Spheres,
+    /// An instance, triangles that move, or nothing.
+    Other,
+}
+
 impl Tree {
+    /// The reference of the root of the world, or `NONE`.
+    #[must_use]
+    #[inline(always)]
+    pub fn root(&self) -> u32 {
+        self.root
+    }
+
+    /// Few nodes, over what stands still in the world: most rays come to most of it.
+    #[must_use]
+    pub fn is_small(&self) -> bool {
+        self.nodes.len() <= SMALL && self.moving.is_empty() && self.roots.is_empty()
+    }
+
+    /// Nothing is cut out of a triangle.
+    #[must_use]
+    #[inline(always)]
+    pub fn is_uncut(&self) -> bool {
+        self.uncut
+    }
+
+    /// What the reference `child` leads to.
+    #[must_use]
+    #[inline(always)]
+    pub fn step(&self, child: u32) -> Step<'_> {
+        if child & CHILD_INNER != 0 {
+            self.node(child).map_or(Step::Other, Step::Node)
+        } else if child & CHILD_SPHERES != 0 {
+            if child & CHILD_INSTANCE == CHILD_INSTANCE { Step::Other } else { Step::Spheres }
+        } else if child & MOVING != 0 {
+            Step::Other
+        } else {
+            Step::Triangles(self.blocks(child))
+        }
+    }
+
     /// The node that `child`, which is an inner one, refers to.
     #[inline(always)]
     pub(super) fn node(&self, child: u32) -> Option<&Node> {
@@ -115,6 +166,13 @@ impl<'a> Companion<'a> {
     #[must_use]
     pub fn new(tree: Option<&'a Tree>) -> Self {
         Self { tree, stack: Stack::new(tree.map_or(0, |tree| tree.need)) }
+    }
+
+    /// The tree, if there is one.
+    #[must_use]
+    #[inline(always)]
+    pub fn tree(&self) -> Option<&'a Tree> {
+        self.tree
     }
 }
 

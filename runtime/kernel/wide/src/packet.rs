@@ -1,0 +1,232 @@
+//! Eight rays at once through a small tree of eights.
+//!
+//! Turns eight rays into their hits, the bits that eight walks find: a box, a triangle or a leaf of spheres is tested
+//! with all rays that come to it. Worth it where most rays meet most of the tree; in large trees rays soon part, and
+//! are walked one by one.
+
+use crate::kernel::{Hit, Kernel, Ray, v};
+use crate::packet_triangle::Seen;
+use kernel_f32::kernel as scalar;
+use kernel_f32::walk::{Block, FAR_END, Node, Step, Tree};
+use scalar::NONE;
+
+/// A child that some rays meet.
+#[derive(Clone, Copy, Debug)]
+struct Waiting {
+    /// Its reference.
+    child: u32,
+    /// Where each ray enters its box; beyond everything where it does not.
+    enter: v::F,
+}
+
+/// Children that rays may still enter; kept from one packet to the next.
+#[derive(Debug, Default)]
+pub(crate) struct Stack(Vec<Waiting>);
+
+/// Eight rays, and what is worked out once for them.
+struct Packet<'r> {
+    ray: &'r Ray,
+    inverse: v::V3<v::F>,
+    t_min: v::F,
+    seen: Seen,
+    /// The lanes of shadow rays.
+    shadow: v::B,
+    /// Nothing is cut out of a triangle.
+    uncut: bool,
+    /// The lanes that start on a triangle, and the id of its first corner.
+    skip: v::B,
+    skip_id: v::U,
+}
+
+/// What the rays of `mask` meet in `tree`, which is small. For each as `walk::trace`.
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+pub(crate) fn trace(kernel: &mut Kernel<'_>, tree: &Tree, mask: v::B, ray: &Ray) -> Hit {
+    let mut stack = std::mem::take(&mut kernel.companion.stack);
+    let packet = Packet::new(kernel, tree, mask, ray);
+    let hit = packet.walk(kernel, tree, &mut stack.0, mask);
+    kernel.companion.stack = stack;
+    hit
+}
+
+impl<'r> Packet<'r> {
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    fn new(kernel: &mut Kernel<'_>, tree: &Tree, mask: v::B, ray: &'r Ray) -> Self {
+        let other = v::ne_u(v::and_u(ray.skip.x, v::u(scalar::PRIM_OTHER)), v::u(0));
+        let skip = v::but_b(v::and_b(mask, v::eq_u(ray.skip.y, v::u(NONE))), other);
+        let skip_id =
+            if v::any(skip) { kernel.load_triangle_id0(skip, ray.skip.x) } else { v::u(0) };
+        let shear = kernel.triangle_shear(mask, ray.dir);
+        Self {
+            ray,
+            inverse: kernel.box_inverse(mask, ray.dir),
+            // As in `trace/bvh.wgsl`.
+            t_min: v::mul_f(ray.t_min, v::f(0.9999)),
+            seen: Seen::new(ray, shear),
+            shadow: v::and_b(mask, v::ne_u(ray.light, v::u(NONE))),
+            uncut: tree.is_uncut(),
+            skip,
+            skip_id,
+        }
+    }
+
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    fn walk(
+        &self,
+        kernel: &mut Kernel<'_>,
+        tree: &Tree,
+        stack: &mut Vec<Waiting>,
+        mask: v::B,
+    ) -> Hit {
+        let mut hit = kernel.ray_miss(mask, self.ray.t_max);
+        let mut left = mask;
+        stack.clear();
+        stack.push(Waiting { child: tree.root(), enter: v::f(0.0) });
+        while let Some(Waiting { child, enter }) = stack.pop() {
+            let near = v::le_f(enter, v::mul_f(hit.t, v::f(FAR_END)));
+            let active = v::and_b(left, near);
+            if !v::any(active) {
+                continue;
+            }
+            let ended = match tree.step(child) {
+                Step::Node(node) => {
+                    self.visit(node, active, hit.t, stack);
+                    continue;
+                }
+                Step::Triangles(blocks) => self.triangles(kernel, blocks, active, &mut hit),
+                Step::Spheres => self.spheres(kernel, child, active, &mut hit),
+                // Nothing, or what is not in a small tree.
+                Step::Other => continue,
+            };
+            left = v::but_b(left, ended);
+        }
+        hit
+    }
+
+    /// Pushes the children of `node` that rays of `active` meet, the nearest last. Boxes are met as in
+    /// `trace/box.wgsl`.
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[inline]
+    fn visit(&self, node: &Node, active: v::B, t_max: v::F, stack: &mut Vec<Waiting>) {
+        let (o, inverse) = (self.ray.origin, self.inverse);
+        let bottom = stack.len();
+        let mut keys = [0.0_f32; 8];
+        for (k, child) in node.children.iter().enumerate() {
+            if *child == NONE {
+                continue;
+            }
+            let [x, y, z] = &node.ends;
+            let plane =
+                |end: &[f32; 8], from, inverse| v::mul_f(v::sub_f(v::f(end[k]), from), inverse);
+            let (x0, x1) = (plane(&x[0], o.x, inverse.x), plane(&x[1], o.x, inverse.x));
+            let (y0, y1) = (plane(&y[0], o.y, inverse.y), plane(&y[1], o.y, inverse.y));
+            let (z0, z1) = (plane(&z[0], o.z, inverse.z), plane(&z[1], o.z, inverse.z));
+            let near = v::max_f(v::min_f(x0, x1), v::min_f(y0, y1));
+            let far = v::min_f(v::max_f(x0, x1), v::max_f(y0, y1));
+            let enter = v::max_f(near, v::max_f(v::min_f(z0, z1), self.t_min));
+            let leave = v::min_f(far, v::min_f(v::max_f(z0, z1), t_max));
+            let met = v::and_b(active, v::le_f(enter, v::mul_f(leave, v::f(FAR_END))));
+            if v::any(met) {
+                let enter = v::select_f(met, enter, v::f(f32::INFINITY));
+                let key = v::least_f(enter);
+                let mut at = stack.len() - bottom;
+                stack.push(Waiting { child: *child, enter });
+                while at > 0 && keys[at - 1] < key {
+                    keys[at] = keys[at - 1];
+                    stack.swap(bottom + at, bottom + at - 1);
+                    at -= 1;
+                }
+                keys[at] = key;
+            }
+        }
+    }
+
+    /// Makes the hits in `blocks` count; gives the lanes that look for no other.
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[inline]
+    fn triangles(
+        &self,
+        kernel: &mut Kernel<'_>,
+        blocks: &[Block],
+        active: v::B,
+        hit: &mut Hit,
+    ) -> v::B {
+        let mut ended = v::b(false);
+        for i in blocks.iter().flat_map(|block| block.triangles) {
+            // The rest of a block that is not full.
+            let Some(rows) = kernel.tri_words.get(3 * i as usize..).and_then(<[_]>::first_chunk)
+            else {
+                continue;
+            };
+            let first_id = rows[0].w;
+            if let Some((met, new)) = self.seen.intersect(rows, i, active) {
+                let counts = self.counts(kernel, first_id, met, &new, hit);
+                if v::any(counts) {
+                    *hit = Hit::select(counts, &new, hit);
+                    ended = v::or_b(ended, self.ended(kernel, counts, hit));
+                }
+            }
+        }
+        ended
+    }
+
+    /// Which of the new hits `met` of one triangle replace the old ones.
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[inline]
+    fn counts(
+        &self,
+        kernel: &mut Kernel<'_>,
+        first_id: u32,
+        met: v::B,
+        new: &Hit,
+        hit: &Hit,
+    ) -> v::B {
+        let (ray, i) = (self.ray, new.prim);
+        let front = v::and_b(met, v::and_b(v::gt_f(new.t, v::f(0.0)), v::le_f(new.t, hit.t)));
+        if !v::any(front) {
+            return front;
+        }
+        let between = v::and_b(v::gt_f(new.t, ray.t_min), v::lt_f(new.t, hit.t));
+        let mut counts = v::and_b(front, between);
+        let tie = v::but_b(v::and_b(front, v::ge_f(new.t, ray.t_min)), between);
+        if v::any(tie) {
+            let before = kernel.order_triangle(tie, hit, new.t, i, new.instance);
+            let after = kernel.dispatch_triangle_after(tie, ray, new.t, i);
+            counts = v::or_b(counts, v::and_b(tie, v::and_b(before, after)));
+        }
+        let same = v::and_b(v::and_b(counts, self.skip), v::eq_u(self.skip_id, v::u(first_id)));
+        if v::any(same) {
+            let skipped = kernel.order_skipped(same, i, ray);
+            counts = v::but_b(counts, v::and_b(same, skipped));
+        }
+        let asked = if self.uncut { v::and_b(counts, self.shadow) } else { counts };
+        if v::any(asked) {
+            let candidates = kernel.candidate_triangle(asked, i, new.b, ray);
+            counts = v::but_b(counts, v::but_b(asked, candidates));
+        }
+        counts
+    }
+
+    /// As `triangles` for the leaf of spheres that `child` refers to.
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[inline]
+    fn spheres(&self, kernel: &mut Kernel<'_>, child: u32, active: v::B, hit: &mut Hit) -> v::B {
+        let first = v::u(child & scalar::CHILD_FIRST);
+        let count = v::u((child >> scalar::CHILD_COUNT_SHIFT & 7) + 1);
+        let new = kernel.spheres_trace(active, first, count, self.ray, hit);
+        let old = v::and_b(v::eq_f(new.t, hit.t), v::eq_u(new.prim, hit.prim));
+        *hit = Hit::select(active, &new, hit);
+        self.ended(kernel, v::but_b(active, old), hit)
+    }
+
+    /// The lanes of `new` that are shadow rays and have met something opaque.
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[inline]
+    fn ended(&self, kernel: &mut Kernel<'_>, new: v::B, hit: &Hit) -> v::B {
+        let shadows = v::and_b(new, self.shadow);
+        if v::any(shadows) {
+            v::and_b(shadows, kernel.dispatch_ends(shadows, hit))
+        } else {
+            v::b(false)
+        }
+    }
+}
