@@ -253,6 +253,8 @@ impl Field {
 pub enum FieldType {
     /// A number with a dimension.
     Number(Bounds),
+    /// A number of at least 0 with one of these dimensions, each with the unit to suggest.
+    Quantity(&'static [(Dim, &'static str)]),
     /// A whole number without a unit, both ends included.
     Integer(u32, u32),
     /// Three numbers of one dimension; the text is the unit to suggest.
@@ -392,6 +394,7 @@ pub fn unit_of(ty: FieldType) -> Option<(Dim, &'static str)> {
         | FieldType::ScalarSlot(b)
         | FieldType::Spectrum(b)
         | FieldType::Interval(b) => Some((b.dim, b.unit)),
+        FieldType::Quantity(choices) => choices.first().copied(),
         FieldType::Integer(..) | FieldType::Scale => Some((Dim::NONE, "")),
         FieldType::Vector(dim, unit) => Some((dim, unit)),
         FieldType::Size(_) => Some((Dim::LENGTH, "m")),
@@ -422,6 +425,9 @@ pub fn type_text(ty: FieldType) -> String {
     };
     match ty {
         FieldType::Number(b) => noun(b.dim),
+        FieldType::Quantity(choices) => {
+            choices.iter().map(|(dim, _)| noun(*dim)).collect::<Vec<_>>().join(" or ")
+        }
         FieldType::Integer(..) => "whole number".to_owned(),
         FieldType::Vector(Dim::NONE, _) => "three numbers".to_owned(),
         FieldType::Spectrum(b) => format!("{}, or three", noun(b.dim)),
@@ -456,6 +462,7 @@ pub fn range_text(ty: FieldType) -> String {
             if text == "any value" { String::new() } else { text }
         }
         FieldType::Spectrum(b) => format!("each {}", b.described()),
+        FieldType::Quantity(_) => "at least 0".to_owned(),
         FieldType::Integer(min, max) => format!("between {min} and {max}"),
         FieldType::Size(_) => "each above 0m".to_owned(),
         FieldType::Pixels => format!("each between 1px and {MAX_FILM_SIDE}px"),

@@ -1,18 +1,18 @@
 //! Units and dimensions: the text after a number becomes an exponent vector and a factor to SI.
 //!
-//! A dimension is a vector of small integer exponents over length, angle, time, temperature, pixel
-//! and EV. A plain number and a ratio have all exponents zero; `%` is the factor 0.01. This module
+//! A dimension is a vector of small integer exponents over length, angle, time, temperature, pixel,
+//! EV, power and luminous flux. A steradian is a square radian. A plain number and a ratio have all exponents zero; `%` is the factor 0.01. This module
 //! does not know values or the syntax tree.
 
 use std::fmt;
 
 /// Number of base dimensions.
-const N_BASE: usize = 6;
+const N_BASE: usize = 8;
 
 /// Largest exponent that arithmetic may reach; far above anything a scene needs.
 const MAX_EXPONENT: i8 = 12;
 
-/// Exponents over (length, angle, time, temperature, pixel, EV).
+/// Exponents over (length, angle, time, temperature, pixel, EV, power, luminous flux).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub struct Dim([i8; N_BASE]);
 
@@ -20,21 +20,37 @@ impl Dim {
     /// A plain number, count or ratio.
     pub const NONE: Self = Self([0; N_BASE]);
     /// Metres.
-    pub const LENGTH: Self = Self([1, 0, 0, 0, 0, 0]);
+    pub const LENGTH: Self = Self([1, 0, 0, 0, 0, 0, 0, 0]);
     /// Per metre: extinction and its parts.
-    pub const PER_LENGTH: Self = Self([-1, 0, 0, 0, 0, 0]);
+    pub const PER_LENGTH: Self = Self([-1, 0, 0, 0, 0, 0, 0, 0]);
     /// Radians.
-    pub const ANGLE: Self = Self([0, 1, 0, 0, 0, 0]);
+    pub const ANGLE: Self = Self([0, 1, 0, 0, 0, 0, 0, 0]);
     /// Seconds.
-    pub const TIME: Self = Self([0, 0, 1, 0, 0, 0]);
+    pub const TIME: Self = Self([0, 0, 1, 0, 0, 0, 0, 0]);
     /// Kelvins.
-    pub const TEMPERATURE: Self = Self([0, 0, 0, 1, 0, 0]);
+    pub const TEMPERATURE: Self = Self([0, 0, 0, 1, 0, 0, 0, 0]);
     /// Pixels.
-    pub const PIXEL: Self = Self([0, 0, 0, 0, 1, 0]);
+    pub const PIXEL: Self = Self([0, 0, 0, 0, 1, 0, 0, 0]);
     /// Metres per second.
-    pub const VELOCITY: Self = Self([1, 0, -1, 0, 0, 0]);
+    pub const VELOCITY: Self = Self([1, 0, -1, 0, 0, 0, 0, 0]);
     /// Photographic stops.
-    pub const EV: Self = Self([0, 0, 0, 0, 0, 1]);
+    pub const EV: Self = Self([0, 0, 0, 0, 0, 1, 0, 0]);
+    /// Watts: radiant flux.
+    pub const POWER: Self = Self([0, 0, 0, 0, 0, 0, 1, 0]);
+    /// Watts per steradian.
+    pub const INTENSITY: Self = Self([0, -2, 0, 0, 0, 0, 1, 0]);
+    /// Watts per square metre.
+    pub const IRRADIANCE: Self = Self([-2, 0, 0, 0, 0, 0, 1, 0]);
+    /// Watts per square metre and steradian.
+    pub const RADIANCE: Self = Self([-2, -2, 0, 0, 0, 0, 1, 0]);
+    /// Lumens.
+    pub const LUMINOUS_FLUX: Self = Self([0, 0, 0, 0, 0, 0, 0, 1]);
+    /// Candelas: lumens per steradian.
+    pub const LUMINOUS_INTENSITY: Self = Self([0, -2, 0, 0, 0, 0, 0, 1]);
+    /// Lux: lumens per square metre.
+    pub const ILLUMINANCE: Self = Self([-2, 0, 0, 0, 0, 0, 0, 1]);
+    /// Candelas per square metre.
+    pub const LUMINANCE: Self = Self([-2, -2, 0, 0, 0, 0, 0, 1]);
 
     /// The dimension of a product; `None` if an exponent leaves ±12.
     #[must_use]
@@ -84,6 +100,8 @@ impl Dim {
             Self::TEMPERATURE => "temperatures",
             Self::PIXEL => "numbers of pixels",
             Self::EV => "exposures",
+            Self::POWER => "powers",
+            Self::LUMINOUS_FLUX => "luminous fluxes",
             _ => return format!("{count} values in {}", self.si_unit()),
         };
         format!("{count} {noun}")
@@ -106,7 +124,7 @@ impl Dim {
     /// The SI unit in which values of this dimension are kept, in `.rts` spelling where one exists.
     #[must_use]
     pub fn si_unit(self) -> String {
-        let symbols = ["m", "rad", "s", "K", "px", "EV"];
+        let symbols = ["m", "rad", "s", "K", "px", "EV", "W", "lm"];
         let part = |sign: i8| {
             symbols
                 .iter()
@@ -132,6 +150,8 @@ pub const PARAM_DIMENSIONS: &[(&str, Dim)] = &[
     ("temperature", Dim::TEMPERATURE),
     ("pixel", Dim::PIXEL),
     ("exposure", Dim::EV),
+    ("power", Dim::POWER),
+    ("luminous_flux", Dim::LUMINOUS_FLUX),
     ("number", Dim::NONE),
     ("ratio", Dim::NONE),
     ("count", Dim::NONE),
@@ -149,6 +169,14 @@ impl fmt::Display for Dim {
             Self::TEMPERATURE => "a temperature",
             Self::PIXEL => "a number of pixels",
             Self::EV => "an exposure",
+            Self::POWER => "a power",
+            Self::INTENSITY => "an intensity",
+            Self::IRRADIANCE => "an irradiance",
+            Self::RADIANCE => "a radiance",
+            Self::LUMINOUS_FLUX => "a luminous flux",
+            Self::LUMINOUS_INTENSITY => "a luminous intensity",
+            Self::ILLUMINANCE => "an illuminance",
+            Self::LUMINANCE => "a luminance",
             _ => "",
         };
         if !known.is_empty() {
@@ -199,6 +227,17 @@ pub const UNITS: &[Unit] = &[
     unit("K", Dim::TEMPERATURE, 1.0, "kelvin"),
     unit("px", Dim::PIXEL, 1.0, "pixel"),
     unit("EV", Dim::EV, 1.0, "photographic stop, a factor of two"),
+    unit("sr", Dim([0, 2, 0, 0, 0, 0, 0, 0]), 1.0, "steradian"),
+    unit("mW", Dim::POWER, 1e-3, "milliwatt"),
+    unit("W", Dim::POWER, 1.0, "watt"),
+    unit("kW", Dim::POWER, 1e3, "kilowatt"),
+    unit("lm", Dim::LUMINOUS_FLUX, 1.0, "lumen"),
+    unit("klm", Dim::LUMINOUS_FLUX, 1e3, "kilolumen"),
+    unit("cd", Dim::LUMINOUS_INTENSITY, 1.0, "candela, a lumen per steradian"),
+    unit("kcd", Dim::LUMINOUS_INTENSITY, 1e3, "kilocandela"),
+    unit("lx", Dim::ILLUMINANCE, 1.0, "lux, a lumen per square metre"),
+    unit("klx", Dim::ILLUMINANCE, 1e3, "kilolux"),
+    unit("nit", Dim::LUMINANCE, 1.0, "candela per square metre"),
     unit("%", Dim::NONE, 0.01, "percent"),
 ];
 
@@ -242,6 +281,16 @@ const OTHER_SPELLINGS: &[(&str, &str)] = &[
     ("pixels", "px"),
     ("stop", "EV"),
     ("stops", "EV"),
+    ("watt", "W"),
+    ("watts", "W"),
+    ("lumen", "lm"),
+    ("lumens", "lm"),
+    ("candela", "cd"),
+    ("candelas", "cd"),
+    ("lux", "lx"),
+    ("nits", "nit"),
+    ("steradian", "sr"),
+    ("steradians", "sr"),
 ];
 
 /// Units of lengths that the language leaves out on purpose, with the exact length.
@@ -269,24 +318,22 @@ pub fn si_symbol(dim: Dim) -> Option<&'static str> {
     UNITS.iter().find(|unit| unit.dim == dim && unit.factor == 1.0).map(|unit| unit.symbol)
 }
 
-/// Reads the whole text after a number: `mm`, `%`, `/m`, `m/s`, `m2`.
+/// Reads the whole text after a number: `mm`, `%`, `/m`, `m/s`, `m2`, `W/m2/sr`.
 ///
 /// Returns the dimension and the factor to SI.
 ///
 /// # Errors
 /// The atom that is not a unit.
 pub fn parse(text: &str) -> Result<(Dim, f64), &str> {
-    let (above, below) = match text.split_once('/') {
-        Some((above, below)) => (above, Some(below)),
-        None => (text, None),
-    };
+    let mut atoms = text.split('/');
+    let above = atoms.next().unwrap_or_default();
     let (mut dim, mut factor) = (Dim::NONE, 1.0);
     if !above.is_empty() {
         (dim, factor) = parse_atom(above)?;
-    } else if below.is_none() {
+    } else if !text.starts_with('/') {
         return Err(text);
     }
-    if let Some(below) = below {
+    for below in atoms {
         let (d, f) = parse_atom(below)?;
         dim = dim.per(d).ok_or(below)?;
         factor /= f;
@@ -351,6 +398,11 @@ pub fn show(value: f64, dim: Dim) -> String {
         Dim::TEMPERATURE => &["K"],
         Dim::PIXEL => &["px"],
         Dim::EV => &["EV"],
+        Dim::POWER => &["W", "mW", "kW"],
+        Dim::LUMINOUS_FLUX => &["lm", "klm"],
+        Dim::LUMINOUS_INTENSITY => &["cd", "kcd"],
+        Dim::ILLUMINANCE => &["lx", "klx"],
+        Dim::LUMINANCE => &["nit"],
         Dim::NONE => return show_number(value),
         _ => return format!("{}{}", show_number(value), dim.si_unit()),
     };
@@ -385,6 +437,11 @@ mod tests {
         assert_eq!(parse("km/h").unwrap(), (speed, 1e3 / 3600.0));
         assert_eq!(parse("m2").unwrap().0, Dim::LENGTH.power(2).unwrap());
         assert_eq!(parse("%"), Ok((Dim::NONE, 0.01)));
+        assert_eq!(parse("W/m2/sr"), Ok((Dim::RADIANCE, 1.0)));
+        assert_eq!(parse("kW/m2"), Ok((Dim::IRRADIANCE, 1e3)));
+        assert_eq!(parse("lm/sr").unwrap(), parse("cd").unwrap());
+        assert_eq!(parse("cd/m2").unwrap(), parse("nit").unwrap());
+        assert_eq!(parse("lm/m2").unwrap(), parse("lx").unwrap());
     }
 
     #[test]

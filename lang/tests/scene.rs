@@ -213,6 +213,23 @@ fn power_is_spread_over_the_sphere() {
 }
 
 #[test]
+fn a_rectangle_light_is_an_instance_that_faces_its_target() {
+    let scene = scene_of_text(&with_view(
+        "light key: rectangle { at = (0, 3, 4)m, to = (0, 0, 0)m, size = (2, 0.5)m, power = 60W }",
+    ));
+    let instance = scene.instances.iter().find(|i| i.name.text == "key").expect("it is there");
+    assert_eq!(instance.shape, Shape::Rectangle { size: [2.0, 0.5] });
+    let rows = instance.world_from_object;
+    let expected = [[1.0, 0.0, 0.0, 0.0], [0.0, -0.6, 0.8, 3.0], [0.0, -0.8, -0.6, 4.0]];
+    let near = rows.iter().flatten().zip(expected.iter().flatten());
+    assert!(near.clone().all(|(a, b): (&f64, &f64)| (a - b).abs() < 1e-12), "{rows:?}");
+    let material = &scene.materials[instance.material.expect("it has one")];
+    let MaterialModel::Emissive(glow) = &material.model else { panic!("{material:?}") };
+    let Color::Constant(radiance) = glow.color else { panic!("{glow:?}") };
+    assert!((radiance[0] * glow.strength - 60.0 / std::f64::consts::PI).abs() < 1e-12);
+}
+
+#[test]
 fn a_sun_is_placed_by_direction_distance_and_angle() {
     let scene = scene_of_text(&with_view(
         "light l: sphere { direction = (3, 0, 4), distance = 10m, angular_radius = 30deg, \

@@ -170,6 +170,68 @@ fn a_small_sun_gives_pi_l_sine_squared() {
 }
 
 #[test]
+fn declared_lights_give_what_their_units_say() {
+    // Radiance of a white floor under irradiance E: E / pi. A watt of white light is 683 lumens.
+    let under =
+        |light: &str| format!("{WHITE_FLOOR}{light}\n{}", view([-3.0, 0.5, 0.0], [0.0; 3], 2));
+    let form = 0.554_126_424;
+    let panel = "at = (0, 1, 0)m, size = (2, 2)m";
+    let check = |name: &str, expected: f64, light: &str| Check::new(name, expected, under(light));
+    all(&[
+        // I / d^2.
+        check(
+            "point, candelas",
+            1.0 / (4.0 * PI),
+            "light l: point { at = (0, 2, 0)m, intensity = 683cd }",
+        ),
+        check(
+            "point, W/sr",
+            3.0 / (4.0 * PI),
+            "light l: point { at = (0, 2, 0)m, intensity = 3W/sr }",
+        ),
+        // 4 pi I is the power of a sphere.
+        check(
+            "point, lumens",
+            5.0 / (4.0 * PI * 4.0 * PI),
+            "light l: point { at = (0, 2, 0)m, power = 3415lm, radius = 3cm }",
+        ),
+        check(
+            "sphere, watts",
+            5.0 / (4.0 * PI * 4.0 * PI),
+            "light l: sphere { center = (0, 2, 0)m, radius = 5cm, power = 5W }",
+        ),
+        // pi A L is the power of one side.
+        check(
+            "rectangle, watts",
+            form,
+            &format!("light l: rectangle {{ {panel}, power = {:.12}W }}", 4.0 * PI),
+        ),
+        check(
+            "rectangle, both sides",
+            form,
+            &format!("light l: rectangle {{ {panel}, sides = both, power = {:.12}W }}", 8.0 * PI),
+        ),
+        check(
+            "rectangle, nits",
+            2.0 * form,
+            &format!("light l: rectangle {{ {panel}, strength = 1366nit }}"),
+        ),
+        check(
+            "rectangle that is turned",
+            form,
+            &format!(
+                "light l: rectangle {{ {panel}, to = (0, 0, 0)m, spin = 90deg, strength = 1W/m2/sr }}"
+            ),
+        ),
+        check(
+            "rectangle that faces away",
+            0.0,
+            &format!("light l: rectangle {{ {panel}, direction = (0, 1, 0) }}"),
+        ),
+    ]);
+}
+
+#[test]
 fn a_rectangle_light_gives_its_form_factor() {
     let lamp = |height: f64, strength: f64| {
         format!(

@@ -177,6 +177,7 @@ impl Evaluator<'_> {
         }
         match slot.field.ty {
             FieldType::Number(bounds) => self.fit_number(slot, value, bounds),
+            FieldType::Quantity(choices) => self.fit_quantity(slot, value, choices),
             FieldType::Integer(min, max) => self.fit_integer(slot, &value, [min, max]),
             FieldType::Vector(dim, unit) => self.fit_vector(slot, value, (dim, unit), 3),
             FieldType::Spectrum(bounds) => self.fit_spectrum(slot, value, bounds),
@@ -238,6 +239,24 @@ impl Evaluator<'_> {
                 &bounds.dim.to_string(),
             ),
         }
+    }
+
+    /// A number of any of these dimensions.
+    fn fit_quantity(
+        &mut self,
+        slot: Slot<'_>,
+        value: Value,
+        choices: &[(Dim, &'static str)],
+    ) -> Value {
+        if let Value::Number(number, dim) = value
+            && let Some((dim, unit)) = choices.iter().find(|(choice, _)| *choice == dim)
+        {
+            let bounds = Bounds::new(*dim, unit, 0.0, f64::INFINITY);
+            return self.in_bounds(slot, number, bounds).map_or(Value::Poison, |()| value);
+        }
+        let needs: Vec<String> = choices.iter().map(|(dim, _)| dim.to_string()).collect();
+        let first = choices.first().copied().unwrap_or((Dim::NONE, ""));
+        self.wrong_dimension(slot, &value, first, &needs.join(" or "))
     }
 
     fn in_bounds(&mut self, slot: Slot<'_>, number: f64, bounds: Bounds) -> Option<()> {

@@ -137,6 +137,14 @@ impl Fields {
         }
     }
 
+    /// A number in SI with its dimension.
+    pub(crate) fn quantity(&self, name: &str) -> Option<(f64, Dim)> {
+        match self.get(name) {
+            Some(Value::Number(value, dim)) => Some((value, dim)),
+            _ => None,
+        }
+    }
+
     /// A whole number.
     pub(crate) fn integer(&self, name: &str) -> Option<u32> {
         match self.get(name) {

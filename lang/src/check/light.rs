@@ -1,31 +1,89 @@
-//! `light` fields become radiance.
+//! `light` fields become radiance and a place.
 
+use super::brightness::{self, Emitter};
 use super::fields::Fields;
+use super::transform::{self, Pose};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
+use crate::material::{Color, Emissive};
 use crate::resolve::ItemId;
-use crate::scene::{Light, Name, Rgb, Tint};
+use crate::scene::{Light, MaterialModel, Name, Rgb, Shape, Tint};
 use crate::schema::light::LightType;
+use std::f64::consts::PI;
+
+/// What a declared light is in the scene.
+pub(super) enum Lit {
+    /// A sphere light.
+    Ball(Box<Light>),
+    /// A thing that glows.
+    Panel(Box<Panel>),
+}
+
+/// A flat light: an instance and its material.
+pub(super) struct Panel {
+    pub(super) name: Name,
+    pub(super) shape: Shape,
+    pub(super) pose: Pose,
+    pub(super) material: MaterialModel,
+}
 
 /// Checks how the fields of a light go together.
 pub(super) fn check_light(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
-    let both = |a: &str, b: &str| {
-        let written = fields.has(a) && fields.has(b);
-        written.then_some(())?;
-        Some((fields.span(a)?, fields.span(b)?))
+    if !brightness::check(ev, fields) {
+        return;
+    }
+    match LightType::of(fields.schema) {
+        LightType::Sphere => check_sphere(ev, id, fields),
+        LightType::Point => check_point(ev, id, fields),
+        LightType::Rectangle => check_panel(ev, fields),
+    }
+}
+
+/// Reports two fields that say the same.
+fn one_of(ev: &mut Evaluator<'_>, fields: &Fields, (a, b): (&str, &str), what: &str) -> bool {
+    let (true, Some(first), Some(second)) =
+        (fields.has(a) && fields.has(b), fields.span(a), fields.span(b))
+    else {
+        return true;
     };
-    for (a, b, what) in [
-        ("strength", "power", "how bright the light is"),
-        ("center", "direction", "where the light is"),
-        ("center", "distance", "where the light is"),
-        ("radius", "angular_radius", "how large the light is"),
+    let error = Diagnostic::error(Code("E0703"), format!("`{a}` and `{b}` both set {what}"))
+        .at(second, "keep one of them")
+        .because(first, "this says it, too");
+    ev.fault(error);
+    false
+}
+
+fn check_point(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
+    if fields.span("intensity").or(fields.span("power")).is_none() {
+        let text = format!("`{}` is missing `power` or `intensity`", ev.program.name(id));
+        let error = Diagnostic::error(Code("E0207"), text)
+            .at(ev.program.name_span(id), "how bright is it?")
+            .with_help(format!("for example: {}", fields.schema.example));
+        ev.fault(error);
+    }
+}
+
+fn check_panel(ev: &mut Evaluator<'_>, fields: &Fields) {
+    if !one_of(ev, fields, ("to", "direction"), "which way the light faces") {
+        return;
+    }
+    check_direction(ev, fields, "direction");
+    if let (Some(at), Some(to), Some(span)) =
+        (fields.vector::<3>("at"), fields.vector::<3>("to"), fields.value_span("to"))
+        && length([0, 1, 2].map(|axis| to[axis] - at[axis])) == 0.0
+    {
+        let error = Diagnostic::error(Code("E0401"), "`to` is where the light is");
+        ev.fault(error.at(span, "faces nothing"));
+    }
+}
+
+fn check_sphere(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
+    for (pair, what) in [
+        (("center", "direction"), "where the light is"),
+        (("center", "distance"), "where the light is"),
+        (("radius", "angular_radius"), "how large the light is"),
     ] {
-        if let Some((first, second)) = both(a, b) {
-            let text = format!("`{a}` and `{b}` both set {what}");
-            let error = Diagnostic::error(Code("E0703"), text)
-                .at(second, "keep one of them")
-                .because(first, "this says it, too");
-            ev.fault(error);
+        if !one_of(ev, fields, pair, what) {
             return;
         }
     }
@@ -106,26 +164,55 @@ fn tint(fields: &Fields, center: [f64; 3]) -> Option<Tint> {
 }
 
 /// Builds a light. `None` only for fields with faults.
-pub(super) fn light(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Option<Light> {
-    let LightType::Sphere = LightType::of(fields.schema);
-    let (center, radius) = place(fields)?;
-    // A sphere of radiance L gives off L * pi * 4 pi r^2 watts.
-    let strength = match fields.number("power") {
-        Some(power) => {
-            power / (4.0 * std::f64::consts::PI * std::f64::consts::PI * radius * radius)
+pub(super) fn light(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Option<Lit> {
+    match LightType::of(fields.schema) {
+        LightType::Sphere => {
+            let (center, radius) = place(fields)?;
+            ball(ev, name, fields, (center, radius), tint(fields, center))
         }
-        None => fields.number("strength")?,
-    };
-    let radiance = scaled(fields.color("color")?, strength);
-    if !radiance.iter().all(|c| *c <= crate::schema::MAX_MAGNITUDE) {
-        let text = format!("`{}` is too bright: its radiance is {:e}", name.text, radiance[0]);
-        let error = Diagnostic::error(Code("E0402"), text).at(name.span, "this light");
-        ev.fault(error.with_help("a larger `radius` spreads the same `power`"));
-        return None;
+        LightType::Point => {
+            let place = (fields.vector("at")?, fields.number("radius")?);
+            ball(ev, name, fields, place, None)
+        }
+        LightType::Rectangle => panel(ev, name, fields).map(|panel| Lit::Panel(Box::new(panel))),
     }
-    let tint = tint(fields, center);
+}
+
+fn ball(
+    ev: &mut Evaluator<'_>,
+    name: Name,
+    fields: &Fields,
+    (center, radius): ([f64; 3], f64),
+    tint: Option<Tint>,
+) -> Option<Lit> {
+    // A disk of radiance L seen from everywhere.
+    let (flux, intensity) = (4.0 * PI * PI * radius * radius, PI * radius * radius);
+    let emitter = Emitter { flux, intensity };
+    let radiance = brightness::radiance(ev, &name, fields, emitter)?;
     let velocity = fields.vector("velocity")?;
-    Some(Light { name, center, velocity, radius, radiance, tint })
+    let light = Light { name, center, velocity, radius, radiance, tint };
+    Some(Lit::Ball(Box::new(light)))
+}
+
+fn panel(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Option<Panel> {
+    let size: [f64; 2] = fields.vector("size")?;
+    let area = size[0] * size[1];
+    let both_sides = fields.word("sides")? == "both";
+    // A side of radiance L gives off pi L watts for each square metre.
+    let flux = PI * area * if both_sides { 2.0 } else { 1.0 };
+    let radiance = brightness::radiance(ev, &name, fields, Emitter { flux, intensity: area })?;
+    let at = fields.vector::<3>("at")?;
+    let facing = match fields.vector::<3>("to") {
+        Some(to) => [0, 1, 2].map(|axis| to[axis] - at[axis]),
+        None => fields.vector("direction")?,
+    };
+    let pose = Pose {
+        matrix: transform::facing(at, unit(facing)?, fields.number("spin")?),
+        velocity: fields.vector("velocity")?,
+    };
+    let emissive = Emissive { color: Color::Constant(radiance), strength: 1.0, both_sides };
+    let material = MaterialModel::Emissive(emissive);
+    Some(Panel { name, shape: Shape::Rectangle { size }, pose, material })
 }
 
 /// Times `factor`.

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::instance::Placed;
+use super::light::{Lit, Panel};
 use super::render::name;
 use super::{Checker, ids_of, is_in_world, light, material, medium, motion, sky};
 use crate::diagnostic::{Code, Diagnostic};
@@ -19,7 +20,7 @@ impl Checker {
     /// Builds the scene, as far as it is sound.
     pub(super) fn build(mut self, ev: &mut Evaluator<'_>) -> Option<Scene> {
         let view = self.view(ev);
-        let lights = self.lights(ev);
+        let (lights, panels) = self.lights(ev);
         if ev.diagnostics.iter().any(Diagnostic::is_error) {
             return None;
         }
@@ -56,7 +57,7 @@ impl Checker {
                 Some(Material { name: name.clone(), model, normal })
             })
             .collect::<Option<Vec<Material>>>()?;
-        let scene = Scene {
+        let mut scene = Scene {
             assets: self.assets(&asset_order)?,
             textures: textures(ev, &texture_order)?,
             materials,
@@ -68,21 +69,30 @@ impl Checker {
             film: view.film,
             render: view.render,
         };
+        for panel in panels {
+            add_panel(&mut scene, panel);
+        }
         no_light(ev, &scene);
         nothing_in_the_air(ev, &scene);
         motion::check(ev, &scene);
         Some(scene)
     }
 
-    fn lights(&self, ev: &mut Evaluator<'_>) -> Vec<Light> {
-        let mut lights = Vec::new();
+    /// The lights of the world, each sort by name.
+    fn lights(&self, ev: &mut Evaluator<'_>) -> (Vec<Light>, Vec<Panel>) {
+        let (mut lights, mut panels) = (Vec::new(), Vec::new());
         for id in ids_of(ev.program, Kind::Light) {
             let name = name(ev, id);
             let built = self.sound(id).and_then(|fields| light::light(ev, name, fields));
-            lights.extend(built.filter(|_| is_in_world(ev.program, id)));
+            match built.filter(|_| is_in_world(ev.program, id)) {
+                Some(Lit::Ball(light)) => lights.push(*light),
+                Some(Lit::Panel(panel)) => panels.push(*panel),
+                None => {}
+            }
         }
-        lights.sort_by(|a, b| a.name.text.cmp(&b.name.text));
-        lights
+        lights.sort_by(|a: &Light, b| a.name.text.cmp(&b.name.text));
+        panels.sort_by(|a: &Panel, b| a.name.text.cmp(&b.name.text));
+        (lights, panels)
     }
 
     fn media(&self, order: &[(Name, ItemId)]) -> Option<Vec<Medium>> {
@@ -103,6 +113,27 @@ impl Checker {
             })
             .collect()
     }
+}
+
+/// Adds a flat light as an instance, after those that are declared.
+fn add_panel(scene: &mut Scene, panel: Panel) {
+    let mut text = format!("{}_light", panel.name.text);
+    while scene.materials.iter().any(|material| material.name.text == text) {
+        text.push('_');
+    }
+    let span = panel.name.span;
+    scene.instances.push(Instance {
+        name: panel.name,
+        object: None,
+        shape: panel.shape,
+        shape_span: span,
+        material: Some(scene.materials.len()),
+        material_span: None,
+        world_from_object: panel.pose.matrix,
+        velocity: panel.pose.velocity,
+    });
+    let name = Name { text, span };
+    scene.materials.push(Material { name, model: panel.material, normal: None });
 }
 
 fn textures(ev: &Evaluator<'_>, order: &[(Name, ItemId)]) -> Option<Vec<Texture>> {

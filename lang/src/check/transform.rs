@@ -40,6 +40,18 @@ fn matrix(fields: &Fields) -> Option<Matrix> {
     Some(rows)
 }
 
+/// At `at`, with +y turned to the unit vector `direction`, then turned about that by `spin`. Unless `direction` is
+/// vertical, x is level before the spin, and z points up.
+pub(super) fn facing(at: [f64; 3], direction: [f64; 3], spin: f64) -> Matrix {
+    let y = direction;
+    // The horizontal vector across `direction`.
+    let level = libm::hypot(y[0], y[2]);
+    let x = if level > 1e-6 { [-y[2] / level, 0.0, y[0] / level] } else { [1.0, 0.0, 0.0] };
+    let z = [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]];
+    let (sin, cos) = sin_cos(spin);
+    [0, 1, 2].map(|row| [cos * x[row] - sin * z[row], y[row], sin * x[row] + cos * z[row], at[row]])
+}
+
 /// Sine and cosine, exact at quarter turns, where people expect zeros.
 fn sin_cos(angle: f64) -> (f64, f64) {
     let quarters = angle / std::f64::consts::FRAC_PI_2;

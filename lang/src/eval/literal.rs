@@ -30,13 +30,7 @@ impl Evaluator<'_> {
         let names = &self.program.modules;
         let is_name = |name: &str| names.iter().any(|module| module.names.contains_key(name));
         let close = suggest(atom, units::UNITS.iter().map(|unit| unit.symbol));
-        let error = if let Some(ours) = units::other_spelling(atom) {
-            let text = unit.text.replace(atom, ours);
-            let fix = Fix::sure(format!("write `{ours}`"), unit.span, text);
-            error.at(unit.span, format!("did you mean `{ours}`?")).with_fix(fix)
-        } else if let Some(metric) = units::not_metric(atom) {
-            error.at(unit.span, "not a unit here").with_help(format!("1 {atom} is {metric}"))
-        } else if unit.text.contains('/') && is_name(atom) {
+        let error = if unit.text.contains('/') && is_name(atom) {
             let text = format!(" {}", unit.text.replace('/', " / "));
             let text = if unit.text.starts_with('/') { text } else { text.trim_start().to_owned() };
             error.at(unit.span, format!("`{atom}` is a name, not a unit")).with_fix(Fix::sure(
@@ -44,6 +38,12 @@ impl Evaluator<'_> {
                 unit.span,
                 text,
             ))
+        } else if let Some(ours) = units::other_spelling(atom) {
+            let text = unit.text.replace(atom, ours);
+            let fix = Fix::sure(format!("write `{ours}`"), unit.span, text);
+            error.at(unit.span, format!("did you mean `{ours}`?")).with_fix(fix)
+        } else if let Some(metric) = units::not_metric(atom) {
+            error.at(unit.span, "not a unit here").with_help(format!("1 {atom} is {metric}"))
         } else if let [only] = close.as_slice() {
             error.at(unit.span, format!("did you mean `{only}`?")).with_fix(Fix::sure(
                 format!("write `{only}`"),

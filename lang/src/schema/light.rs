@@ -1,18 +1,101 @@
 //! Lights: `light NAME: sphere { ... }`.
 
-use super::{ANY, Bounds, Default, Field, FieldType, Kind, TypeSchema, WHITE};
+use super::instance::VELOCITY;
+use super::{ANY, Bounds, Default, Field, FieldType, Kind, TypeSchema, WHITE, Word};
 use crate::units::Dim;
 
-types!(LightType { Sphere = SPHERE });
+types!(LightType { Sphere = SPHERE, Point = POINT, Rectangle = RECTANGLE });
 
 /// 80 degrees: at 90 the origin of the world would touch the light.
 const MAX_ANGULAR_RADIUS: f64 = 80.0 * std::f64::consts::PI / 180.0;
 
+/// Which sides of a flat light shine.
+const SIDES: &[Word] =
+    &[("front", "the one that faces `direction`"), ("both", "both, each with half of `power`")];
+
+const LENGTH: FieldType = FieldType::Number(Bounds::above(Dim::LENGTH, "m", 0.0));
+
+/// How strong the light is that a whole emitter gives off.
+const POWERS: FieldType =
+    FieldType::Quantity(&[(Dim::POWER, "W"), (Dim::LUMINOUS_FLUX, "lm"), (Dim::NONE, "")]);
+
+/// The same in one direction.
+const INTENSITIES: FieldType =
+    FieldType::Quantity(&[(Dim::LUMINOUS_INTENSITY, "cd"), (Dim::INTENSITY, "W/sr")]);
+
+/// The same of each part of its surface.
+const RADIANCES: FieldType =
+    FieldType::Quantity(&[(Dim::NONE, ""), (Dim::RADIANCE, "W/m2/sr"), (Dim::LUMINANCE, "nit")]);
+
+const COLOR: Field =
+    Field::new("color", FieldType::Color(ANY), Default::Color(WHITE), "Colour of the light.")
+        .typical("candle `blackbody(1900K)`, bulb 2800K, noon 5500K")
+        .foreign(&[("L", "pbrt"), ("I", "pbrt"), ("radiance", "Mitsuba"), ("emission", "LuxCore")]);
+
+const TEMPERATURE: Field = Field::new(
+    "temperature",
+    FieldType::Number(Bounds::new(Dim::TEMPERATURE, "K", 500.0, 100_000.0)),
+    Default::Absent("`color` decides"),
+    "Short for `color = blackbody(...)`.",
+)
+.typical("candle 1900K, bulb 2800K, noon 5500K, overcast sky 6500K");
+
+const STRENGTH: Field = Field::new(
+    "strength",
+    RADIANCES,
+    Default::Number(1.0),
+    "Factor on `color`: the radiance of its surface in W/(m2 sr), up to the scale of the scene. With a unit of \
+     luminance, its luminance.",
+)
+.typical("a white screen 200nit, a fluorescent tube 10000nit")
+.foreign(&[
+    ("scale", "pbrt"),
+    ("gain", "LuxCore"),
+    ("luminance", "common use"),
+    ("energy", "Blender"),
+]);
+
+const POWER: Field = Field::new(
+    "power",
+    POWERS,
+    Default::Absent("`strength` decides"),
+    "All the light it gives off: watts for a white light, or lumens, 683 to the watt of luminous power.",
+)
+.typical("a 60W bulb of old gives 800lm, a candle 12lm")
+.foreign(&[("flux", "common use"), ("watts", "common use"), ("lumens", "common use")]);
+
+const INTENSITY: Field = Field::new(
+    "intensity",
+    INTENSITIES,
+    Default::Absent("`strength` decides"),
+    "How much light it gives off in each direction: candelas, or watts per steradian for \
+     a white light.",
+)
+.typical("a candle 1cd, a car's high beam 40kcd")
+.foreign(&[("candela", "common use")]);
+
+/// A point has no surface to ask for its radiance.
+const POINT_INTENSITY: Field = Field { default: Default::Absent("`power` decides"), ..INTENSITY };
+const POINT_POWER: Field = Field { default: Default::Absent("`intensity` decides"), ..POWER };
+
+const AT: Field = Field::new(
+    "at",
+    FieldType::Vector(Dim::LENGTH, "m"),
+    Default::Required,
+    "Where its middle is.",
+)
+.foreign(&[
+    ("from", "pbrt"),
+    ("position", "Mitsuba and LuxCore"),
+    ("center", "the type `sphere`"),
+    ("location", "Blender"),
+]);
+
 const SPHERE: TypeSchema = TypeSchema {
     kind: Kind::Light,
     name: "sphere",
-    doc: "A glowing ball, seen by the camera too. How bright it is says `strength` (its radiance) or \
-          `power` (all it gives off), not both; where it is say `center` and `radius`, or for a sun \
+    doc: "A glowing ball, seen by the camera too. How bright it is says `strength` (its radiance), `intensity` or \
+          `power` (all it gives off), one of them; where it is say `center` and `radius`, or for a sun \
           `direction`, `distance` and `angular_radius`. In an imported file only `pub` lights are in the world.",
     example: "light sun: sphere { center = (30, 40, 10)m, radius = 2m, color = blackbody(4300K), \
               strength = 80 }",
@@ -26,7 +109,7 @@ const SPHERE: TypeSchema = TypeSchema {
         .foreign(&[("from", "pbrt"), ("position", "Mitsuba and LuxCore"), ("at", "instances")]),
         Field::new(
             "radius",
-            FieldType::Number(Bounds::above(Dim::LENGTH, "m", 0.0)),
+            LENGTH,
             Default::Absent("`angular_radius` decides"),
             "Distance from the middle to the surface; larger means softer shadows.",
         )
@@ -41,7 +124,7 @@ const SPHERE: TypeSchema = TypeSchema {
         .foreign(&[("sundir", "LuxCore"), ("sun_direction", "Mitsuba and Blender")]),
         Field::new(
             "distance",
-            FieldType::Number(Bounds::above(Dim::LENGTH, "m", 0.0)),
+            LENGTH,
             Default::Absent("`center` decides"),
             "From the origin of the world to the light's middle, along `direction`.",
         ),
@@ -59,34 +142,11 @@ const SPHERE: TypeSchema = TypeSchema {
         )
         .typical("sun and moon 0.265deg")
         .foreign(&[("angle", "Blender"), ("theta", "LuxCore")]),
-        Field::new("color", FieldType::Color(ANY), Default::Color(WHITE), "Colour of the light.")
-            .typical("candle `blackbody(1900K)`, bulb 2800K, noon 5500K")
-            .foreign(&[
-                ("L", "pbrt"),
-                ("I", "pbrt"),
-                ("radiance", "Mitsuba"),
-                ("emission", "LuxCore"),
-            ]),
-        Field::new(
-            "strength",
-            FieldType::Number(Bounds::number(0.0, ANY)),
-            Default::Number(1.0),
-            "Factor on `color`: the radiance of its surface in W/(m2 sr), up to the scale of the scene.",
-        )
-        .foreign(&[
-            ("scale", "pbrt"),
-            ("gain", "LuxCore"),
-            ("intensity", "Mitsuba and glTF"),
-            ("energy", "Blender"),
-        ]),
-        Field::new(
-            "power",
-            FieldType::Number(Bounds::number(0.0, ANY)),
-            Default::Absent("`strength` decides"),
-            "All the light it gives off, in watts; the radiance is `color` times \
-             power / (4 pi^2 radius^2).",
-        )
-        .foreign(&[("flux", "common use"), ("watts", "common use")]),
+        COLOR,
+        TEMPERATURE,
+        STRENGTH,
+        INTENSITY,
+        POWER,
         Field::new(
             "tint.color",
             FieldType::Color(ANY),
@@ -113,7 +173,86 @@ const SPHERE: TypeSchema = TypeSchema {
             Default::Absent("from the origin of the world to the light"),
             "Where the tinted light comes from.",
         ),
-        super::instance::VELOCITY,
+        VELOCITY,
     ],
-    foreign: &[("point", "pbrt, Mitsuba and Blender"), ("spherical", "LuxCore")],
+    foreign: &[("spherical", "LuxCore")],
+};
+
+const POINT: TypeSchema = TypeSchema {
+    kind: Kind::Light,
+    name: "point",
+    doc: "A bulb: a small sphere, because nothing that shines is a point. It is seen by the camera, and its shadows \
+          are as sharp as `radius` is small.",
+    example: "light bulb: point { at = (0, 2.1, 0)m, temperature = 2800K, power = 800lm }",
+    fields: &[
+        AT,
+        Field::new(
+            "radius",
+            LENGTH,
+            Default::Number(0.01),
+            "Distance from the middle to the surface.",
+        )
+        .foreign(&[("shadow_soft_size", "Blender"), ("size", "common use")]),
+        COLOR,
+        TEMPERATURE,
+        POINT_INTENSITY,
+        POINT_POWER,
+        VELOCITY,
+    ],
+    foreign: &[("omni", "common use"), ("bulb", "common use")],
+};
+
+const RECTANGLE: TypeSchema = TypeSchema {
+    kind: Kind::Light,
+    name: "rectangle",
+    doc: "A panel or a window: a flat rectangle that shines evenly, seen by the camera too. It faces down unless \
+          `to` or `direction` says otherwise. It is an instance with an `emissive` material.",
+    example: "light key: rectangle { at = (2, 3, 2)m, to = (0, 1, 0)m, size = (1, 0.5)m, power = 60W }",
+    fields: &[
+        AT,
+        Field::new(
+            "size",
+            FieldType::Size(2),
+            Default::Required,
+            "Width, which is level, and height.",
+        ),
+        Field::new(
+            "to",
+            FieldType::Vector(Dim::LENGTH, "m"),
+            Default::Absent("`direction` decides"),
+            "A point that it faces.",
+        )
+        .foreign(&[("target", "common use"), ("look_at", "common use")]),
+        Field::new(
+            "direction",
+            FieldType::Vector(Dim::NONE, ""),
+            Default::Vector([0.0, -1.0, 0.0]),
+            "Which way it faces; its length does not matter.",
+        )
+        .foreign(&[("normal", "common use")]),
+        Field::new(
+            "spin",
+            FieldType::Number(Bounds::new(Dim::ANGLE, "deg", f64::NEG_INFINITY, ANY)),
+            Default::Number(0.0),
+            "Turned about `direction`, counter-clockwise seen by who looks at it.",
+        ),
+        Field::new(
+            "sides",
+            FieldType::Word(SIDES),
+            Default::Word("front"),
+            "Which sides give off light.",
+        )
+        .foreign(&[("twosided", "pbrt"), ("two_sided", "common use")]),
+        COLOR,
+        TEMPERATURE,
+        STRENGTH,
+        POWER,
+        VELOCITY,
+    ],
+    foreign: &[
+        ("area", "Mitsuba and Blender"),
+        ("rect", "common use"),
+        ("quad", "common use"),
+        ("portal", "common use"),
+    ],
 };

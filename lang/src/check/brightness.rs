@@ -1,0 +1,98 @@
+//! How bright a light is said to be → its radiance.
+//!
+//! It knows sizes of emitters only as factors: watts, and watts per steradian, for each unit of radiance.
+
+use super::fields::Fields;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::eval::Evaluator;
+use crate::eval::color::{LUMINANCE, blackbody};
+use crate::scene::{Name, Rgb};
+use crate::units::Dim;
+
+/// Lumens to the watt of luminous power: the luminous efficacy of light of 540 THz, which defines the candela
+/// (SI Brochure, 9th edition, 2.3.1).
+const EFFICACY: f64 = 683.0;
+
+/// What says how bright a light is, in the order of the reference.
+const FIELDS: [&str; 3] = ["strength", "intensity", "power"];
+
+/// An evenly glowing surface: what it gives off for each W/(m2 sr) of radiance.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Emitter {
+    /// In all directions: m2 sr.
+    pub(super) flux: f64,
+    /// In the direction in which it is strongest: m2.
+    pub(super) intensity: f64,
+}
+
+/// Reports a light that says its brightness or its colour twice; `false` if it does.
+pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) -> bool {
+    let written: Vec<&str> = FIELDS.into_iter().filter(|name| fields.has(name)).collect();
+    let twice = match written[..] {
+        [first, second, ..] => Some((first, second, "how bright the light is")),
+        _ if fields.has("color") && fields.has("temperature") => {
+            Some(("color", "temperature", "the colour of the light"))
+        }
+        _ => None,
+    };
+    let Some((first, second, what)) = twice else { return true };
+    if let (Some(a), Some(b)) = (fields.span(first), fields.span(second)) {
+        let text = format!("`{first}` and `{second}` both set {what}");
+        let error = Diagnostic::error(Code("E0703"), text)
+            .at(b, "keep one of them")
+            .because(a, "this says it, too");
+        ev.fault(error);
+    }
+    false
+}
+
+/// The radiance of a light, W/(m2 sr) up to the scale of the scene. `None` only for fields with faults.
+pub(super) fn radiance(
+    ev: &mut Evaluator<'_>,
+    name: &Name,
+    fields: &Fields,
+    emitter: Emitter,
+) -> Option<Rgb> {
+    let color = match fields.number("temperature") {
+        Some(kelvin) => blackbody(kelvin),
+        None => fields.color("color")?,
+    };
+    let field = FIELDS.into_iter().find(|field| fields.has(field));
+    let (value, dim) = fields.quantity(field.unwrap_or("strength"))?;
+    let per_radiance = match field {
+        Some("power") => emitter.flux,
+        Some("intensity") => emitter.intensity,
+        _ => 1.0,
+    };
+    let mut scale = value / per_radiance;
+    if is_luminous(dim) {
+        let luminance: f64 = color.iter().zip(LUMINANCE).map(|(c, y)| c * y).sum();
+        if luminance == 0.0 {
+            return black(ev, fields, field.unwrap_or("strength"));
+        }
+        scale /= EFFICACY * luminance;
+    }
+    let radiance = color.map(|c| c * scale);
+    if !radiance.iter().all(|c| *c <= crate::schema::MAX_MAGNITUDE) {
+        let text = format!("`{}` is too bright: its radiance is {:e}", name.text, radiance[0]);
+        let error = Diagnostic::error(Code("E0402"), text).at(name.span, "this light");
+        ev.fault(error.with_help("a larger light spreads the same `power`"));
+        return None;
+    }
+    Some(radiance)
+}
+
+fn is_luminous(dim: Dim) -> bool {
+    [Dim::LUMINOUS_FLUX, Dim::LUMINOUS_INTENSITY, Dim::LUMINANCE].contains(&dim)
+}
+
+fn black(ev: &mut Evaluator<'_>, fields: &Fields, field: &str) -> Option<Rgb> {
+    let text = format!("a black light has no `{field}` in these units");
+    let span = fields.span("color").or(fields.span(field))?;
+    ev.fault(
+        Diagnostic::error(Code("E0401"), text)
+            .at(span, "black")
+            .with_note("lumens, candelas and lux are what eyes see of the light's colour"),
+    );
+    None
+}
