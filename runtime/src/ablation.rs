@@ -100,6 +100,8 @@ impl Measured {
 /// The whole comparison.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Ablation {
+    /// Name of this kind of document and its version, see `docs/json.md`.
+    pub schema: &'static str,
     /// Of `rtr`.
     pub version: &'static str,
     /// Hexadecimal name of what was rendered.
@@ -165,6 +167,7 @@ pub fn ablate(
     let adapter = adapter(choice)?;
     let cpu = render(scene, job, &DeviceChoice::Cpu, control)?;
     let mut ablation = Ablation {
+        schema: "rtr.ablation/1",
         version: env!("CARGO_PKG_VERSION"),
         scene: scene.render_id(),
         image: job.image_size,

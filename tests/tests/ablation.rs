@@ -187,6 +187,7 @@ fn another_picture_is_told() {
         measured: Some(measured),
     };
     let of = |software, measured| Ablation {
+        schema: "",
         version: "1",
         scene: String::new(),
         image: [1, 1],

@@ -38,9 +38,10 @@ impl Side<'_> {
     }
 }
 
-/// What the file says.
+/// What the file says, see `docs/json.md`.
 #[derive(Serialize)]
 struct Verdict<'a> {
+    schema: &'static str,
     packs: [String; 2],
     time_s: f64,
     fom: [Vec<f64>; 2],
@@ -160,6 +161,7 @@ fn conclude(args: &BenchArgs, console: &Console, sides: &[Side<'_>]) -> Exit {
     }
     if let Some(path) = &args.report {
         let result = Verdict {
+            schema: "rtr.bench/1",
             packs: [a, b].map(|side| side.path.shown().to_string()),
             time_s: args.time.as_secs_f64(),
             fom: [a.foms(), b.foms()],
