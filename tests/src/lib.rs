@@ -26,3 +26,4 @@ pub mod software;
 pub mod stability;
 pub mod statistics;
 pub mod structure;
+pub mod truth;

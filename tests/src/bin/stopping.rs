@@ -14,6 +14,7 @@ use runtime::convergence::{Goal, Measure, Quantity, luminance};
 use runtime::{Control, DeviceChoice, Film, Job, SampleRange, Scene, Stop, render};
 use scenes::catalog::EXAMPLES;
 use tests::scene;
+use tests::truth::Truth;
 
 /// Pixels of each picture.
 const SIZE: [u32; 2] = [64, 48];
@@ -42,10 +43,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// A scene and what it looks like.
 struct Known {
     bytes: Vec<u8>,
-    /// Luminance and its variance.
-    truth: Vec<(f64, f64)>,
-    /// What counts as black.
-    e: f64,
+    truth: Truth,
 }
 
 /// One picture.
@@ -69,10 +67,7 @@ impl Known {
         let mut job = job(&scene, Measure::default());
         (job.seed, job.samples.end, job.threads) = (77, REFERENCE, None);
         let outcome = render(&scene, &job, &DeviceChoice::Cpu, &Control::default())?;
-        let film = outcome.film();
-        let truth: Vec<_> = lumas(film).zip(film.variance.iter().copied()).collect();
-        let e = 0.01 * truth.iter().map(|(y, _)| y).sum::<f64>() / truth.len() as f64;
-        Ok(Self { bytes, truth, e })
+        Ok(Self { bytes, truth: Truth::of(outcome.film()) })
     }
 
     /// Every run until its error is `goal`; `adaptive` as in `Measure`.
@@ -90,7 +85,7 @@ impl Known {
             let film = outcome.film();
             Ok(Run {
                 spp: film.total_samples() as f64 / film.counts.len() as f64,
-                square: self.square(film),
+                square: self.truth.rel_mse(&film.means()),
                 light: lumas(film).sum::<f64>() / film.counts.len() as f64,
                 interval: [noise.rel_lo, noise.rel_hi],
                 is_flagged: noise.is_heavy_tailed(),
@@ -98,23 +93,13 @@ impl Known {
         });
         Ok(runs.collect::<Result<_, String>>()?)
     }
-
-    /// relMSE of a picture.
-    fn square(&self, film: &Film) -> f64 {
-        let squares = lumas(film).zip(&self.truth).map(|(y, &(truth, variance))| {
-            ((y - truth).powi(2) - variance) / (truth * truth + self.e * self.e)
-        });
-        squares.sum::<f64>() / self.truth.len() as f64
-    }
 }
 
 impl Known {
     /// What fewer samples for parts of the picture save, at the same true error, and what they do to its light.
     fn adaptive(&self, name: &str, goal: f64, even: &[Run], runs: &[Run]) -> String {
         let n = runs.len() as f64;
-        let pixels = self.truth.len() as f64;
-        let truth = self.truth.iter().map(|(y, _)| y).sum::<f64>() / pixels;
-        let own = self.truth.iter().map(|(_, variance)| variance).sum::<f64>() / (pixels * pixels);
+        let (truth, own) = (self.truth.light(), self.truth.variance_of_light());
         let light = runs.iter().map(|run| run.light).sum::<f64>() / n;
         let spread = runs.iter().map(|run| (run.light - light).powi(2)).sum::<f64>() / (n - 1.0);
         let within = runs.iter().filter(|run| run.square <= (1.1 * goal).powi(2)).count() as f64;
