@@ -11,6 +11,8 @@ mod bench;
 mod change;
 mod check;
 mod console;
+mod denoise;
+mod denoise_args;
 mod exit;
 mod guard;
 mod layer_args;
@@ -121,6 +123,10 @@ fn merge_command(args: &MergeArgs) -> Exit {
     if let Err(exit) = prove(&console, &inputs, &claims.collect::<Vec<_>>()) {
         return exit;
     }
+    let denoiser = match denoise::open(&args.denoise, &console, &formats, None) {
+        Ok(denoiser) => denoiser,
+        Err(exit) => return exit,
+    };
     let mut parts = Vec::new();
     for path in &args.parts {
         match output::read_exr(path) {
@@ -128,7 +134,7 @@ fn merge_command(args: &MergeArgs) -> Exit {
             Err(error) => return console.fail(&error, Exit::World),
         }
     }
-    let picture = match output::merge(parts) {
+    let mut picture = match output::merge(parts) {
         Ok(picture) => picture,
         Err(error) => {
             for (i, path) in (1..).zip(&args.parts) {
@@ -138,6 +144,9 @@ fn merge_command(args: &MergeArgs) -> Exit {
         }
     };
     let mut exit = Exit::Done;
+    if let Some(denoiser) = &denoiser {
+        exit = denoise::denoise(&console, denoiser, &mut picture).err().unwrap_or(exit);
+    }
     for (path, format) in args.output.iter().zip(formats) {
         let bytes = match output::encode(format, &picture, true) {
             Ok(bytes) => bytes,

@@ -26,6 +26,7 @@ pub mod cli;
 mod control;
 pub mod convergence;
 mod cpu;
+pub mod denoise;
 mod film;
 mod gather;
 #[cfg(feature = "gpu")]

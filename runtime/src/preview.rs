@@ -86,7 +86,7 @@ impl Previewer {
             return;
         };
         state.end = end;
-        state.task = Task::Show(Box::new(Picture { film, meta: meta(), layers: None }));
+        state.task = Task::Show(Box::new(Picture::new(film, meta())));
         drop(state);
         self.wake.notify_all();
     }

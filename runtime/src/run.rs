@@ -424,7 +424,7 @@ impl Shared {
         let meta = Meta { complete, ..self.meta(&devices, elapsed) };
         let elapsed = self.frame.before + elapsed;
         Outcome {
-            picture: Picture { film, meta, layers: None },
+            picture: Picture::new(film, meta),
             stop,
             failures,
             device_error,

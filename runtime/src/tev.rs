@@ -65,13 +65,13 @@ pub(crate) fn create(out: &mut dyn Write, name: &str, size: [u32; 2]) -> io::Res
     packet.number(3).channels().send(out)
 }
 
-/// Sends the means of a picture to the image called `name`: linear, no exposure.
+/// Sends the pixels of a picture to the image called `name`: linear, no exposure.
 pub(crate) fn update(out: &mut dyn Write, name: &str, picture: &Picture) -> io::Result<()> {
     let film = &picture.film;
     let region = film.region;
     let width = region.w as usize;
     let rows = (PIXELS / width.max(1)).max(1);
-    let means = film.means();
+    let means = picture.shown();
     for (band, y) in means.chunks(rows * width.max(1)).zip((region.y..).step_by(rows)) {
         let height = u32::try_from(band.len() / width.max(1)).unwrap_or(0);
         let packet = Packet::new(UPDATE).byte(0).text(name).number(3).channels();
@@ -103,7 +103,7 @@ mod tests {
         let mut film = Film::new([2, 3], Rect { x: 1, y: 2, w: 1, h: 1 });
         (film.sums[0], film.counts[0]) = ([2.0, 4.0, 1.0], 2);
         sent.clear();
-        update(&mut sent, "a", &Picture { film, meta: Meta::default(), layers: None }).unwrap();
+        update(&mut sent, "a", &Picture::new(film, Meta::default())).unwrap();
         let mut expected = b"\x06\0a\0\x03\0\0\0R\0G\0B\0".to_vec();
         expected.extend([1_u32, 2, 1, 1].map(u32::to_le_bytes).as_flattened());
         expected.extend([0_u64, 1, 2, 3, 3, 3].map(u64::to_le_bytes).as_flattened());
@@ -117,7 +117,7 @@ mod tests {
         let side = 1025;
         let film = Film::new([side; 2], Rect::whole([side; 2]));
         let mut sent = Vec::new();
-        update(&mut sent, "a", &Picture { film, meta: Meta::default(), layers: None }).unwrap();
+        update(&mut sent, "a", &Picture::new(film, Meta::default())).unwrap();
         let (mut at, mut heights) = (0, Vec::new());
         while at < sent.len() {
             let number = |i: usize| u32::from_le_bytes(sent[i..i + 4].try_into().unwrap());

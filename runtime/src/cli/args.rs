@@ -1,5 +1,6 @@
 //! Arguments as clap reads them, and the parsers of their values.
 
+use super::denoise_args::DenoiseArgs;
 use super::layer_args::LayerArgs;
 use crate::convergence::Goal;
 use crate::output::Format;
@@ -28,6 +29,7 @@ Examples:
   rtr bench old.pack new.pack --time 30s  compare their errors at equal time
   rtr scene.pack --layers albedo,normal,depth,crypto   layers for denoising and compositing
   rtr scene.pack --transparent -o a.png   no sky behind it: a PNG with alpha
+  rtr scene.pack --spp 32 --denoise -o a.exr -o a.png   without noise, by Open Image Denoise
   rtr scene.pack --watch --time 10s       render again whenever the pack changes
   rtr view scene.pack                     look around in a browser while it renders
   rtr check scene.pack                    is single precision enough?
@@ -92,6 +94,8 @@ pub(super) struct MergeArgs {
     /// Print errors only.
     #[arg(long)]
     pub(super) quiet: bool,
+    #[command(flatten)]
+    pub(super) denoise: DenoiseArgs,
 }
 
 const BENCH_EXAMPLES: &str = "\
@@ -366,12 +370,12 @@ pub(super) struct RenderArgs {
     /// build time, time per sample, equality of pictures. `auto` includes software adapters. 3 rounds of 16
     /// samples, or of --spp; --report writes JSON.
     #[arg(long, value_name = "WHAT", num_args = 0..=1, require_equals = true, default_missing_value = "each")]
-    #[arg(conflicts_with_all = ["samples", "time", "output", "resume", "watch", "plot", "until_error", "reference"])]
+    #[arg(conflicts_with_all = ["samples", "time", "output", "resume", "watch", "plot", "until_error", "reference", "denoise"])]
     pub(super) ablate: Option<AblateArg>,
     /// Say what is seen in this pixel instead of rendering: instance, object, material and part of an asset with
     /// their lines, position, distance and normal. Honours --size.
     #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
-    #[arg(conflicts_with_all = ["samples", "time", "output", "resume", "watch", "plot", "until_error", "reference", "ablate"])]
+    #[arg(conflicts_with_all = ["samples", "time", "output", "resume", "watch", "plot", "until_error", "reference", "ablate", "denoise"])]
     pub(super) pick: Option<[u32; 2]>,
     /// Print what --pick finds as JSON.
     #[arg(long, requires = "pick")]
@@ -392,6 +396,8 @@ pub(super) struct RenderArgs {
     pub(super) error: ErrorArgs,
     #[command(flatten)]
     pub(super) layers: LayerArgs,
+    #[command(flatten)]
+    pub(super) denoise: DenoiseArgs,
 }
 
 /// How far a run is, said to whom.

@@ -1,5 +1,6 @@
 //! Arguments of `rtr` about layers → what the picture holds beside radiance.
 
+use super::denoise_args::DenoiseArgs;
 use crate::job::Job;
 use crate::layers::{Layer, LayerNames, Wanted};
 use crate::output::Format;
@@ -21,8 +22,14 @@ pub(super) struct LayerArgs {
 }
 
 impl LayerArgs {
-    /// What is asked for. What the scene asks for is left out where it cannot be had.
-    pub(super) fn wanted(&self, scene: &Scene, job: &Job, formats: &[Format]) -> Wanted {
+    /// What is asked for, and what the denoiser needs. What the scene asks for is left out where it cannot be had.
+    pub(super) fn wanted(
+        &self,
+        scene: &Scene,
+        job: &Job,
+        formats: &[Format],
+        denoise: &DenoiseArgs,
+    ) -> Wanted {
         let mut layers: BTreeSet<Layer> = self.layers.iter().copied().collect();
         if layers.is_empty() {
             let manifest = scene.pack().manifest().unwrap_or_default();
@@ -37,6 +44,7 @@ impl LayerArgs {
         if self.transparent {
             layers.insert(Layer::Alpha);
         }
+        denoise.want(&mut layers);
         Wanted { layers, transparent: self.transparent, names: self.layer_names }
     }
 }

@@ -1,6 +1,7 @@
 //! Whether what `--layers` asks for can be had, or why not.
 
 use super::console::Console;
+use super::denoise_args::DenoiseArgs;
 use super::exit::Exit;
 use crate::job::Job;
 use crate::layers::Layer;
@@ -13,6 +14,7 @@ pub(super) fn check(
     scene: &Scene,
     job: &Job,
     formats: &[Format],
+    denoise: &DenoiseArgs,
 ) -> Result<(), Exit> {
     let wanted = &job.wanted;
     let has = |layer| wanted.layers.contains(&layer);
@@ -23,7 +25,8 @@ pub(super) fn check(
         );
         return Err(Exit::Usage);
     }
-    let of_exr = wanted.layers.iter().find(|layer| **layer != Layer::Alpha);
+    let is_of_exr = |layer: &&Layer| **layer != Layer::Alpha && !denoise.needs(**layer);
+    let of_exr = wanted.layers.iter().find(is_of_exr);
     if let Some(layer) = of_exr.filter(|_| !formats.contains(&Format::Exr)) {
         let name = layer.name();
         console.warn(&format!(

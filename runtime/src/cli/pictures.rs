@@ -5,9 +5,11 @@
 
 use super::args::{Every, RenderArgs};
 use super::console::Console;
+use super::denoise::denoise;
 use super::exit::Exit;
 use super::outputs::{Output, save};
 use super::viewer::Viewer;
+use crate::denoise::Denoiser;
 use crate::job::Job;
 use crate::output::{self, Picture};
 use crate::preview::Preview;
@@ -27,6 +29,7 @@ pub(super) struct Pictures<'a> {
     console: &'a Console,
     outputs: &'a [Output],
     viewer: Option<Arc<Mutex<Viewer>>>,
+    denoiser: Option<Denoiser>,
 }
 
 impl<'a> Pictures<'a> {
@@ -36,6 +39,7 @@ impl<'a> Pictures<'a> {
         console: &'a Console,
         outputs: &'a [Output],
         job: &Job,
+        denoiser: Option<Denoiser>,
     ) -> Self {
         let name = args.pack.as_deref().and_then(Path::file_stem).unwrap_or_default();
         let name = name.to_string_lossy();
@@ -43,7 +47,7 @@ impl<'a> Pictures<'a> {
             .tev
             .as_ref()
             .map(|place| Arc::new(Mutex::new(Viewer::new(console, place, &name, job.image_size))));
-        Self { console, outputs, viewer }
+        Self { console, outputs, viewer, denoiser }
     }
 
     /// What writes the pictures of a run that goes on, where that is wanted. A stream gets them only when
@@ -64,7 +68,7 @@ impl<'a> Pictures<'a> {
         let show = move |picture: &Picture| {
             show_in(viewer.as_ref(), picture);
             for output in &outputs {
-                if let Err(error) = replace(output, picture)
+                if let Err(error) = replace(output, picture, true)
                     && !warned.swap(true, Ordering::Relaxed)
                 {
                     let path = output.path.shown();
@@ -75,6 +79,26 @@ impl<'a> Pictures<'a> {
             }
         };
         Some(Preview { every, show: Box::new(show) })
+    }
+
+    /// Denoises the last picture, where that is asked for. `None` when all is well; `residual` as for `output::encode`.
+    pub(super) fn denoise(&self, picture: &mut Picture, residual: bool) -> Option<Exit> {
+        let denoiser = self.denoiser.as_ref()?;
+        if picture.layers.is_none() {
+            self.console.note("warning: the picture is not denoised");
+            return None;
+        }
+        // Whatever becomes of a library that is not ours, the samples are on the disk before.
+        self.keep(picture, residual);
+        denoise(self.console, denoiser, picture).err()
+    }
+
+    /// Puts a picture that is not the last one into the files, without a word: it is there if nothing comes after it.
+    fn keep(&self, picture: &Picture, residual: bool) {
+        for output in self.outputs.iter().filter(|output| !files::is_stream(&output.path)) {
+            // What cannot be written now is said of the last picture.
+            let _ = replace(output, picture, residual);
+        }
     }
 
     /// Writes the last picture, to every output; `residual` as for `output::encode`. `None` when all is well.
@@ -99,8 +123,9 @@ fn show_in(viewer: Option<&Arc<Mutex<Viewer>>>, picture: &Picture) {
     }
 }
 
-/// Puts a picture of a run that goes on in the place of what is there.
-fn replace(output: &Output, picture: &Picture) -> Result<(), String> {
-    let bytes = output::encode(output.format, picture, true).map_err(|error| error.to_string())?;
+/// Puts a picture of a run that goes on in the place of what is there; `residual` as for `output::encode`.
+fn replace(output: &Output, picture: &Picture, residual: bool) -> Result<(), String> {
+    let bytes =
+        output::encode(output.format, picture, residual).map_err(|error| error.to_string())?;
     files::write(&output.path, |out| out.write_all(&bytes)).map_err(|error| error.to_string())
 }

@@ -3,6 +3,7 @@
 use super::args::{Every, PrecisionArg, RenderArgs};
 use super::change::Change;
 use super::console::{Console, Watched, quit, reset_interrupts};
+use super::denoise;
 use super::exit::Exit;
 use super::guard::{Guard, ThreadError};
 use super::layers;
@@ -13,9 +14,11 @@ use super::pictures::Pictures;
 use super::progress::{Line, Wanted, duration_text, mrays};
 use crate::checkpoint::{Checkpoint, CheckpointError};
 use crate::control::Control;
+use crate::denoise::Denoiser;
 use crate::job::{Job, Precision};
 use crate::mark::Mark;
 use crate::outcome::Outcome;
+use crate::output::Format;
 use crate::region::SampleRange;
 use crate::render::{DeviceChoice, RenderError, render_session};
 use crate::saver::{Keep, Session};
@@ -86,10 +89,10 @@ pub(super) fn command(
         }
     };
     let formats: Vec<_> = outputs.iter().map(|output| output.format).collect();
-    job.wanted = args.layers.wanted(&scene, &job, &formats);
-    if let Err(exit) = layers::check(&console, &scene, &job, &formats) {
-        return exit;
-    }
+    let denoiser = match beside(args, &console, &scene, &mut job, &formats) {
+        Ok(denoiser) => denoiser,
+        Err(exit) => return exit,
+    };
     let checkpoint = checkpoint_path(args, &outputs);
     if let Err(exit) = prove_all(args, &console, &job, &outputs, &checkpoint) {
         return exit;
@@ -114,10 +117,23 @@ pub(super) fn command(
         _ => None,
     };
     let (scene, guard, job, console) = (&scene, &guard, &job, &console);
-    let pictures = &Pictures::new(args, console, &outputs, job);
+    let pictures = &Pictures::new(args, console, &outputs, job, denoiser);
     let plan =
         Plan { args, observer, console, scene, guard, job, pictures, watching, load, resumed };
     run(&plan, Session { from, keep })
+}
+
+/// Sets what is wanted beside radiance; gives the denoiser, if one is.
+fn beside(
+    args: &RenderArgs,
+    console: &Console,
+    scene: &Scene,
+    job: &mut Job,
+    formats: &[Format],
+) -> Result<Option<Denoiser>, Exit> {
+    job.wanted = args.layers.wanted(scene, job, formats, &args.denoise);
+    layers::check(console, scene, job, formats, &args.denoise)?;
+    denoise::open(&args.denoise, console, formats, args.threads)
 }
 
 /// The pack that is named, if it can be one.
@@ -253,7 +269,7 @@ fn run(plan: &Plan<'_>, session: Session) -> Exit {
         outcome.map_err(Failure::Pack)
     });
     match outcome {
-        Ok(Ok(outcome)) => conclude(plan, &outcome, control.progress()),
+        Ok(Ok(outcome)) => conclude(plan, outcome, control.progress()),
         Ok(Err(error)) => console.fail(&error, Exit::World),
         Err(Failure::Pack(exit)) => exit,
         Err(Failure::Thread(error)) => console.fail(&error, Exit::World),
@@ -278,7 +294,7 @@ fn rescue(plan: &Plan<'_>, control: &Control) {
             let text = "warning: the kernel or the driver hangs; what is complete is written";
             plan.console.warn(text);
         }
-        let end = || conclude(plan, &outcome, control.progress());
+        let end = || conclude(plan, outcome, control.progress());
         quit(plan.guard.settle().err().unwrap_or_else(end));
     }
     // Nothing has begun: the driver hangs.
@@ -288,29 +304,30 @@ fn rescue(plan: &Plan<'_>, control: &Control) {
 }
 
 /// Writes the picture and says how the run ended.
-fn conclude(plan: &Plan<'_>, outcome: &Outcome, progress: Progress) -> Exit {
+fn conclude(plan: &Plan<'_>, mut outcome: Outcome, progress: Progress) -> Exit {
     let Plan { args, console, scene, job, watching, load, .. } = *plan;
     let change = watching.map(|watching| watching.change);
     if outcome.stop == Stop::Cancelled && change.is_some_and(Change::has_come) {
         return Exit::Done;
     }
-    console.progress(|| Line::ended(progress, job, outcome));
-    report(console, outcome, job);
+    console.progress(|| Line::ended(progress, job, &outcome));
+    report(console, &outcome, job);
     if outcome.film().samples().1 == 0 {
         if outcome.device_error.is_none() {
             console.warn("error: no sample was completed, nothing is written");
         }
-        return exit(outcome).unwrap_or(Exit::World);
+        return exit(&outcome).unwrap_or(Exit::World);
     }
     let residual = residual(args) || !outcome.picture.meta.complete;
+    let noisy = plan.pictures.denoise(&mut outcome.picture, residual);
     let began = Instant::now();
-    let mut failed = plan.pictures.write(&outcome.picture, residual);
+    let mut failed = plan.pictures.write(&outcome.picture, residual).or(noisy);
     let times = measure::Outside { load, write: began.elapsed() };
-    if let Some(exit) = measure::write(args, console, scene, job, outcome, &times) {
+    if let Some(exit) = measure::write(args, console, scene, job, &outcome, &times) {
         failed = Some(exit);
     }
-    let exit = failed.or_else(|| exit(outcome)).unwrap_or(Exit::Done);
-    settle(plan, outcome, exit);
+    let exit = failed.or_else(|| exit(&outcome)).unwrap_or(Exit::Done);
+    settle(plan, &outcome, exit);
     exit
 }
 

@@ -1,6 +1,7 @@
 //! Film ⇄ EXR: linear `f32` means, exact enough to go on adding, with all that is known about them.
 //!
-//! Channels `R`, `G`, `B` hold the mean radiance. `residual.R` and so on, where present, hold what
+//! Channels `R`, `G`, `B` hold the mean radiance; where that is denoised, `noisy.R` and so on hold it, and the attribute
+//! `denoiser` says so. `residual.R` and so on, where present, hold what
 //! rounding the `f64` mean to `f32` left over, so that mean + residual is good to about 2^-48.
 //! `variance.Y` is the variance of the mean luminance, in pictures that are the mean of replicates.
 //! `samples` is there where pixels have different numbers of samples.
@@ -8,7 +9,7 @@
 use super::picture::{
     Meta, OutputError, Picture, clamp_text, parse_clamp, parse_ranges, ranges_text,
 };
-use super::planes::{self, COLOURS, combined};
+use super::planes::{self, COLOURS, combined, noisy};
 use crate::film::{BadSample, Counters, Film};
 use crate::layers::{LayerNames, Layers};
 use crate::region::{Rect, SampleRange};
@@ -24,6 +25,8 @@ use std::path::Path;
 const RESIDUALS: [&str; 3] = ["residual.R", "residual.G", "residual.B"];
 const SAMPLES: &str = "samples";
 const VARIANCE: &str = "variance.Y";
+/// Attribute of pictures that are denoised.
+const DENOISER: &str = "denoiser";
 
 /// Bytes that one byte can stand for: deflate stores at most 1032, the other lossless compressions less.
 const MOST_DEFLATED: u64 = 1032;
@@ -37,9 +40,14 @@ pub fn encode_exr(picture: &Picture, residual: bool) -> Result<Vec<u8>, OutputEr
     let means = film.means();
     let layers = picture.layers.as_ref();
     let style = layers.map_or(LayerNames::Plain, |layers| layers.wanted.names);
-    let names = COLOURS.map(|component| combined(style, component));
-    let rounded = names.iter().zip(colours(&means, round));
-    let mut channels: Vec<_> = rounded.map(|(n, p)| channel(n, p)).collect();
+    let named = |name: fn(LayerNames, &str) -> String, values: &[[f64; 3]]| {
+        let names = COLOURS.map(|component| name(style, component));
+        names.into_iter().zip(colours(values, round)).map(|(n, p)| channel(&n, p))
+    };
+    let mut channels: Vec<_> = named(combined, &picture.shown()).collect();
+    if picture.denoised.is_some() {
+        channels.extend(named(noisy, &means));
+    }
     if residual {
         let rest = colours(&means, |x| {
             let rest = round(x - f64::from(round(x)));
@@ -128,6 +136,9 @@ fn attributes_of(picture: &Picture) -> Vec<(Text, AttributeValue)> {
     if let Some(first) = first_bad {
         list.push(("first_bad_sample", text(&first.to_string())));
     }
+    if let Some(denoised) = &picture.denoised {
+        list.push((DENOISER, text(&denoised.by)));
+    }
     if meta.adaptive {
         list.push(("adaptive", text("1")));
     }
@@ -140,7 +151,7 @@ fn attributes_of(picture: &Picture) -> Vec<(Text, AttributeValue)> {
     list.into_iter().map(|(name, value)| (Text::from(name), value)).collect()
 }
 
-/// Reads what `encode_exr` made.
+/// Reads what `encode_exr` made; of what is denoised, the noisy picture.
 pub fn read_exr(path: &Path) -> Result<Picture, OutputError> {
     check_claims(path)?;
     let file = files::open_regular(path).map_err(OutputError::Open)?;
@@ -155,7 +166,7 @@ pub fn read_exr(path: &Path) -> Result<Picture, OutputError> {
     let foreign = |message: String| OutputError::Foreign { path: path.to_owned(), message };
     let fields = Fields { layer: &image.layer_data.attributes };
     let (film, meta, layers) = parse(&image, &fields).map_err(foreign)?;
-    Ok(Picture { film, meta, layers })
+    Ok(Picture { layers, ..Picture::new(film, meta) })
 }
 
 /// Before memory is taken: whether the file can hold the pixels that it claims, and holds them without loss. Sums are
@@ -219,7 +230,8 @@ fn parse(image: &ReadImage, fields: &Fields<'_>) -> Result<Parsed, String> {
     };
     let source = Read { image, fields };
     let names = planes::names_of(&source).unwrap_or(LayerNames::Plain);
-    let film = parse_film(image, names, ranges, counters)?;
+    let name = if fields.text(DENOISER).is_ok() { noisy } else { combined };
+    let film = parse_film(image, &COLOURS.map(|colour| name(names, colour)), ranges, counters)?;
     let layers = planes::parse(&source, film.sums.len())?;
     Ok((film, meta, layers))
 }
@@ -246,7 +258,7 @@ impl planes::Source for Read<'_> {
 
 fn parse_film(
     image: &ReadImage,
-    names: LayerNames,
+    colours: &[String; 3],
     ranges: Vec<SampleRange>,
     counters: Counters,
 ) -> Result<Film, String> {
@@ -280,9 +292,8 @@ fn parse_film(
             film.counts.fill(count.saturating_mul(replicates));
         }
     }
-    for (c, (colour, residual)) in COLOURS.iter().zip(RESIDUALS).enumerate() {
-        let colour = combined(names, colour);
-        let Some(FlatSamples::F32(mean)) = find(&colour).map(|channel| &channel.sample_data) else {
+    for (c, (colour, residual)) in colours.iter().zip(RESIDUALS).enumerate() {
+        let Some(FlatSamples::F32(mean)) = find(colour).map(|channel| &channel.sample_data) else {
             return Err(format!("channel `{colour}` of 32-bit floats is missing"));
         };
         for (i, mean) in mean.iter().enumerate() {

@@ -61,12 +61,13 @@ pub enum MergeError {
 
 /// Adds the parts. They must be of the same pack, size, crop and seed, with disjoint sample ranges,
 /// each evenly sampled. The sum is taken by ascending first sample, so the order of the arguments
-/// does not matter.
+/// does not matter. What was denoised of parts is no part of the whole.
 pub fn merge(mut parts: Vec<Picture>) -> Result<Picture, MergeError> {
     check(&parts)?;
     parts.sort_by_key(|part| part.film.ranges.first().map(|range| range.start));
     let mut parts = parts.into_iter();
     let mut whole = parts.next().ok_or(MergeError::Nothing)?;
+    whole.denoised = None;
     for part in parts {
         for (sum, more) in whole.film.sums.iter_mut().zip(&part.film.sums) {
             for (sum, more) in sum.iter_mut().zip(more) {

@@ -16,6 +16,34 @@ pub struct Picture {
     pub meta: Meta,
     /// What it holds beside radiance.
     pub layers: Option<Layers>,
+    /// What is shown instead of the film's means.
+    pub denoised: Option<Denoised>,
+}
+
+impl Picture {
+    /// A picture of radiance alone.
+    #[must_use]
+    pub fn new(film: Film, meta: Meta) -> Self {
+        Self { film, meta, layers: None, denoised: None }
+    }
+
+    /// Radiance of every pixel as it is shown, row by row: denoised, or the means.
+    #[must_use]
+    pub fn shown(&self) -> Vec<[f64; 3]> {
+        match &self.denoised {
+            Some(denoised) => denoised.pixels.iter().map(|pixel| pixel.map(f64::from)).collect(),
+            None => self.film.means(),
+        }
+    }
+}
+
+/// What a denoiser made of a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Denoised {
+    /// Radiance, linear Rec. 709, of every pixel of the film, row by row.
+    pub pixels: Vec<[f32; 3]>,
+    /// Name and version of the denoiser.
+    pub by: String,
 }
 
 /// What is known about a picture beside its pixels; all of it is stored in the EXR.

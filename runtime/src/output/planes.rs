@@ -40,6 +40,14 @@ pub(super) fn combined(names: LayerNames, component: &str) -> String {
     }
 }
 
+/// The name of a channel of the picture before it was denoised.
+pub(super) fn noisy(names: LayerNames, component: &str) -> String {
+    match names {
+        LayerNames::Blender => format!("ViewLayer.Noisy Image.{component}"),
+        LayerNames::Plain => format!("noisy.{component}"),
+    }
+}
+
 fn channel_name(names: LayerNames, layer: &str, (ending, plain): (&str, &str)) -> String {
     match names {
         LayerNames::Blender => format!("ViewLayer.{layer}.{ending}"),

@@ -39,9 +39,8 @@ pub fn encode_png16(picture: &Picture) -> Result<Vec<u8>, OutputError> {
 
 /// The colours of what is there, not what of it is seen, as PNGs have them; and alpha where it is a layer.
 fn straight(picture: &Picture) -> (Vec<[f64; 3]>, Vec<f64>) {
-    let film = &picture.film;
     let layers = picture.layers.as_ref().filter(|layers| layers.has(Layer::Alpha));
-    let mut means = film.means();
+    let mut means = picture.shown();
     let alphas = layers.map(|layers| (0..means.len()).map(|i| layers.alpha(i)).collect());
     let alphas: Vec<f64> = alphas.unwrap_or_default();
     for (mean, alpha) in means.iter_mut().zip(&alphas).filter(|(_, alpha)| **alpha > 0.0) {

@@ -9,7 +9,7 @@ use exr::prelude::{
     WritableImage as _, f16,
 };
 use image::{ExtendedColorType, ImageEncoder};
-use runtime::output::{Identity, Meta, Picture, encode_exr};
+use runtime::output::{Denoised, Identity, Meta, Picture, encode_exr};
 use runtime::{Checkpoint, Film, Rect, SampleRange};
 use serde_json::{Value, json};
 
@@ -227,7 +227,7 @@ fn parts() -> Made {
         tone_map: 1,
         complete: true,
     };
-    let of = |film: Film| Picture { film, meta: meta.clone(), layers: None };
+    let of = |film: Film| Picture::new(film, meta.clone());
     let crop = Rect { x: 1, y: 2, w: 5, h: 3 };
     let good = of(film(crop, range(0, 16)));
     let bytes = part(&good);
@@ -237,6 +237,8 @@ fn parts() -> Made {
     replicates.film.variance = vec![0.25; 15];
     let mut unbounded = good.clone();
     unbounded.film.sums = vec![[f64::INFINITY, f64::NAN, -1.0]; 15];
+    let mut denoised = good.clone();
+    denoised.denoised = Some(Denoised { pixels: vec![[0.5; 3]; 15], by: "a denoiser".to_owned() });
     let window = |corner: [i32; 4]| {
         let mut bytes = bytes.clone();
         let at = data_window(&bytes);
@@ -253,6 +255,7 @@ fn parts() -> Made {
         ("good-part", bytes.clone()),
         ("good-later", part(&of(film(crop, range(48, 64))))),
         ("good-infinite", part(&unbounded)),
+        ("good-denoised", part(&denoised)),
         ("bad-last-samples", part(&of(film(crop, range(16, u32::MAX))))),
         ("bad-uneven", part(&uneven)),
         ("bad-replicates", part(&replicates)),
