@@ -130,13 +130,17 @@ fn beside(pictures: &[&Picture]) -> Vec<[u8; 3]> {
 /// What it takes to denoise a picture of a usual size.
 fn large(denoiser: &Denoiser) -> Result<String, Box<dyn Error>> {
     let mut picture = sampled(&scene_of("cornell_sphere")?, LARGE, 1)?;
-    let began = Instant::now();
-    denoiser.denoise(&mut picture, &|| false)?;
-    let seconds = began.elapsed().as_secs_f64();
+    let mut seconds = f64::INFINITY;
+    // What else the machine does makes it longer only.
+    for _ in 0..3 {
+        let began = Instant::now();
+        denoiser.denoise(&mut picture, &|| false)?;
+        seconds = seconds.min(began.elapsed().as_secs_f64());
+    }
     let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let [width, height] = LARGE;
     Ok(format!(
-        "A picture of {width}x{height}, with its guides, takes {seconds:.1} s on {threads} hardware threads."
+        "A picture of {width}x{height}, with its guides, takes {seconds:.1} s on {threads} hardware threads, the least of three."
     ))
 }
 
