@@ -13,6 +13,8 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
 
+mod so_far;
+
 /// A sample whose radiance was not finite; enough to render it again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BadSample {
@@ -139,7 +141,7 @@ impl Film {
         if self.variance.is_empty() { 1 } else { REPLICATES_U32 }
     }
 
-    /// Mean radiance of pixel `i` of the region; black without samples.
+    /// Mean radiance of pixel `i` of the region; without samples what stands in for it, or black.
     #[must_use]
     pub fn mean(&self, i: usize) -> [f64; 3] {
         let n = f64::from(self.counts[i].max(1));
@@ -180,7 +182,8 @@ impl Film {
         self.counts.iter().map(|&n| u64::from(n)).sum()
     }
 
-    fn index(&self, x: u32, y: u32) -> usize {
+    /// Place of a pixel of the region in `sums` and `counts`.
+    pub(crate) fn index(&self, x: u32, y: u32) -> usize {
         let row = u64::from(y - self.region.y) * u64::from(self.region.w);
         usize::try_from(row + u64::from(x - self.region.x)).expect("a pixel of the region")
     }
@@ -408,35 +411,27 @@ impl Accumulator {
     }
 
     fn add(&mut self, plane: Plane, replicate: usize) {
-        let region_w = self.film.region.w as usize;
-        for tile in &plane.done {
-            let mut at = self.film.index(tile.x, tile.y);
-            for _ in 0..tile.h {
-                let row = at..at + tile.w as usize;
-                if !self.lumas.is_empty() {
-                    let row = self.lumas[row.clone()].iter_mut().zip(&plane.sums[row.clone()]);
-                    for (lumas, sum) in row {
-                        lumas[replicate] += luminance(sum.map(f64::from));
-                    }
-                }
-                for (sum, batch) in
-                    self.film.sums[row.clone()].iter_mut().zip(&plane.sums[row.clone()])
-                {
-                    for (sum, batch) in sum.iter_mut().zip(batch) {
-                        *sum += f64::from(*batch);
-                    }
-                }
-                for count in &mut self.film.counts[row] {
-                    *count += plane.samples.count();
-                }
-                at += region_w;
-            }
+        if !self.lumas.is_empty() {
+            self.add_lumas(&plane, replicate);
         }
+        plane.add_to(&mut self.film);
         let removed = plane.removed as f64 * REMOVED;
         self.film.counters.add(&Counters { removed, ..plane.counters });
         // That of the first replicate stands for all.
         insert_range(&mut self.film.ranges, plane.samples);
         self.spare.push(plane.sums);
+    }
+
+    fn add_lumas(&mut self, plane: &Plane, replicate: usize) {
+        for tile in &plane.done {
+            for y in tile.y..tile.y + tile.h {
+                let at = self.film.index(tile.x, y);
+                let row = at..at + tile.w as usize;
+                for (lumas, sum) in self.lumas[row.clone()].iter_mut().zip(&plane.sums[row]) {
+                    lumas[replicate] += luminance(sum.map(f64::from));
+                }
+            }
+        }
     }
 
     /// The film with every complete batch. A run that ended inside its first batch leaves the tiles

@@ -23,6 +23,7 @@ mod allocation;
 pub mod check;
 mod checkpoint;
 pub mod cli;
+mod coarse;
 mod control;
 pub mod convergence;
 mod cpu;

@@ -1,5 +1,6 @@
 //! Scene + job + device → film: chooses the device, renders, and survives its loss.
 
+use crate::coarse::coarse;
 use crate::control::Control;
 use crate::cpu;
 use crate::gather::{GatherError, gather};
@@ -7,7 +8,7 @@ use crate::job::{Job, JobError};
 use crate::memory::{self, TooLarge};
 use crate::outcome::Outcome;
 use crate::output::Meta;
-use crate::preview::Previewer;
+use crate::preview::{Preview, Previewer};
 use crate::run::{Framing, Run, Shared};
 use crate::saver::{Saver, Session};
 use crate::scene::Scene;
@@ -95,10 +96,12 @@ pub fn render_session(
     if let Some(text) = memory::announce(job, keep.is_some(), memory::free())? {
         control.signals().note(&text);
     }
+    let done = from.as_ref().and_then(|from| from.film.ranges.last()).map_or(0, |done| done.end);
+    let previewer = |preview: &Arc<Preview>| Previewer::new(Arc::clone(preview), job, done);
     let mut frame = Framing {
         meta: meta(scene, job),
         saver: keep.map(|keep| Saver::new(keep, scene, job, from.as_ref())),
-        previewer: control.preview().map(|preview| Previewer::new(Arc::clone(preview), job)),
+        previewer: control.preview().map(previewer),
         ..Framing::default()
     };
     let film = from.map(|from| {
@@ -108,7 +111,7 @@ pub fn render_session(
     });
     let run = control.start(job, film, frame)?;
     let (finished, device_error) = std::thread::scope(|scope| {
-        start_keepers(scope, run.shared(), control.signals());
+        start_keepers(scope, (scene, job), run.shared(), control.signals());
         let backends = Backends {
             scene,
             job,
@@ -157,6 +160,7 @@ fn add_layers(scene: &Scene, job: &Job, outcome: &mut Outcome, control: &Control
 /// Starts the threads that save what is rendered and show it.
 fn start_keepers<'scope>(
     scope: &'scope Scope<'scope, '_>,
+    (scene, job): (&'scope Scene, &'scope Job),
     shared: &'scope Shared,
     signals: &'scope Signals,
 ) {
@@ -166,9 +170,11 @@ fn start_keepers<'scope>(
     {
         signals.note(&format!("warning: no checkpoints during this run: {error}"));
     }
+    let show = move |previewer: &Previewer| {
+        previewer.work(signals, |signals| coarse(scene, job, signals), || shared.meta_now());
+    };
     if let Some(previewer) = shared.previewer()
-        && let Err(error) =
-            thread("rtr-preview").spawn_scoped(scope, move || previewer.work(signals))
+        && let Err(error) = thread("rtr-preview").spawn_scoped(scope, move || show(previewer))
     {
         signals.note(&format!("warning: no picture before the last one: {error}"));
     }

@@ -235,7 +235,7 @@ impl<'a> Run<'a> {
             }
             if let Some(previewer) = self.shared.previewer() {
                 let meta = || self.shared.meta(&state.devices, self.shared.started.elapsed());
-                previewer.offer(state.sum.film(), self.signals, meta);
+                previewer.offer(&state.sum, self.signals, meta);
             }
         }
         drop(state);
@@ -353,6 +353,12 @@ impl Shared {
 
     pub(crate) fn previewer(&self) -> Option<&Previewer> {
         self.frame.previewer.as_ref()
+    }
+
+    /// What is known of a picture that is not complete, now.
+    pub(crate) fn meta_now(&self) -> Meta {
+        let devices = self.lock().devices.clone();
+        self.meta(&devices, self.started.elapsed())
     }
 
     /// What is known of a picture that is not complete after `elapsed`, made by `devices`.

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-use runtime::output::read_exr;
+use runtime::output::{Picture, read_exr};
 
 /// How a PNG begins.
 const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
@@ -62,9 +62,9 @@ fn the_picture_is_there_while_it_is_rendered_and_grows() {
     while seen.len() < 3 && began.elapsed() < Duration::from_mins(1) {
         if let Ok(picture) = read_exr(&path) {
             let samples = picture.film.samples();
-            assert!(!picture.meta.complete && picture.film.is_even());
-            assert!(samples.0 > 0 && samples.0 % 16 == 0, "{samples:?}");
-            if seen.last() != Some(&samples.0) {
+            assert!(!picture.meta.complete);
+            assert_eq!((samples.0 % 16, samples.1 % 16), (0, 0), "{samples:?}");
+            if samples.0 > 0 && seen.last() != Some(&samples.0) {
                 seen.push(samples.0);
             }
         }
@@ -88,6 +88,67 @@ fn pictures_on_the_way_do_not_change_the_last_one() {
         (bits, film.counters, std::fs::read(folder.path().join(png)).expect("a picture"))
     };
     assert!(bits("often", "1ms") == bits("never", "never"));
+}
+
+/// The first picture of a run, as soon as it is there.
+fn first_picture(path: &Path) -> Picture {
+    let began = Instant::now();
+    loop {
+        match read_exr(path) {
+            Ok(picture) => return picture,
+            Err(error) => assert!(began.elapsed() < Duration::from_mins(1), "{error}"),
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+#[test]
+fn a_coarse_picture_comes_first_and_is_no_part_of_one() {
+    let folder = folder();
+    let outputs = ["-o", "a.png", "-o", "a.exr"];
+    let args = [&["--spp", "10000000", "--size", "1280x720"], &outputs[..]].concat();
+    let mut child =
+        command(folder.path(), &args).stderr(Stdio::piped()).spawn().expect("rtr starts");
+    let stderr = child.stderr.take().expect("piped");
+    let run = Running(child);
+    let Picture { film, meta, .. } = first_picture(&folder.path().join("a.exr"));
+    assert_eq!((film.samples(), meta.coarse_block), ((0, 0), Some(11)));
+    let png = std::fs::read(folder.path().join("a.png")).expect("it is there");
+    let image = image::load_from_memory(&png).expect("a PNG").to_rgb8();
+    assert_eq!((image.width(), image.height()), (1280, 720));
+    let blocks = image.pixels().zip(image.pixels().skip(1)).filter(|(a, b)| a != b).count();
+    assert!(blocks > 100 && blocks < 1280 * 720 / 8, "{blocks} edges between blocks");
+    let mut lines = BufReader::new(stderr).lines().map(|line| line.expect("text"));
+    assert!(lines.any(|line| line == "first picture: coarse, a sample for each 11x11 pixels"));
+    drop(run);
+    for (args, said) in [
+        (&["merge", "a.exr", "-o", "b.exr"][..], "its pixels have between 0 and 0 samples"),
+        (&["marbles.pack", "--reference", "a.exr"], "a.exr has pixels without samples"),
+    ] {
+        let mut rtr = Command::new(env!("CARGO_BIN_EXE_rtr"));
+        let output = rtr.current_dir(folder.path()).args(args).output().expect("rtr starts");
+        let log = text(&output.stderr);
+        assert!(!output.status.success() && log.contains(said), "{log}");
+    }
+}
+
+#[test]
+fn a_long_batch_shows_in_the_picture_tile_by_tile() {
+    let folder = folder();
+    let path = folder.path().join("a.exr");
+    let args = ["--size", "1280x720", "--spp", "10000000", "--write-every", "50ms", "-o", "a.exr"];
+    let run = start(folder.path(), &args);
+    let began = Instant::now();
+    let seen = std::iter::repeat_with(|| first_picture(&path))
+        .take_while(|_| began.elapsed() < Duration::from_mins(1))
+        .find(|picture| picture.film.samples().1 > 0)
+        .expect("tiles arrive");
+    drop(run);
+    let film = &seen.film;
+    assert_eq!((film.samples(), film.ranges.len()), ((0, 16), 0));
+    let lit = (0..film.sums.len()).filter(|i| film.mean(*i) != [0.0; 3]);
+    assert!(lit.into_iter().all(|i| film.counts[i] == 16), "only what has samples has sums");
+    assert_eq!(seen.meta.coarse_block, Some(11));
 }
 
 #[test]

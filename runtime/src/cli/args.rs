@@ -331,9 +331,9 @@ pub(super) struct RenderArgs {
     /// kept as NAME.checkpoint.1.
     #[arg(long, default_value = "60s", value_name = "TIME", value_parser = parse_every)]
     pub(super) checkpoint_every: Every,
-    /// Time between two pictures while rendering, such as 2s, or `never` [default: 5s]. The first is written after
-    /// the first 16 samples of every pixel, and one second; each replaces the one before as a whole. With this
-    /// flag streams get them too, one after the other; without it only the last one.
+    /// Time between two pictures while rendering, such as 2s, or `never` [default: 5s]. The first is coarse, one sample
+    /// for a block of pixels, and comes at once; blocks give way to pixels as these get their samples. Each replaces
+    /// the one before as a whole. With this flag streams get them too, one after the other; without it only the last.
     #[arg(long, value_name = "TIME", value_parser = parse_every)]
     pub(super) write_every: Option<Every>,
     /// Show the picture in tev, the image viewer, while it is rendered: every second, or as --write-every says

@@ -65,6 +65,11 @@ pub(super) fn prepare(args: &RenderArgs, console: &Console, job: &mut Job) -> Re
     let reference = match &error.reference {
         None => None,
         Some(path) => match output::read_exr(path) {
+            Ok(picture) if picture.film.samples().0 == 0 => {
+                let path = path.shown();
+                console.warn(&format!("error: the reference {path} has pixels without samples"));
+                return Err(Exit::World);
+            }
             Ok(picture) => Some(Arc::new(Reference::of(&picture.film))),
             Err(error) => return Err(console.fail(&error, Exit::World)),
         },

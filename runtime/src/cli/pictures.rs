@@ -63,6 +63,9 @@ impl<'a> Pictures<'a> {
         let wanted =
             |output: &&Output| if files::is_stream(&output.path) { streams } else { files };
         let outputs: Vec<_> = self.outputs.iter().filter(wanted).cloned().collect();
+        if outputs.is_empty() && self.viewer.is_none() {
+            return None;
+        }
         let (console, warned) = (self.console.clone(), AtomicBool::new(false));
         let viewer = self.viewer.clone();
         let show = move |picture: &Picture| {
@@ -125,6 +128,8 @@ fn show_in(viewer: Option<&Arc<Mutex<Viewer>>>, picture: &Picture) {
 
 /// Puts a picture of a run that goes on in the place of what is there; `residual` as for `output::encode`.
 fn replace(output: &Output, picture: &Picture, residual: bool) -> Result<(), String> {
+    // What is no part of a picture is never merged.
+    let residual = residual && picture.film.samples().0 > 0 && picture.film.is_even();
     let bytes =
         output::encode(output.format, picture, residual).map_err(|error| error.to_string())?;
     files::write(&output.path, |out| out.write_all(&bytes)).map_err(|error| error.to_string())

@@ -142,6 +142,9 @@ fn attributes_of(picture: &Picture) -> Vec<(Text, AttributeValue)> {
     if meta.adaptive {
         list.push(("adaptive", text("1")));
     }
+    if let Some(block) = meta.coarse_block {
+        list.push(("coarse_block", number(u64::from(block))));
+    }
     // Only where it is on: a picture without it is what it always was.
     if meta.clamp_indirect.is_some() {
         list.push(("clamp_indirect", text(&clamp_text(meta.clamp_indirect))));
@@ -216,6 +219,7 @@ fn parse(image: &ReadImage, fields: &Fields<'_>) -> Result<Parsed, String> {
         exposure: round(fields.float("exposure_stops")?),
         tone_map: fields.number("tone_map")?,
         complete: fields.number::<u32>("complete")? == 1,
+        coarse_block: fields.number("coarse_block").ok(),
     };
     let ranges =
         parse_ranges(&fields.text("sample_ranges")?).ok_or("`sample_ranges` is malformed")?;

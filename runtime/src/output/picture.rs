@@ -71,6 +71,9 @@ pub struct Meta {
     pub tone_map: u32,
     /// False when the run ended before all requested samples, or a tile failed.
     pub complete: bool,
+    /// Side in pixels of the blocks that share a sample where pixels have none of their own: in the first pictures of
+    /// a run, which are there to be looked at.
+    pub coarse_block: Option<u32>,
 }
 
 /// A picture that cannot be read or written.

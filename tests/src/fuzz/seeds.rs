@@ -226,6 +226,7 @@ fn parts() -> Made {
         exposure: -0.5,
         tone_map: 1,
         complete: true,
+        coarse_block: None,
     };
     let of = |film: Film| Picture::new(film, meta.clone());
     let crop = Rect { x: 1, y: 2, w: 5, h: 3 };
