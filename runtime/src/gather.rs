@@ -114,7 +114,7 @@ impl<'a> Gatherer<'a> {
             replicates: film.replicates(),
             opaque: scene.pack().sky().is_some() && !job.wanted.transparent,
             space: (1.0 / settings.scale(), settings.center()),
-            camera: *scene.pack().camera(),
+            camera: job.camera.unwrap_or(*scene.pack().camera()),
             things,
             materials,
             mattes,

@@ -5,7 +5,9 @@
 
 mod camera;
 mod client;
-mod http;
+mod curve;
+pub mod http;
+mod plane;
 mod renderer;
 mod server;
 mod session;

@@ -136,7 +136,9 @@ fn a_coarse_picture_comes_first_and_is_no_part_of_one() {
 fn a_long_batch_shows_in_the_picture_tile_by_tile() {
     let folder = folder();
     let path = folder.path().join("a.exr");
-    let args = ["--size", "1280x720", "--spp", "10000000", "--write-every", "50ms", "-o", "a.exr"];
+    // Slow, so that a batch takes many times as long as writing a picture.
+    let slow = ["--precision", "f64", "--threads", "1", "--size", "1280x720", "--spp", "10000000"];
+    let args = [&slow[..], &["--write-every", "50ms", "-o", "a.exr"]].concat();
     let run = start(folder.path(), &args);
     let began = Instant::now();
     let seen = std::iter::repeat_with(|| first_picture(&path))

@@ -7,6 +7,7 @@
 
 pub mod corpus;
 mod entry;
+mod http;
 mod image;
 mod mesh;
 mod mutate;
@@ -128,6 +129,14 @@ pub const TARGETS: &[Target] = &[
         repair: picture::repair_checkpoint,
         words: picture::CHECKPOINT_WORDS,
         tries: 3000,
+    },
+    Target {
+        name: "http",
+        reads: "requests to `rtr view`",
+        check: http::check,
+        repair: keep,
+        words: http::WORDS,
+        tries: 20_000,
     },
     Target {
         name: "entry",

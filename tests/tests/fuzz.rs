@@ -88,6 +88,7 @@ targets! {
     exr: "exr";
     merge: "merge";
     checkpoint: "checkpoint";
+    http: "http";
     entry: "entry";
     pack: "pack";
     pack_table: "pack-table";

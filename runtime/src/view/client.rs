@@ -1,10 +1,11 @@
-//! A request → what the session answers, or one of the page's three files; for those that know the token only.
+//! A request → what the session answers, or one of the page's files; for those that know the token only.
 
 use super::camera::View;
 use super::http::{
-    BAD, FORBIDDEN, NO_CONTENT, NOT_ALLOWED, NOT_FOUND, OK, Request, Status, begin_events, event,
-    respond,
+    BAD, CONFLICT, FORBIDDEN, NO_CONTENT, NOT_ALLOWED, NOT_FOUND, OK, Request, Status,
+    begin_events, event, respond,
 };
+use super::plane::{Absent, Kind};
 use super::session::Session;
 use std::io::{self, Write};
 use std::net::IpAddr;
@@ -12,6 +13,8 @@ use std::time::Duration;
 
 const PAGE: &str = include_str!("page/view.html");
 const SCRIPT: &str = include_str!("page/view.js");
+const LAYERS: &str = include_str!("page/layers.js");
+const PLOT: &str = include_str!("page/plot.js");
 const STYLE: &str = include_str!("page/view.css");
 
 /// Between two events: as fast as the eye.
@@ -19,8 +22,24 @@ const PACE: Duration = Duration::from_millis(30);
 /// After this time without news a listener is asked whether it is still there.
 const PATIENCE: Duration = Duration::from_secs(5);
 
+const JAVASCRIPT: &str = "text/javascript; charset=utf-8";
 const JSON: &str = "application/json";
 const TEXT: &str = "text/plain; charset=utf-8";
+
+/// Everything that can be asked for.
+const ROUTES: [&str; 11] = [
+    "",
+    "view.js",
+    "layers.js",
+    "plot.js",
+    "view.css",
+    "events",
+    "film",
+    "layer",
+    "pick",
+    "camera",
+    "stop",
+];
 
 /// Who may ask.
 pub(super) struct Door {
@@ -45,12 +64,13 @@ pub(super) fn answer(
     };
     match (request.method.as_str(), route) {
         ("GET", "") => respond(stream, OK, "text/html; charset=utf-8", PAGE.as_bytes()),
-        ("GET", "view.js") => {
-            respond(stream, OK, "text/javascript; charset=utf-8", SCRIPT.as_bytes())
-        }
+        ("GET", "view.js") => respond(stream, OK, JAVASCRIPT, SCRIPT.as_bytes()),
+        ("GET", "layers.js") => respond(stream, OK, JAVASCRIPT, LAYERS.as_bytes()),
+        ("GET", "plot.js") => respond(stream, OK, JAVASCRIPT, PLOT.as_bytes()),
         ("GET", "view.css") => respond(stream, OK, "text/css; charset=utf-8", STYLE.as_bytes()),
         ("GET", "events") => events(session, stream),
         ("GET", "film") => film(session, stream),
+        ("GET", "layer") => layer(session, request, stream),
         ("GET", "pick") => pick(session, request, stream),
         ("POST", "camera") => {
             let view = serde_json::from_slice::<Option<View>>(&request.body);
@@ -67,9 +87,7 @@ pub(super) fn answer(
             }
             Err(_) => respond(stream, BAD, TEXT, b"write true or false\n"),
         },
-        (_, "" | "view.js" | "view.css" | "events" | "film" | "pick" | "camera" | "stop") => {
-            respond(stream, NOT_ALLOWED, TEXT, b"")
-        }
+        (_, route) if ROUTES.contains(&route) => respond(stream, NOT_ALLOWED, TEXT, b""),
         _ => respond(stream, NOT_FOUND, TEXT, b"there is no such thing\n"),
     }
 }
@@ -113,6 +131,19 @@ fn film(session: &Session, stream: &mut impl Write) -> io::Result<()> {
     body.extend(head.into_iter().flat_map(u32::to_le_bytes));
     body.extend(&shot.bytes);
     respond(stream, OK, "application/octet-stream", &body)
+}
+
+/// A layer, or the error of every pixel; see `Plane::bytes`.
+fn layer(session: &Session, request: &Request, stream: &mut impl Write) -> io::Result<()> {
+    let Some(kind) = request.word("name").and_then(Kind::of_name) else {
+        return respond(stream, BAD, TEXT, b"write it as name=depth\n");
+    };
+    match session.plane(kind) {
+        Ok(plane) => respond(stream, OK, "application/octet-stream", &plane.bytes()),
+        Err(Absent::Not(why)) => respond(stream, NOT_FOUND, TEXT, format!("{why}\n").as_bytes()),
+        Err(Absent::Stale) => respond(stream, CONFLICT, TEXT, b"something else is wanted\n"),
+        Err(Absent::Failed(why)) => respond(stream, BAD, TEXT, format!("{why}\n").as_bytes()),
+    }
 }
 
 fn pick(session: &Session, request: &Request, stream: &mut impl Write) -> io::Result<()> {

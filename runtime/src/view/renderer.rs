@@ -108,6 +108,7 @@ fn whole(session: &Session, task: &Task) -> Result<(), String> {
             done: left == 0,
             error,
             rays_per_second: rays as f64 / spent.as_secs_f64().max(1e-9),
+            seconds: spent.as_secs_f64(),
             seconds_left: Some((sample * left).as_secs_f64()),
         };
         session.publish(task, size, &sums, progress);

@@ -4,6 +4,8 @@
 //! A change of scene or camera begins another epoch: what was rendered before it is broken off and counts no more.
 
 use super::camera::View;
+use super::curve::{self, Point};
+use super::plane::{self, Absent, Kind, Plane};
 use super::state::{Progress, Shot, Shown, State};
 use super::sums::Sums;
 use crate::control::Control;
@@ -33,6 +35,8 @@ pub struct Session {
     options: Options,
     state: Mutex<State>,
     changed: Condvar,
+    /// Held while a layer is made: one at a time.
+    making: Mutex<()>,
 }
 
 /// A picture that is wanted.
@@ -48,7 +52,7 @@ impl Session {
     /// A session without a scene.
     #[must_use]
     pub fn new(options: Options) -> Self {
-        Self { options, state: Mutex::default(), changed: Condvar::new() }
+        Self { options, state: Mutex::default(), changed: Condvar::new(), making: Mutex::new(()) }
     }
 
     /// Shows this scene from now on, from where the last one was looked at. `name` is that of its file.
@@ -105,9 +109,7 @@ impl Session {
     pub fn close(&self) {
         let mut state = self.lock();
         state.is_over = true;
-        if let Some(run) = &state.running {
-            run.cancel();
-        }
+        state.running.iter().chain(&state.making).for_each(|run| run.cancel());
         self.tell(&mut state);
     }
 
@@ -137,6 +139,31 @@ impl Session {
         Some(pick(&task.scene, &task.job, pixel))
     }
 
+    /// What the camera sees beside light. One layer is made at a time: who asks for another one breaks it off, and so
+    /// does whoever changes scene or camera.
+    pub(super) fn plane(&self, kind: Kind) -> Result<Arc<Plane>, Absent> {
+        const NO_SCENE: Absent = Absent::Not("there is no scene yet");
+        const NO_ERROR: Absent =
+            Absent::Not("the error of a pixel needs a sample in each of the picture's four parts");
+        let mut state = self.lock();
+        let layer = match kind {
+            Kind::Error => return state.errors.clone().ok_or(NO_ERROR),
+            Kind::Layer(layer) => layer,
+        };
+        let task = self.task(&state).ok_or(NO_SCENE)?;
+        let control = Arc::new(Control::default());
+        if let Some(other) = state.making.replace(Arc::clone(&control)) {
+            other.cancel();
+        }
+        drop(state);
+        let _one = self.making.lock().unwrap_or_else(PoisonError::into_inner);
+        if control.is_cancelled() {
+            return Err(Absent::Stale);
+        }
+        let wanted = (layer, task.epoch);
+        plane::make(&task.scene, &task.job, wanted, control.signals()).map(Arc::new)
+    }
+
     fn task(&self, state: &State) -> Option<Task> {
         let shown = state.scene.as_ref()?;
         let mut job = Job::of_scene(&shown.scene);
@@ -156,9 +183,9 @@ impl Session {
     fn begin_epoch(&self, state: &mut State) {
         state.epoch += 1;
         state.progress = Progress::default();
-        if let Some(run) = &state.running {
-            run.cancel();
-        }
+        state.errors = None;
+        state.curve.clear();
+        state.running.iter().chain(&state.making).for_each(|run| run.cancel());
         self.tell(state);
     }
 
@@ -205,11 +232,20 @@ impl Session {
     /// Shows what there is of this epoch; of an earlier one only where a picture is better than none.
     pub(super) fn publish(&self, task: &Task, size: [u32; 2], sums: &Sums, progress: Progress) {
         let (samples, bytes) = (sums.samples(), sums.bytes());
+        let (channels, epoch) = (1, task.epoch);
+        let errors =
+            sums.errors().map(|values| Arc::new(Plane { size, channels, epoch, samples, values }));
         self.change(|state| {
             let id = state.shot.as_ref().map_or(0, |shot| shot.id) + 1;
             state.shot = Some(Arc::new(Shot { id, size, samples, bytes }));
-            if state.epoch == task.epoch {
-                state.progress = progress;
+            if state.epoch != task.epoch {
+                return;
+            }
+            state.progress = progress;
+            if let Some((errors, error)) = errors.zip(progress.error) {
+                state.errors = Some(errors);
+                let seconds = progress.seconds;
+                curve::add(&mut state.curve, Point { samples, seconds, error });
             }
         });
     }

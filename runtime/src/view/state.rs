@@ -1,6 +1,8 @@
 //! What a session knows, and how the page is told.
 
 use super::camera::View;
+use super::curve::Point;
+use super::plane::Plane;
 use crate::control::Control;
 use crate::scene::Scene;
 use serde::Serialize;
@@ -20,6 +22,12 @@ pub(super) struct State {
     pub(super) running: Option<Arc<Control>>,
     pub(super) shot: Option<Arc<Shot>>,
     pub(super) progress: Progress,
+    /// Relative error of every pixel of this epoch, once it is known.
+    pub(super) errors: Option<Arc<Plane>>,
+    /// Errors of this epoch.
+    pub(super) curve: Vec<Point>,
+    /// The layer that is being made.
+    pub(super) making: Option<Arc<Control>>,
     /// Counts changes of anything that the page is told.
     pub(super) revision: u64,
     /// What is wrong: with the text of the scene, with the pack, with the run.
@@ -59,6 +67,8 @@ pub(super) struct Progress {
     /// Relative error of the picture.
     pub(super) error: Option<f64>,
     pub(super) rays_per_second: f64,
+    /// Of rendering.
+    pub(super) seconds: f64,
     pub(super) seconds_left: Option<f64>,
 }
 
@@ -66,6 +76,7 @@ pub(super) struct Progress {
 #[derive(Serialize)]
 struct Told<'a> {
     revision: u64,
+    epoch: u64,
     scene: Option<&'a str>,
     size: Option<[u32; 2]>,
     spp: u32,
@@ -74,6 +85,9 @@ struct Told<'a> {
     shot: Option<ToldShot>,
     #[serde(flatten)]
     progress: Progress,
+    /// Samples of the picture whose error is known pixel by pixel.
+    error_samples: Option<u32>,
+    curve: &'a [Point],
     /// The camera that the picture is seen with, and that of the pack.
     view: Option<&'a View>,
     own_view: Option<View>,
@@ -101,6 +115,7 @@ impl State {
         let name = self.scene.as_ref().map(|shown| shown.camera.as_str());
         let told = Told {
             revision: self.revision,
+            epoch: self.epoch,
             scene: self.scene.as_ref().map(|shown| shown.name.as_str()),
             size: self.scene.as_ref().map(|shown| shown.size),
             spp: self.scene.as_ref().map_or(0, |shown| shown.spp),
@@ -110,6 +125,8 @@ impl State {
                 ToldShot { id, size, samples }
             }),
             progress: self.progress,
+            error_samples: self.errors.as_ref().map(|errors| errors.samples),
+            curve: &self.curve,
             view,
             own_view: own.clone(),
             text: view.zip(name).map(|(view, name)| view.text(name)),

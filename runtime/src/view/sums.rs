@@ -3,6 +3,7 @@
 //! Four replicates take turns, as when the error of a picture is measured, so that their spread tells the error of
 //! their mean. It renders nothing.
 
+use super::plane::single;
 use crate::film::Film;
 use crate::region::{Rect, SampleRange};
 use crate::replicate::{REPLICATES, luminance, moments};
@@ -71,9 +72,24 @@ impl Sums {
         bytes
     }
 
+    /// The relative standard error of every pixel, whose root mean square is `error`; `None` where that is.
+    pub(super) fn errors(&self) -> Option<Vec<f32>> {
+        let (scale, floor) = self.scale_and_floor()?;
+        let of_pixel = |sums| single(relative_variance(sums, scale, floor).sqrt());
+        Some(self.lumas.iter().map(of_pixel).collect())
+    }
+
     /// The relative error, as `rel` of a measured run but that a pixel is judged by its own mean; none before every
     /// replicate has a sample, and none of a black picture.
     pub(super) fn error(&self) -> Option<f64> {
+        let (scale, floor) = self.scale_and_floor()?;
+        let of_pixel = |sums| relative_variance(sums, scale, floor);
+        let n = self.lumas.len().max(1) as f64;
+        Some((self.lumas.iter().map(of_pixel).sum::<f64>() / n).sqrt())
+    }
+
+    /// What makes means of sums, and what is added to squares of means, so that dark pixels do not count for all.
+    fn scale_and_floor(&self) -> Option<(f64, f64)> {
         if !self.is_round() || self.counts[0] == 0 {
             return None;
         }
@@ -81,12 +97,13 @@ impl Sums {
         let n = self.lumas.len().max(1) as f64;
         let mean = self.lumas.iter().map(|sums| moments(sums, scale).0).sum::<f64>() / n;
         let floor = 1e-4 * mean * mean;
-        let of_pixel = |sums: &[f64; REPLICATES]| {
-            let (mean, variance) = moments(sums, scale);
-            variance / (mean * mean + floor)
-        };
-        (floor > 0.0).then(|| (self.lumas.iter().map(of_pixel).sum::<f64>() / n).sqrt())
+        (floor > 0.0).then_some((scale, floor))
     }
+}
+
+fn relative_variance(sums: &[f64; REPLICATES], scale: f64, floor: f64) -> f64 {
+    let (mean, variance) = moments(sums, scale);
+    variance / (mean * mean + floor)
 }
 
 #[cfg(test)]
@@ -125,6 +142,7 @@ mod tests {
         // Deviations of 1 from a mean of 2: a variance of 4 / (4 * 3).
         let expected = (1.0 / 3.0 / (4.0 + 4e-4_f64)).sqrt();
         assert!(sums.error().is_some_and(|error| (error - expected).abs() < 1e-12));
+        assert_eq!(sums.errors(), Some(vec![single(expected); 2]));
         let two = f16::from_f64(2.0).to_le_bytes();
         assert_eq!(sums.bytes(), [two; 6].concat());
     }

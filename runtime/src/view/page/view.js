@@ -47,7 +47,7 @@ function fillTable() {
 }
 
 function draw() {
-  if (!film) return;
+  if (!film || drawLayer()) return;
   const { width, height, half } = film;
   if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
   const image = context.createImageData(width, height);
@@ -162,6 +162,7 @@ function hear(news) {
   if (other) fit();
   show();
   fetchFilm();
+  fetchLayer();
 }
 
 // ---- What the state looks like
@@ -178,6 +179,7 @@ function show() {
   $("left").textContent = state.phase === "rendering" ? time(state.seconds_left) : "–";
   $("stop").textContent = state.phase === "stopped" ? "Go on" : "Stop";
   $("stop").disabled = state.phase === "done" || state.phase === "loading";
+  drawPlot(state.curve);
   $("message").hidden = !state.message;
   $("text").textContent = state.message || "";
   $("message").firstElementChild.textContent = state.shot ? "Something is wrong; this is the last good picture" : "Something is wrong";
@@ -261,8 +263,14 @@ async function pick(pixel) {
         ["side", s.front ? "front" : "back"],
       ]
     : [["", "the sky"]];
-  rows($("pick"), [["pixel", pixel.join(", ")], ...facts]);
+  picked = facts;
+  showPick();
   return s;
+}
+
+let picked = [];
+function showPick() {
+  if (marked) rows($("pick"), [["pixel", marked.join(", ")], ...layerAt(marked), ...picked]);
 }
 
 async function click(pixel) {
@@ -379,7 +387,8 @@ function save() {
     const link = document.createElement("a");
     link.href = URL.createObjectURL(blob);
     const name = ((state && state.scene) || "view").replace(/^.*[\\/]/, "").replace(/\.pack$/, "");
-    link.download = `${name}-${film ? film.samples : 0}spp.png`;
+    const what = isLayerShown() ? layer.name : `${film ? film.samples : 0}spp`;
+    link.download = `${name}-${what}.png`;
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
   });
@@ -433,6 +442,7 @@ const KEYS = {
   0: fit, 1: () => zoomBy(1 / place.zoom),
   "[": () => setLook({ exposure: look.exposure - 0.25 }), "]": () => setLook({ exposure: look.exposure + 0.25 }),
   t: () => setLook({ curve: (look.curve + 1) % 3 }),
+  l: (e) => nextLayer(e.shiftKey ? -1 : 1),
   f: () => setFocusing(!focusing), c: copyCamera, r: home, p: save, " ": stop,
   Escape: () => setFocusing(false),
 };
@@ -446,12 +456,13 @@ document.addEventListener("keydown", (event) => {
 
 $("exposure").addEventListener("input", () => setLook({ exposure: Number($("exposure").value) }));
 $("curve").addEventListener("change", () => setLook({ curve: Number($("curve").value) }));
+$("layer").addEventListener("change", () => setLayer($("layer").value));
 $("as-scene").addEventListener("click", () => {
   look.own = true;
   if (state) Object.assign(look, { exposure: state.exposure, curve: state.tone_map });
   showLook();
 });
-for (const [id, act] of [["fit", fit], ["whole", KEYS[1]], ["focus", KEYS.f], ["copy", copyCamera], ["home", home], ["save", save], ["stop", stop]]) {
+for (const [id, act] of [["fit", fit], ["whole", KEYS[1]], ["focus", KEYS.f], ["copy", copyCamera], ["home", home], ["save", save], ["stop", stop], ["over-samples", () => plotOver("samples")], ["over-time", () => plotOver("seconds")]]) {
   $(id).addEventListener("click", () => act());
 }
 new ResizeObserver(() => place.fitted && fit()).observe(stage);
