@@ -125,12 +125,8 @@ impl Previewer {
             return;
         };
         state.end = end;
-<<<<<<< HEAD
-        state.task = Task::Show(Box::new(Picture::new(film, meta())));
-=======
         let meta = Meta { coarse_block: coarse.map(|coarse| coarse.block), ..meta() };
-        state.task = Task::Show(Box::new(Picture { film, meta, layers: None }));
->>>>>>> fd78c58 (Show a coarse picture at once, and what has arrived every few seconds)
+        state.task = Task::Show(Box::new(Picture::new(film, meta)));
         drop(state);
         self.wake.notify_all();
     }
@@ -179,7 +175,7 @@ impl Previewer {
         let mut state = self.lock();
         let is_wanted = matches!(state.task, Task::Nothing) && state.whole.0 == 0;
         if is_wanted && let Ok(film) = coarse.film.try_clone() {
-            state.task = Task::Show(Box::new(Picture { film, meta, layers: None }));
+            state.task = Task::Show(Box::new(Picture::new(film, meta)));
             state.coarse = Some(Arc::new(coarse));
         }
     }
