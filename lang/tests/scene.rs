@@ -152,6 +152,18 @@ fn a_rotation_turns_about_x_then_y_then_z() {
 }
 
 #[test]
+fn axes_are_the_columns_of_the_matrix() {
+    let scene = scene_of_text(&with_view(
+        "material clay: diffuse { color = linear(0.5) }\n\
+         instance block { shape = box(size: (1, 1, 1)m), material = clay, at = (7, 8, 9)m, \
+         axes.x = (0, 0, -2), axes.y = (0, 1, 0), axes.z = (1, 0, 0) }",
+    ));
+    let block = scene.instances.iter().find(|i| i.name.text == "block").expect("it is there");
+    let expected = [[0.0, 0.0, 1.0, 7.0], [0.0, 1.0, 0.0, 8.0], [-2.0, 0.0, 0.0, 9.0]];
+    assert_eq!(block.world_from_object, expected);
+}
+
+#[test]
 fn objects_come_after_what_they_hold() {
     let scene = scene_of_text(&with_view(
         "material m: diffuse { color = linear(0.5) }\n\

@@ -2,6 +2,7 @@
 //!
 //! It knows sizes of emitters only as factors: watts, and watts per steradian, for each unit of radiance.
 
+use super::exclusive::one_of;
 use super::fields::Fields;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
@@ -25,25 +26,10 @@ pub(super) struct Emitter {
     pub(super) intensity: f64,
 }
 
-/// Reports a light that says its brightness or its colour twice; `false` if it does.
-pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) -> bool {
-    let written: Vec<&str> = FIELDS.into_iter().filter(|name| fields.has(name)).collect();
-    let twice = match written[..] {
-        [first, second, ..] => Some((first, second, "how bright the light is")),
-        _ if fields.has("color") && fields.has("temperature") => {
-            Some(("color", "temperature", "the colour of the light"))
-        }
-        _ => None,
-    };
-    let Some((first, second, what)) = twice else { return true };
-    if let (Some(a), Some(b)) = (fields.span(first), fields.span(second)) {
-        let text = format!("`{first}` and `{second}` both set {what}");
-        let error = Diagnostic::error(Code("E0703"), text)
-            .at(b, "keep one of them")
-            .because(a, "this says it, too");
-        ev.fault(error);
-    }
-    false
+/// Reports a light that says its brightness or its colour twice.
+pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
+    one_of(ev, fields, &FIELDS, "how bright the light is");
+    one_of(ev, fields, &["color", "temperature"], "the colour of the light");
 }
 
 /// The radiance of a light, W/(m2 sr) up to the scale of the scene. `None` only for fields with faults.

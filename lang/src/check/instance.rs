@@ -130,6 +130,7 @@ impl World {
                 return;
             }
         };
+        transform::check(ev, fields);
         let Some(pose) = transform::pose(fields) else { return };
         let over = object::material(fields);
         let place = Place { key, name_span, over };

@@ -1,6 +1,7 @@
 //! `light` fields become radiance and a place.
 
 use super::brightness::{self, Emitter};
+use super::exclusive::one_of;
 use super::fields::Fields;
 use super::transform::{self, Pose};
 use crate::diagnostic::{Code, Diagnostic};
@@ -29,28 +30,12 @@ pub(super) struct Panel {
 
 /// Checks how the fields of a light go together.
 pub(super) fn check_light(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
-    if !brightness::check(ev, fields) {
-        return;
-    }
+    brightness::check(ev, fields);
     match LightType::of(fields.schema) {
         LightType::Sphere => check_sphere(ev, id, fields),
         LightType::Point => check_point(ev, id, fields),
         LightType::Rectangle => check_panel(ev, fields),
     }
-}
-
-/// Reports two fields that say the same.
-fn one_of(ev: &mut Evaluator<'_>, fields: &Fields, (a, b): (&str, &str), what: &str) -> bool {
-    let (true, Some(first), Some(second)) =
-        (fields.has(a) && fields.has(b), fields.span(a), fields.span(b))
-    else {
-        return true;
-    };
-    let error = Diagnostic::error(Code("E0703"), format!("`{a}` and `{b}` both set {what}"))
-        .at(second, "keep one of them")
-        .because(first, "this says it, too");
-    ev.fault(error);
-    false
 }
 
 fn check_point(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
@@ -64,9 +49,7 @@ fn check_point(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
 }
 
 fn check_panel(ev: &mut Evaluator<'_>, fields: &Fields) {
-    if !one_of(ev, fields, ("to", "direction"), "which way the light faces") {
-        return;
-    }
+    one_of(ev, fields, &["to", "direction"], "which way the light faces");
     check_direction(ev, fields, "direction");
     if let (Some(at), Some(to), Some(span)) =
         (fields.vector::<3>("at"), fields.vector::<3>("to"), fields.value_span("to"))
@@ -79,11 +62,11 @@ fn check_panel(ev: &mut Evaluator<'_>, fields: &Fields) {
 
 fn check_sphere(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
     for (pair, what) in [
-        (("center", "direction"), "where the light is"),
-        (("center", "distance"), "where the light is"),
-        (("radius", "angular_radius"), "how large the light is"),
+        (["center", "direction"], "where the light is"),
+        (["center", "distance"], "where the light is"),
+        (["radius", "angular_radius"], "how large the light is"),
     ] {
-        if !one_of(ev, fields, pair, what) {
+        if !one_of(ev, fields, &pair, what) {
             return;
         }
     }

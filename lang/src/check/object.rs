@@ -46,6 +46,9 @@ impl Objects {
         for &id in ids {
             let known = !refuse_index(ev, Kind::Object, id);
             let fields = if known { ev.fields_of(id) } else { None };
+            if let Some(fields) = &fields {
+                transform::check(ev, fields);
+            }
             let thing = fields.filter(|fields| fields.ok).and_then(|fields| thing(id, &fields));
             self.0.insert(id, thing.map(Rc::new));
         }

@@ -1,6 +1,11 @@
-//! `at`, `rotate` and `scale` become one 3x4 matrix, `velocity` goes along with it.
+//! `at`, `rotate` and `scale`, or `at` and `axes`, become one 3x4 matrix; `velocity` goes along with it.
 
+use super::exclusive::one_of;
 use super::fields::Fields;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::eval::Evaluator;
+
+const AXES: [&str; 3] = ["axes.x", "axes.y", "axes.z"];
 
 /// Rows of a 3x4 matrix, target from source.
 pub(super) type Matrix = [[f64; 4]; 3];
@@ -18,9 +23,30 @@ pub(super) fn pose(fields: &Fields) -> Option<Pose> {
     Some(Pose { matrix: matrix(fields)?, velocity: fields.vector("velocity")? })
 }
 
+/// Reports axes that are not all there, or beside what they stand for.
+pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
+    let written = |name: &&str| fields.has(name);
+    let Some(first) = AXES.into_iter().find(|name| written(name)) else { return };
+    one_of(ev, fields, &["rotate", first], "how it is turned");
+    one_of(ev, fields, &["scale", first], "how large it is");
+    if let Some(missing) = AXES.into_iter().find(|name| fields.span(name).is_none())
+        && let Some(span) = fields.span(first)
+    {
+        let error = Diagnostic::error(Code("E0207"), format!("`{missing}` is missing"));
+        ev.fault(
+            error.at(span, "one of three axes").with_help("write all three axes, or `rotate`"),
+        );
+    }
+}
+
 /// Scale, then rotate about x, y and z, then translate.
 fn matrix(fields: &Fields) -> Option<Matrix> {
     let at = fields.vector::<3>("at")?;
+    if fields.has(AXES[0]) {
+        let [x, y, z] = AXES.map(|name| fields.vector::<3>(name));
+        let (x, y, z) = (x?, y?, z?);
+        return Some([0, 1, 2].map(|row| [x[row], y[row], z[row], at[row]]));
+    }
     let [x, y, z] = fields.vector::<3>("rotate")?;
     let scale = fields.vector::<3>("scale")?;
     let ((sx, cx), (sy, cy), (sz, cz)) = (sin_cos(x), sin_cos(y), sin_cos(z));

@@ -36,6 +36,21 @@ const SCALE: Field = Field::new(
 )
 .foreign(&[("size", "common use")]);
 
+/// In place of `rotate` and `scale`.
+const AXIS_ABSENT: Default = Default::Absent("`rotate` and `scale` decide");
+const AXIS_X: Field = Field::new(
+    "axes.x",
+    FieldType::Vector(Dim::NONE, ""),
+    AXIS_ABSENT,
+    "Where its x axis points, in place of `rotate` and `scale`; a longer one stretches it. All three are written or \
+     none: they are the columns of a matrix, and `at` is the fourth.",
+)
+.foreign(&[("matrix", "glTF and Mitsuba"), ("Transform", "pbrt"), ("to_world", "Mitsuba")]);
+const AXIS_Y: Field =
+    Field::new("axes.y", FieldType::Vector(Dim::NONE, ""), AXIS_ABSENT, "Where its y axis points.");
+const AXIS_Z: Field =
+    Field::new("axes.z", FieldType::Vector(Dim::NONE, ""), AXIS_ABSENT, "Where its z axis points.");
+
 /// Of instances and lights.
 pub(super) const VELOCITY: Field = Field::new(
     "velocity",
@@ -80,6 +95,9 @@ const OBJECT: TypeSchema = TypeSchema {
         AT,
         ROTATE,
         SCALE,
+        AXIS_X,
+        AXIS_Y,
+        AXIS_Z,
         VELOCITY,
     ],
     foreign: &[],
@@ -108,6 +126,9 @@ const INSTANCE: TypeSchema = TypeSchema {
         AT,
         ROTATE,
         SCALE,
+        AXIS_X,
+        AXIS_Y,
+        AXIS_Z,
         VELOCITY,
     ],
     foreign: &[],
