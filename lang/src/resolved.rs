@@ -11,7 +11,7 @@ pub(crate) use written::{Declared, length, number, vector};
 use std::fmt::{self, Write as _};
 
 use crate::material::Shown;
-use crate::scene::{AssetFormat, Axis, Camera, Instance, Scene, Shape, Wrap};
+use crate::scene::{AssetFormat, Axis, Camera, Instance, Light, Scene, Shape, Wrap};
 use crate::schema::color_text;
 use crate::units::{self, Dim};
 
@@ -57,21 +57,8 @@ fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
         block(out, &format!("instance {}", instance.name.text), &fields)?;
     }
     for light in &scene.lights {
-        let mut fields = vec![
-            ("center", vector(light.center, "m")),
-            ("radius", length(light.radius)),
-            ("color", color_text(light.radiance)),
-            ("strength", "1".to_owned()),
-        ];
-        if let Some(tint) = &light.tint {
-            fields.push(("tint.color", color_text(tint.color)));
-            fields.push(("tint.angle", units::show(tint.angle, Dim::ANGLE)));
-            fields.push(("tint.direction", vector(tint.direction, "")));
-        }
-        if light.velocity.iter().any(|c| c.abs() > 0.0) {
-            fields.push(("velocity", vector(light.velocity, "m/s")));
-        }
-        block(out, &format!("light {}: sphere", light.name.text), &fields)?;
+        let (kind, fields) = light_fields(light);
+        block(out, &format!("light {}: {kind}", light.name.text), &fields)?;
     }
     for medium in &scene.media {
         let (kind, fields) = medium.shown();
@@ -82,6 +69,35 @@ fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
         block(out, &format!("sky {}: {kind}", sky.name.text), &fields)?;
     }
     write_view(out, scene)
+}
+
+/// The type of a light and its fields.
+fn light_fields(light: &Light) -> (&'static str, Vec<(&'static str, String)>) {
+    let mut fields = vec![("radius", length(light.radius)), ("color", color_text(light.radiance))];
+    let kind = if let Some(beam) = &light.beam {
+        let (outer, inner) = (libm::acos(beam.outer), libm::acos(beam.inner));
+        // Of a lamp of radiance 1.
+        let intensity = std::f64::consts::PI * light.radius * light.radius;
+        fields.insert(0, ("at", vector(light.center, "m")));
+        fields.push(("intensity", format!("{}W/sr", number(intensity))));
+        fields.push(("direction", vector(beam.direction, "")));
+        fields.push(("cone", units::show(outer, Dim::ANGLE)));
+        fields.push(("edge", units::show(outer - inner, Dim::ANGLE)));
+        "spot"
+    } else {
+        fields.insert(0, ("center", vector(light.center, "m")));
+        fields.push(("strength", "1".to_owned()));
+        "sphere"
+    };
+    if let Some(tint) = &light.tint {
+        fields.push(("tint.color", color_text(tint.color)));
+        fields.push(("tint.angle", units::show(tint.angle, Dim::ANGLE)));
+        fields.push(("tint.direction", vector(tint.direction, "")));
+    }
+    if light.velocity.iter().any(|c| c.abs() > 0.0) {
+        fields.push(("velocity", vector(light.velocity, "m/s")));
+    }
+    (kind, fields)
 }
 
 /// A declaration with its fields, one on each line.

@@ -17,7 +17,7 @@ mod view;
 pub use common::{Name, Rgb};
 pub use file::{Asset, AssetFormat, Axis, ColorSpace, Texture, Wrap};
 pub use instance::Instance;
-pub use light::{Light, Tint};
+pub use light::{Beam, Light, Tint};
 pub use view::{Camera, Film, Fit, Layer, Render, Sampler, Side, ToneMap};
 
 pub use crate::material::{

@@ -145,9 +145,14 @@ fn skies_and_lens() -> Vec<(u64, FeatureSet)> {
     members
 }
 
-/// Tinted lights.
+/// Lights that depend on direction: tinted ones, and spots.
 fn tints() -> Family {
-    alone(bit::TINT, |tint| FeatureSet { tint, ..FeatureSet::full() })
+    let member = |(tint, spot)| {
+        let bits = if tint { bit::TINT } else { 0 } | if spot { bit::SPOT } else { 0 };
+        (bits, FeatureSet { tint, spot, ..FeatureSet::full() })
+    };
+    let members = [(false, false), (true, false), (false, true), (true, true)];
+    Family { mask: bit::TINT | bit::SPOT, members: members.map(member).into() }
 }
 
 /// Several lights, and the tree of lights.

@@ -31,6 +31,8 @@ pub struct FeatureSet {
     pub light_tree: bool,
     /// Some light is tinted by direction.
     pub tint: bool,
+    /// Some light shines into a cone.
+    pub spot: bool,
     /// Kinds of sky; none is black. A scene has at most one, the full kernel knows all.
     pub skies: BTreeSet<SkyKind>,
     /// The camera has a lens of radius > 0.
@@ -130,6 +132,7 @@ impl FeatureSet {
             light_choice: false,
             light_tree: false,
             tint: false,
+            spot: false,
             skies: BTreeSet::new(),
             lens: false,
             samplers: [SamplerKind::Sobol].into(),
@@ -166,6 +169,7 @@ impl FeatureSet {
             light_choice: true,
             light_tree: true,
             tint: true,
+            spot: true,
             skies: SkyKind::ALL.into(),
             lens: true,
             samplers: SamplerKind::ALL.into(),

@@ -121,6 +121,8 @@ pub const CASES: &[Case] = &[
     case("a picture as the sky, turned", &[POSTCARD, CLAY, BALL, FLOOR]),
     case("gradient sky without a sun", &[BANDS, PLASTIC, BALL, FLOOR]),
     case("tinted light", &[TINTED, SKY, PLASTIC, BALL, FLOOR]),
+    case("spot light", &[SPOT, PLASTIC, BALL, FLOOR]),
+    case("spot light and other lights", &[SPOT, TINTED, LAMP, PANEL, SKY, FUZZY, BALL, FLOOR]),
     case("tree of lights", &[LAMP, MANY_LAMPS, PLASTIC, BALL, FLOOR]),
     case(
         "tree of lights of every kind and the sky",
@@ -265,6 +267,7 @@ const TINTED: &str = "light bulb: sphere {
   tint.color = linear(1, 0.65, 0.22)
   tint.angle = 14deg
 }\n";
+const SPOT: &str = "light stage: spot { at = (1, 4, 2)m, to = (0, 0.5, 0)m, cone = 20deg, edge = 8deg, radius = 20cm, power = 4000lm }\n";
 const MANY_LAMPS: &str = "asset canopy = obj(\"tent.obj\", unit: m, up: +y)
 instance shade[i in 0..6] { shape = canopy, material = lamp, at = (i - 2.5, 2.2 + 0.3 * i, 0.5)m, scale = 0.4 }\n";
 const SPARKS: &str = "instance spark[i in 0..5] { shape = sphere(radius: 5cm), material = lamp, at = (i - 2, 0.3, 2)m }\n";

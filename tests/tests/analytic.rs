@@ -9,7 +9,7 @@
 #[path = "analytic/media.rs"]
 mod media;
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
 use std::fmt::Write as _;
 
 use pack::Pack;
@@ -201,6 +201,32 @@ fn declared_lights_give_what_their_units_say() {
             "light l: sphere { center = (0, 2, 0)m, radius = 5cm, power = 5W }",
         ),
         // pi A L is the power of one side.
+        // All of the beam, in its middle and at its edge, where the light is half of that.
+        check(
+            "spot, candelas",
+            1.0 / (4.0 * PI),
+            "light l: spot { at = (0, 2, 0)m, intensity = 683cd, cone = 30deg }",
+        ),
+        check(
+            "spot, lumens",
+            // 2 pi (1 - cos 60deg), and half of what lies between that and 90deg.
+            1.0 / (2.0 * PI * 0.75) / (4.0 * PI),
+            "light l: spot { at = (0, 2, 0)m, power = 683lm, cone = 90deg, edge = 30deg }",
+        ),
+        check(
+            "spot, at its edge",
+            0.5 / (8.0 * PI) / 2.0_f64.sqrt(),
+            &format!(
+                "light l: spot {{ at = (2, 2, 0)m, cone = {:.10}deg, edge = {:.10}deg, intensity = 1W/sr, radius = 1mm }}",
+                (FRAC_1_SQRT_2 - 0.1).acos().to_degrees(),
+                ((FRAC_1_SQRT_2 - 0.1).acos() - (FRAC_1_SQRT_2 + 0.1).acos()).to_degrees(),
+            ),
+        ),
+        check(
+            "spot that faces away",
+            0.0,
+            "light l: spot { at = (0, 2, 0)m, direction = (0, 1, 0), intensity = 1W/sr }",
+        ),
         check(
             "rectangle, watts",
             form,

@@ -123,6 +123,14 @@ const CASES: &[Case] = &[
         words: &["tint_radiance", "FLAG_EMIT_TINT"],
     },
     Case {
+        name: "a light that shines all around",
+        idle: "light beam: point { at = (0, 3, 0)m, intensity = 9cd }\n",
+        without: "light beam: point { at = (0, 3, 0)m, intensity = 9cd }\n",
+        busy: "light beam: spot { at = (0, 3, 0)m, cone = 30deg, intensity = 9cd }\n",
+        bits: bit::SPOT,
+        words: &["spot_radiance", "FLAG_EMIT_SPOT"],
+    },
+    Case {
         name: "a gradient of one colour",
         idle: "SKY gradient { zenith = linear(0.5), middle = linear(0.5), horizon = linear(0.5), ground = linear(0.5) }\n",
         without: "SKY constant { color = linear(0.5) }\n",

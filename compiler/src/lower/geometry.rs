@@ -189,16 +189,16 @@ pub(super) fn place(
 
 impl Placement {
     fn add_sphere(&mut self, stage: &Stage<'_>, object: u32, ball: &Ball) {
-        let Ball { center, radius, material, tint } = *ball;
+        let Ball { center, radius, material, facing, share } = *ball;
         if stage.materials.looks(material).glows {
-            let area = 4.0 * std::f64::consts::PI * radius * radius;
+            let area = 4.0 * std::f64::consts::PI * radius * radius * share;
             self.emitters.push(Emitter {
                 kind: LightKind::Sphere,
                 primitive: self.spheres.len() as u32,
                 count: 1,
                 material,
                 area: stage.receivers.weigh(area, center),
-                tint,
+                facing,
             });
         }
         // No radius is lost.
@@ -235,7 +235,7 @@ impl Placement {
                     count: 2,
                     material,
                     area: stage.receivers.weigh(face.area, middle),
-                    tint: [0.0; 4],
+                    facing: [0.0; 5],
                 });
             }
         }
@@ -276,7 +276,7 @@ impl Placement {
             count: 1,
             material: *material,
             area: *area,
-            tint: [0.0; 4],
+            facing: [0.0; 5],
         }));
         self.parts.push(Part::new(key_of(stage, body), first..self.corners.len(), rest));
     }

@@ -19,8 +19,9 @@ pub(super) struct Emitter {
     /// Area, less the share that leaves the scene, see `power::weigh`: times `MaterialTable::glow` of the material,
     /// or the flux of the sky, it is proportional to power.
     pub(super) area: f64,
-    /// Towards where it is tinted, unit, and the cosine of the angle; all 0 without a tint.
-    pub(super) tint: [f32; 4],
+    /// Towards where it is tinted, or against its beam, unit; the cosine of the angle of the tint or of the outer cone,
+    /// and that of the inner cone. All 0 if it looks the same from everywhere.
+    pub(super) facing: [f32; 5],
 }
 
 /// The tint of a light, unless it is neutral: a factor of 1 changes no bit.
@@ -28,6 +29,18 @@ pub(super) fn tint(light: &scene::Light) -> Option<scene::Tint> {
     let neutral =
         |tint: &scene::Tint| tint.color.iter().all(|c| (*c as f32).to_bits() == 1.0_f32.to_bits());
     light.tint.filter(|tint| !neutral(tint))
+}
+
+/// What a light knows of directions, as `Emitter::facing`.
+pub(super) fn facing(light: &scene::Light) -> [f32; 5] {
+    if let Some(beam) = light.beam {
+        let [x, y, z] = beam.direction.map(|c| -c as f32);
+        return [x, y, z, beam.outer as f32, beam.inner as f32];
+    }
+    tint(light).map_or([0.0; 5], |tint| {
+        let [x, y, z] = tint.direction.map(|c| c as f32);
+        [x, y, z, libm::cos(tint.angle) as f32, 0.0]
+    })
 }
 
 /// Steps of a 24-bit random number.
@@ -127,8 +140,8 @@ impl Geometry<'_> {
         if emitter.kind == LightKind::Sphere {
             let primitive = self.sphere_at[emitter.primitive as usize];
             let sphere = &self.spheres[primitive as usize];
-            let [x, y, z, cosine] = emitter.tint;
-            let (origin, edge1) = (sphere.center, [sphere.radius, cosine, 0.0]);
+            let [x, y, z, outer, inner] = emitter.facing;
+            let (origin, edge1) = (sphere.center, [sphere.radius, outer, inner]);
             return abi::Light { origin, edge1, edge2: [x, y, z], primitive, ..base };
         }
         let primitive = self.triangle_at[emitter.primitive as usize];

@@ -28,6 +28,8 @@ impl MaterialTable<'_> {
                 let light = &self.scene.lights[index];
                 let emission = light.radiance.map(|c| c as f32);
                 let plain = abi::Material { emission, ..blank(MaterialKind::Emissive) };
+                let spot = if light.beam.is_some() { material_flag::EMIT_SPOT } else { 0 };
+                let plain = abi::Material { flags: plain.flags | spot, ..plain };
                 tint(light).map_or(plain, |tint| abi::Material {
                     tint: tint.color.map(|c| c as f32),
                     flags: plain.flags | material_flag::EMIT_TINT,

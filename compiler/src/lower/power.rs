@@ -7,8 +7,8 @@ use super::material::MaterialTable;
 
 /// The sky as an emitter; `area`: see `Receivers::sky_area`.
 pub(super) fn sky(area: f64) -> Emitter {
-    let (kind, tint) = (LightKind::Sky, [0.0; 4]);
-    Emitter { kind, primitive: 0, count: 0, material: 0, area, tint }
+    let (kind, facing) = (LightKind::Sky, [0.0; 5]);
+    Emitter { kind, primitive: 0, count: 0, material: 0, area, facing }
 }
 
 /// Power of each emitter, up to a factor. `flux`: the integral of the sky's luminance over all directions.

@@ -237,7 +237,7 @@ impl Progress<'_> {
             count: 0,
             material: *material,
             area: *area,
-            tint: [0.0; 4],
+            facing: [0.0; 5],
         };
         match self {
             Self::Known(outline, _) => outline.emitters.iter().map(known).collect(),

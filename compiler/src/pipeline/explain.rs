@@ -213,6 +213,7 @@ impl Explain<'_> {
             None => because("no light is sampled"),
         };
         let tinted = self.materials("has a tint", |m| m.flags & material_flag::EMIT_TINT != 0);
+        let spots = self.materials("is a spot light", |m| m.flags & material_flag::EMIT_SPOT != 0);
         let white = self.scene.lights.iter().find(|light| light.tint.is_some());
         let white = white.map(|light| by("its tint changes nothing".to_owned(), &light.name));
         vec![
@@ -229,6 +230,7 @@ impl Explain<'_> {
                 Some(because("the table of lights is good enough")),
             ),
             Self::row(name_of(bit::TINT), self.features.tint, tinted, white),
+            Self::row(name_of(bit::SPOT), self.features.spot, spots, None),
         ]
     }
 

@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::material::{Color, Emissive};
 use crate::resolve::ItemId;
-use crate::scene::{Light, MaterialModel, Name, Rgb, Shape, Tint};
+use crate::scene::{Beam, Light, MaterialModel, Name, Rgb, Shape, Tint};
 use crate::schema::light::LightType;
 use std::f64::consts::PI;
 
@@ -34,7 +34,12 @@ pub(super) fn check_light(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
     match LightType::of(fields.schema) {
         LightType::Sphere => check_sphere(ev, id, fields),
         LightType::Point => check_point(ev, id, fields),
-        LightType::Rectangle => check_panel(ev, fields),
+        LightType::Spot => {
+            check_point(ev, id, fields);
+            check_facing(ev, fields);
+            check_edge(ev, fields);
+        }
+        LightType::Rectangle => check_facing(ev, fields),
     }
 }
 
@@ -48,7 +53,18 @@ fn check_point(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
     }
 }
 
-fn check_panel(ev: &mut Evaluator<'_>, fields: &Fields) {
+fn check_edge(ev: &mut Evaluator<'_>, fields: &Fields) {
+    if let (Some(cone), Some(edge), Some(span)) =
+        (fields.number("cone"), fields.number("edge"), fields.span("edge").or(fields.span("cone")))
+        && edge > cone
+    {
+        let error = Diagnostic::error(Code("E0401"), "`edge` is larger than `cone`");
+        let text = "the light falls off inside of the cone";
+        ev.fault(error.at(span, text).with_help("write an `edge` of at most `cone`"));
+    }
+}
+
+fn check_facing(ev: &mut Evaluator<'_>, fields: &Fields) {
     one_of(ev, fields, &["to", "direction"], "which way the light faces");
     check_direction(ev, fields, "direction");
     if let (Some(at), Some(to), Some(span)) =
@@ -151,11 +167,18 @@ pub(super) fn light(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Opti
     match LightType::of(fields.schema) {
         LightType::Sphere => {
             let (center, radius) = place(fields)?;
-            ball(ev, name, fields, (center, radius), tint(fields, center))
+            ball(ev, name, fields, (center, radius), (tint(fields, center), None))
         }
         LightType::Point => {
             let place = (fields.vector("at")?, fields.number("radius")?);
-            ball(ev, name, fields, place, None)
+            ball(ev, name, fields, place, (None, None))
+        }
+        LightType::Spot => {
+            let place = (fields.vector("at")?, fields.number("radius")?);
+            let (cone, edge) = (fields.number("cone")?, fields.number("edge")?);
+            let direction = facing(fields, place.0)?;
+            let (inner, outer) = (libm::cos(cone - edge), libm::cos(cone).max(0.0));
+            ball(ev, name, fields, place, (None, Some(Beam { direction, inner, outer })))
         }
         LightType::Rectangle => panel(ev, name, fields).map(|panel| Lit::Panel(Box::new(panel))),
     }
@@ -166,15 +189,24 @@ fn ball(
     name: Name,
     fields: &Fields,
     (center, radius): ([f64; 3], f64),
-    tint: Option<Tint>,
+    (tint, beam): (Option<Tint>, Option<Beam>),
 ) -> Option<Lit> {
     // A disk of radiance L seen from everywhere.
     let (flux, intensity) = (4.0 * PI * PI * radius * radius, PI * radius * radius);
+    let flux = flux * beam.map_or(1.0, |beam| beam.share());
     let emitter = Emitter { flux, intensity };
     let radiance = brightness::radiance(ev, &name, fields, emitter)?;
     let velocity = fields.vector("velocity")?;
-    let light = Light { name, center, velocity, radius, radiance, tint };
+    let light = Light { name, center, velocity, radius, radiance, tint, beam };
     Some(Lit::Ball(Box::new(light)))
+}
+
+/// The unit vector along which a light at `at` shines.
+fn facing(fields: &Fields, at: [f64; 3]) -> Option<[f64; 3]> {
+    unit(match fields.vector::<3>("to") {
+        Some(to) => [0, 1, 2].map(|axis| to[axis] - at[axis]),
+        None => fields.vector("direction")?,
+    })
 }
 
 fn panel(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Option<Panel> {
@@ -185,12 +217,8 @@ fn panel(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Option<Panel> {
     let flux = PI * area * if both_sides { 2.0 } else { 1.0 };
     let radiance = brightness::radiance(ev, &name, fields, Emitter { flux, intensity: area })?;
     let at = fields.vector::<3>("at")?;
-    let facing = match fields.vector::<3>("to") {
-        Some(to) => [0, 1, 2].map(|axis| to[axis] - at[axis]),
-        None => fields.vector("direction")?,
-    };
     let pose = Pose {
-        matrix: transform::facing(at, unit(facing)?, fields.number("spin")?),
+        matrix: transform::facing(at, facing(fields, at)?, fields.number("spin")?),
         velocity: fields.vector("velocity")?,
     };
     let emissive = Emissive { color: Color::Constant(radiance), strength: 1.0, both_sides };

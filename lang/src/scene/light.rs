@@ -17,6 +17,28 @@ pub struct Light {
     pub radiance: Rgb,
     /// What colours part of its light.
     pub tint: Option<Tint>,
+    /// The cone into which it shines; all around without.
+    pub beam: Option<Beam>,
+}
+
+/// A cone of light. Between the angles the light falls off smoothly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Beam {
+    /// Unit vector along its middle, world frame.
+    pub direction: [f64; 3],
+    /// Cosine of the angle with the middle up to which all of the light goes.
+    pub inner: f64,
+    /// Cosine of the angle beyond which nothing does; 0 .. inner.
+    pub outer: f64,
+}
+
+impl Beam {
+    /// Its light over that of a light that shines all around as its middle does.
+    #[must_use]
+    pub fn share(&self) -> f64 {
+        // Integral of the smooth step over the sphere, divided by 4 pi.
+        0.5 * (1.0 - 0.5 * (self.inner + self.outer))
+    }
 }
 
 /// A factor on the light of a sphere light by the direction from which it comes.

@@ -4,7 +4,7 @@ use super::instance::VELOCITY;
 use super::{ANY, Bounds, Default, Field, FieldType, Kind, TypeSchema, WHITE, Word};
 use crate::units::Dim;
 
-types!(LightType { Sphere = SPHERE, Point = POINT, Rectangle = RECTANGLE });
+types!(LightType { Sphere = SPHERE, Point = POINT, Spot = SPOT, Rectangle = RECTANGLE });
 
 /// 80 degrees: at 90 the origin of the world would touch the light.
 const MAX_ANGULAR_RADIUS: f64 = 80.0 * std::f64::consts::PI / 180.0;
@@ -202,6 +202,89 @@ const POINT: TypeSchema = TypeSchema {
     foreign: &[("omni", "common use"), ("bulb", "common use")],
 };
 
+const TO: Field = Field::new(
+    "to",
+    FieldType::Vector(Dim::LENGTH, "m"),
+    Default::Absent("`direction` decides"),
+    "A point that it faces.",
+)
+.foreign(&[("target", "common use"), ("look_at", "common use")]);
+
+const DIRECTION: Field = Field::new(
+    "direction",
+    FieldType::Vector(Dim::NONE, ""),
+    Default::Vector([0.0, -1.0, 0.0]),
+    "Which way it faces; its length does not matter.",
+)
+.foreign(&[("normal", "common use")]);
+
+const SPOT: TypeSchema = TypeSchema {
+    kind: Kind::Light,
+    name: "spot",
+    doc: "A lamp that shines into a cone: a small sphere that is dark from outside of it. It shines down unless `to` \
+          or `direction` says otherwise.",
+    example: "light stage: spot { at = (0, 4, 3)m, to = (0, 1, 0)m, cone = 25deg, edge = 5deg, power = 800lm }",
+    fields: &[
+        AT,
+        TO,
+        DIRECTION,
+        Field::new(
+            "cone",
+            FieldType::Number(Bounds {
+                dim: Dim::ANGLE,
+                unit: "deg",
+                min: 0.0,
+                above_min: true,
+                max: std::f64::consts::FRAC_PI_2,
+            }),
+            Default::Number(std::f64::consts::FRAC_PI_4),
+            "Angle between its middle and where it ends: half of what the cone spans.",
+        )
+        .foreign(&[
+            ("coneangle", "pbrt"),
+            ("cutoff_angle", "Mitsuba"),
+            ("spot_size", "Blender, which counts the whole span"),
+            ("outerConeAngle", "glTF"),
+        ]),
+        Field::new(
+            "edge",
+            FieldType::Number(Bounds {
+                dim: Dim::ANGLE,
+                unit: "deg",
+                min: 0.0,
+                above_min: true,
+                max: std::f64::consts::FRAC_PI_2,
+            }),
+            Default::Number(5.0 * std::f64::consts::PI / 180.0),
+            "Angle over which the light falls off, inside of `cone`; at most as large.",
+        )
+        .foreign(&[
+            ("conedeltaangle", "pbrt"),
+            ("spot_blend", "Blender"),
+            ("falloff", "common use"),
+        ]),
+        Field::new(
+            "radius",
+            LENGTH,
+            Default::Number(0.01),
+            "Radius of the lamp; larger means softer shadows.",
+        )
+        .foreign(&[("shadow_soft_size", "Blender"), ("size", "common use")]),
+        COLOR,
+        TEMPERATURE,
+        Field {
+            doc: "Its light in the middle of the beam: candelas, or watts per steradian for a white light.",
+            ..POINT_INTENSITY
+        },
+        Field {
+            doc: "All the light in the beam: watts for a white light, or lumens.",
+            ..POINT_POWER
+        },
+        VELOCITY,
+    ],
+    foreign: &[("spotlight", "common use")],
+};
+
 const RECTANGLE: TypeSchema = TypeSchema {
     kind: Kind::Light,
     name: "rectangle",
@@ -216,20 +299,8 @@ const RECTANGLE: TypeSchema = TypeSchema {
             Default::Required,
             "Width, which is level, and height.",
         ),
-        Field::new(
-            "to",
-            FieldType::Vector(Dim::LENGTH, "m"),
-            Default::Absent("`direction` decides"),
-            "A point that it faces.",
-        )
-        .foreign(&[("target", "common use"), ("look_at", "common use")]),
-        Field::new(
-            "direction",
-            FieldType::Vector(Dim::NONE, ""),
-            Default::Vector([0.0, -1.0, 0.0]),
-            "Which way it faces; its length does not matter.",
-        )
-        .foreign(&[("normal", "common use")]),
+        TO,
+        DIRECTION,
         Field::new(
             "spin",
             FieldType::Number(Bounds::new(Dim::ANGLE, "deg", f64::NEG_INFINITY, ANY)),

@@ -62,6 +62,8 @@ features! {
     INSTANCES = 56 "instances",
     /// Has more than one light.
     LIGHT_CHOICE = 57 "several lights",
+    /// Has a light that shines into a cone.
+    SPOT = 60 "spot lights",
 }
 
 /// Has a sphere among its lights.
@@ -160,6 +162,7 @@ pub(crate) fn of(contents: &Contents<'_>) -> u64 {
     for material in contents.materials {
         set(MaterialKind::from_tag(material.kind).map_or(0, MaterialKind::feature), true);
         set(TINT, material.flags & material_flag::EMIT_TINT != 0);
+        set(SPOT, material.flags & material_flag::EMIT_SPOT != 0);
         set(ALPHA_CLIP, material.flags & material_flag::ALPHA_CLIP != 0);
         set(TANGENTS, material.flags & material_flag::TANGENT != 0);
         set(OBJECTS, material.flags & material_flag::OBJECT != 0);

@@ -149,6 +149,7 @@ fn features_are_those_of_the_contents() {
         | LightKind::Sky.feature()
         | features::LIGHT_TREE
         | features::TINT
+        | features::SPOT
         | features::INSTANCES
         | features::WIDE_NODES
         | features::SAMPLER_PCG;

@@ -1,4 +1,4 @@
-//! `scene/dispatch_choice.wgsl`, `scene/dispatch_tint.wgsl`: which light, and which colour it has.
+//! `scene/dispatch_choice.wgsl`, `scene/dispatch_tint.wgsl`: which light, and which colour it has seen from somewhere.
 
 use super::wgsl::imports;
 use crate::FeatureSet;
@@ -70,18 +70,30 @@ fn functions(text: &mut String, number: &str, choose: &str, [surface, sky]: [&st
     );
 }
 
-/// The tint of lights.
+/// What lights do with the direction from which they are seen.
 pub(crate) fn tint(features: &FeatureSet) -> String {
-    let mut text = String::from("// Generated: whether lights of this scene are tinted.\n\n");
+    let mut text =
+        String::from("// Generated: whether lights of this scene depend on direction.\n\n");
     let mut modules = vec!["abi/light.wgsl"];
-    let (mut found, mut sampled) = ("", "");
+    let (mut found, mut sampled) = (String::new(), String::new());
+    if features.tint || features.spot {
+        modules.extend(["scene/constants.wgsl", "scene/records.wgsl"]);
+    }
     if features.tint {
-        modules.extend(["light/tint.wgsl", "scene/constants.wgsl", "scene/records.wgsl"]);
-        found = "    if ((flags & FLAG_EMIT_TINT) != 0u && light != NONE) {\n        \
-                 let cosine = load_light_edge1(light).y;\n        \
-                 return tint_radiance(radiance, material, load_light_edge2(light), cosine, dir);\n    }\n";
-        sampled = "    if ((flags & FLAG_EMIT_TINT) != 0u) {\n        \
-                   return tint_radiance(radiance, light.material, light.edge2, light.edge1.y, dir);\n    }\n";
+        modules.push("light/tint.wgsl");
+        found += "    if ((flags & FLAG_EMIT_TINT) != 0u && light != NONE) {\n        \
+                  let cosine = load_light_edge1(light).y;\n        \
+                  return tint_radiance(radiance, material, load_light_edge2(light), cosine, dir);\n    }\n";
+        sampled += "    if ((flags & FLAG_EMIT_TINT) != 0u) {\n        \
+                    return tint_radiance(radiance, light.material, light.edge2, light.edge1.y, dir);\n    }\n";
+    }
+    if features.spot {
+        modules.push("light/spot.wgsl");
+        found += "    if ((flags & FLAG_EMIT_SPOT) != 0u && light != NONE) {\n        \
+                  let cone = load_light_edge1(light);\n        \
+                  return spot_radiance(radiance, load_light_edge2(light), cone.y, cone.z, dir);\n    }\n";
+        sampled += "    if ((flags & FLAG_EMIT_SPOT) != 0u) {\n        \
+                    return spot_radiance(radiance, light.edge2, light.edge1.y, light.edge1.z, dir);\n    }\n";
     }
     text += &imports(modules);
     let _ = write!(

@@ -51,8 +51,10 @@ pub(in crate::lower) struct Ball {
     pub(in crate::lower) center: DVec3,
     pub(in crate::lower) radius: f64,
     pub(in crate::lower) material: u32,
-    /// See `Emitter::tint`.
-    pub(in crate::lower) tint: [f32; 4],
+    /// See `Emitter::facing`.
+    pub(in crate::lower) facing: [f32; 5],
+    /// Its light over that of a ball that looks the same from everywhere.
+    pub(in crate::lower) share: f64,
 }
 
 /// A rectangle in the world, metres.
@@ -177,7 +179,7 @@ impl Body {
             }
             Form::Sphere(ball) => {
                 key.number(1_u32).floats(&ball.center.to_array()).floats(&[ball.radius]);
-                key.floats(&ball.tint.map(f64::from));
+                key.floats(&ball.facing.map(f64::from));
                 material(key, ball.material);
             }
             Form::Faces(faces, index) => {
@@ -239,11 +241,8 @@ fn read_looks(materials: &MaterialTable<'_>, index: u32, key: &mut KeyOf) {
 }
 
 fn lamp(light: &Light, center: DVec3, material: u32) -> Ball {
-    let tint = light::tint(light).map_or([0.0; 4], |tint| {
-        let [x, y, z] = tint.direction.map(|c| c as f32);
-        [x, y, z, libm::cos(tint.angle) as f32]
-    });
-    Ball { center, radius: light.radius, material, tint }
+    let share = light.beam.map_or(1.0, |beam| beam.share());
+    Ball { center, radius: light.radius, material, facing: light::facing(light), share }
 }
 
 /// One instance becomes a body.
@@ -300,7 +299,13 @@ impl Maker<'_, '_> {
         };
         let material = self.material(MaterialRef::Default);
         let center = self.transform.point(DVec3::ZERO);
-        Form::Sphere(Ball { center, radius: radius * scale, material, tint: [0.0; 4] })
+        Form::Sphere(Ball {
+            center,
+            radius: radius * scale,
+            material,
+            facing: [0.0; 5],
+            share: 1.0,
+        })
     }
 
     fn faces(&mut self, faces: &[Parallelogram]) -> Form {

@@ -45,11 +45,12 @@ abi_struct! {
         pub origin: [f32; 3],
         /// `LightKind`.
         pub kind: u32,
-        /// First edge; for a sphere x is the radius, y the cosine of the angle of its tint.
+        /// First edge; for a sphere x is the radius, y the cosine of the angle of its tint or of the outer cone of its
+        /// beam, z that of the inner cone.
         pub edge1: [f32; 3],
         /// Area in square normalised units; unused for a sphere.
         pub area: f32,
-        /// Second edge; for a sphere the unit vector towards which it is tinted.
+        /// Second edge; for a sphere the unit vector towards which it is tinted, or against its beam.
         pub edge2: [f32; 3],
         /// Index of the sphere, of the triangle, or of the rectangle's first triangle; 0 for the sky.
         pub primitive: u32,

@@ -156,9 +156,17 @@ pub mod material_flag {
     pub const THROUGH: u32 = 32;
     /// A light that is tinted by direction: `tint` is the colour, its `Light` says towards where.
     pub const EMIT_TINT: u32 = 64;
+    /// A light that shines into a cone, which its `Light` knows.
+    pub const EMIT_SPOT: u32 = 128;
     /// Every bit.
-    pub const ALL: u32 =
-        EMIT_BOTH_SIDES | ALPHA_CLIP | TANGENT | OBJECT | INTERIOR | THROUGH | EMIT_TINT;
+    pub const ALL: u32 = EMIT_BOTH_SIDES
+        | ALPHA_CLIP
+        | TANGENT
+        | OBJECT
+        | INTERIOR
+        | THROUGH
+        | EMIT_TINT
+        | EMIT_SPOT;
 }
 
 abi_struct! {
