@@ -279,7 +279,8 @@ fn every_kind_of_bad_line_is_named() {
     }
     check_error(SQUARE.as_bytes(), "mesh.obj: the file has no faces");
     check_error(b"", "mesh.obj: this is not an OBJ file but empty");
-    check_error(b"ply\n", "mesh.obj: this is not an OBJ file but a PLY file");
+    let ply = "mesh.obj: this is not an OBJ file but a PLY file; read it with `ply(...)`";
+    check_error(b"ply\n", ply);
     check_error(
         b"glTF",
         "mesh.obj: this is not an OBJ file but a GLB file; read it with `gltf(...)`",

@@ -11,7 +11,7 @@ pub(crate) use written::{Declared, length, number, vector};
 use std::fmt::{self, Write as _};
 
 use crate::material::Shown;
-use crate::scene::{AssetFormat, Axis, Camera, Instance, Light, Scene, Shape, Wrap};
+use crate::scene::{AssetFormat, Axis, Camera, FileFrame, Instance, Light, Scene, Shape, Wrap};
 use crate::schema::color_text;
 use crate::units::{self, Dim};
 
@@ -26,13 +26,16 @@ pub fn resolved(scene: &Scene) -> String {
 fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
     for asset in &scene.assets {
         let (name, path) = (&asset.name.text, &asset.path);
-        match asset.format {
-            AssetFormat::Gltf => writeln!(out, "asset {name} = gltf(\"{path}\")")?,
-            AssetFormat::Obj { metres_per_unit, up } => {
-                let (unit, up) = (length(metres_per_unit), axis(up));
-                writeln!(out, "asset {name} = obj(\"{path}\", unit: {unit}, up: {up})")?;
-            }
-        }
+        let (format, frame) = match asset.format {
+            AssetFormat::Obj(frame) => ("obj", Some(frame)),
+            AssetFormat::Ply(frame) => ("ply", Some(frame)),
+            AssetFormat::Stl(frame) => ("stl", Some(frame)),
+            AssetFormat::Gltf => ("gltf", None),
+        };
+        let frame = frame.map_or_else(String::new, |FileFrame { metres_per_unit, up }| {
+            format!(", unit: {}, up: {}", length(metres_per_unit), axis(up))
+        });
+        writeln!(out, "asset {name} = {format}(\"{path}\"{frame})")?;
     }
     for texture in &scene.textures {
         let (name, path, space) = (&texture.name.text, &texture.path, texture.space.word());

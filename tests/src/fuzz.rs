@@ -67,6 +67,22 @@ pub const TARGETS: &[Target] = &[
         tries: 1000,
     },
     Target {
+        name: "ply",
+        reads: "PLY",
+        check: mesh::ply,
+        repair: keep,
+        words: mesh::PLY_WORDS,
+        tries: 4000,
+    },
+    Target {
+        name: "stl",
+        reads: "STL",
+        check: mesh::stl,
+        repair: keep,
+        words: mesh::STL_WORDS,
+        tries: 4000,
+    },
+    Target {
         name: "gltf",
         reads: "glTF as text",
         check: mesh::gltf,

@@ -80,6 +80,8 @@ targets! {
     text: "text";
     obj: "obj";
     mtl: "mtl";
+    ply: "ply";
+    stl: "stl";
     gltf: "gltf";
     glb: "glb";
     png: "png";

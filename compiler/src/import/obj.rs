@@ -1,21 +1,21 @@
 //! Wavefront OBJ with its MTL files becomes a [`MeshFile`].
 //!
 //! `parse` reads the text once into flat arrays; `mtl` reads the material libraries, with `tobj`;
-//! `build` makes the parts, one for each pair of name and material; triangles without normals get
-//! computed ones. Axes are turned so that `up` becomes +Y by a rotation (never a reflection), and
+//! `build` of all files of polygons makes the parts, one for each pair of name and material; triangles without
+//! normals get computed ones. Axes are turned so that `up` becomes +Y by a rotation (never a reflection), and
 //! units become metres.
 
-mod build;
-mod frame;
-mod lines;
 mod mtl;
 mod parse;
 
 use self::parse::Oddities;
+use super::build::{self, Faces, Source};
 use super::error::{ErrorKind, ImportError};
 use super::file::{Limits, Reader, read_file};
+use super::foreign::{Format, foreign};
+use super::frame::Frame;
 use super::image_set::ImageSet;
-use super::mesh::{MeshFile, Part, keep};
+use super::mesh::MeshFile;
 use super::report::ImportReport;
 use files::ShowPath as _;
 use lang::scene::Axis;
@@ -46,72 +46,29 @@ pub fn read_obj(
     let mut reader = Reader::new(limits);
     reader.remember(path, bytes);
     let file = path.shown().to_string();
-    reject_foreign(bytes, &file)?;
+    if let Some(what) = foreign(bytes, Format::Obj) {
+        let message = format!("this is not an OBJ file but {what}");
+        let error = ImportError::new(ErrorKind::Format, file, message);
+        return Err(error.with_help("export it as OBJ text or glTF"));
+    }
     let (obj, loan) = parse::parse(bytes, &file, limits)?;
     let mut report = ImportReport::default();
     warn_about(&obj.oddities, &file, &mut report);
     let mut images = ImageSet::default();
     let folder = path.parent().unwrap_or(Path::new(""));
     let library = mtl::load(folder, &file, &obj, &mut reader, &mut images, &mut report)?;
-    let source = build::Source {
+    let source = Source {
         file: &file,
-        frame: frame::Frame { metres_per_unit, up },
+        faces: Faces::ByLine,
+        frame: Frame { metres_per_unit, up },
         names: &obj.names,
         material_ids: &library.ids,
         limits,
     };
-    let n_faces = obj.geometry.faces.len();
-    let parts = build::parts(obj.geometry, &source, &mut report)?;
-    drop(loan);
-    keep(&parts, &file, limits)?;
+    let parts = build::parts(obj.geometry, loan, &source, &mut report)?;
     let images = images.decode(limits, &mut report)?;
     report.files = reader.finish();
-    finish(&file, n_faces, parts, report).map(|(parts, report)| MeshFile {
-        parts,
-        materials: library.materials,
-        images,
-        report,
-    })
-}
-
-fn finish(
-    file: &str,
-    n_faces: usize,
-    parts: Vec<Part>,
-    mut report: ImportReport,
-) -> Result<(Vec<Part>, ImportReport), ImportError> {
-    report.n_triangles = parts.iter().map(|part| part.triangles.len() as u64).sum();
-    if report.n_triangles == 0 {
-        let message = match n_faces {
-            0 => "the file has no faces".to_owned(),
-            n => format!("none of its {n} faces has an area"),
-        };
-        return Err(ImportError::new(ErrorKind::Empty, file, message));
-    }
-    Ok((parts, report))
-}
-
-/// Says what a file is that is not OBJ text at all.
-fn reject_foreign(bytes: &[u8], file: &str) -> Result<(), ImportError> {
-    const OTHERS: [(&[u8], &str); 7] = [
-        (b"glTF", "a GLB file; read it with `gltf(...)`"),
-        (b"ply", "a PLY file"),
-        (b"solid ", "an STL file"),
-        (b"Kaydara FBX", "an FBX file"),
-        (b"PK\x03\x04", "a ZIP archive"),
-        (b"\xff\xfe", "UTF-16 text"),
-        (b"\xfe\xff", "UTF-16 text"),
-    ];
-    let what = OTHERS.iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, what)| *what);
-    let binary = || bytes.iter().take(4096).any(|byte| *byte == 0);
-    let what = match what {
-        Some(what) => what,
-        None if bytes.is_empty() => "empty",
-        None if binary() => "binary data",
-        None => return Ok(()),
-    };
-    Err(ImportError::new(ErrorKind::Format, file, format!("this is not an OBJ file but {what}"))
-        .with_help("export it as OBJ text or glTF"))
+    Ok(MeshFile { parts, materials: library.materials, images, report })
 }
 
 fn warn_about(odd: &Oddities, file: &str, report: &mut ImportReport) {

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use lang::diagnostic::{Code, Diagnostic, Fix};
-use lang::scene::{Asset, AssetFormat, Axis, Scene, Shape, SkyModel};
+use lang::scene::{Asset, AssetFormat, Axis, FileFrame, Scene, Shape, SkyModel};
 use lang::source::{SourceSet, Span};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -19,7 +19,7 @@ use super::options::Options;
 use super::session::Session;
 use crate::import::{
     Environment, EnvironmentFacts, ErrorKind, Image, ImageFacts, ImportError, ImportReport,
-    MeshFacts, MeshFile, load_environment, load_gltf, load_image, load_obj,
+    MeshFacts, MeshFile, load_environment, load_gltf, load_image, load_obj, load_ply, load_stl,
 };
 use crate::lower::{Files, Meshes};
 use crate::stage::{Key, KeyOf, Share, Stages};
@@ -278,21 +278,23 @@ impl Origin<'_> {
 
     fn asset_key(&self, asset: &Asset, path: &Path) -> Key {
         let mut key = self.key("mesh file", path);
-        match asset.format {
-            AssetFormat::Obj { metres_per_unit, up } => {
-                let up = match up {
-                    Axis::PlusX => 0_u32,
-                    Axis::MinusX => 1,
-                    Axis::PlusY => 2,
-                    Axis::MinusY => 3,
-                    Axis::PlusZ => 4,
-                    Axis::MinusZ => 5,
-                };
-                key.text("obj").floats(&[metres_per_unit]).number(up);
-            }
-            AssetFormat::Gltf => {
-                key.text("gltf");
-            }
+        let (format, frame) = match asset.format {
+            AssetFormat::Obj(frame) => ("obj", Some(frame)),
+            AssetFormat::Ply(frame) => ("ply", Some(frame)),
+            AssetFormat::Stl(frame) => ("stl", Some(frame)),
+            AssetFormat::Gltf => ("gltf", None),
+        };
+        key.text(format);
+        if let Some(FileFrame { metres_per_unit, up }) = frame {
+            let up = match up {
+                Axis::PlusX => 0_u32,
+                Axis::MinusX => 1,
+                Axis::PlusY => 2,
+                Axis::MinusY => 3,
+                Axis::PlusZ => 4,
+                Axis::MinusZ => 5,
+            };
+            key.floats(&[metres_per_unit]).number(up);
         }
         key.end()
     }
@@ -386,8 +388,14 @@ fn environment(
 
 fn read_asset(asset: &Asset, path: &Path, options: &Options<'_>) -> Result<MeshFile, ImportError> {
     match asset.format {
-        AssetFormat::Obj { metres_per_unit, up } => {
+        AssetFormat::Obj(FileFrame { metres_per_unit, up }) => {
             load_obj(path, metres_per_unit, up, &options.limits)
+        }
+        AssetFormat::Ply(FileFrame { metres_per_unit, up }) => {
+            load_ply(path, metres_per_unit, up, &options.limits)
+        }
+        AssetFormat::Stl(FileFrame { metres_per_unit, up }) => {
+            load_stl(path, metres_per_unit, up, &options.limits)
         }
         AssetFormat::Gltf => load_gltf(path, &options.limits),
     }

@@ -317,7 +317,7 @@ fn missing_arguments(
 ) -> Diagnostic {
     let unit = missing.iter().find(|field| matches!(field.ty, FieldType::LengthUnit));
     if let (Some(_), Some(first), 1) = (unit, args.first(), missing.len()) {
-        return Diagnostic::error(Code("E0502"), "OBJ file without a unit")
+        return Diagnostic::error(Code("E0502"), "mesh file without a unit")
             .at(name.span, "one unit of this file is how long?")
             .with_note("scans and CAD files are often in `mm` or `cm`, exports from Blender in `m`")
             .with_fix(Fix::guess("state it", first.value.span.after(), ", unit: m"));

@@ -6,7 +6,7 @@ use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::eval::value::Value;
 use crate::eval::{Evaluator, Scope};
 use crate::resolve::{ItemId, did_you_mean};
-use crate::scene::{AssetFormat, ColorSpace, Wrap};
+use crate::scene::{AssetFormat, ColorSpace, FileFrame, Wrap};
 use crate::schema::asset::AssetType;
 use crate::schema::texture::TextureType;
 use crate::schema::{self, Kind};
@@ -15,11 +15,14 @@ use crate::syntax::{Binding, Expr, ExprKind, Ident};
 /// Checks an `asset`.
 pub(super) fn asset(ev: &mut Evaluator<'_>, id: ItemId, binding: &Binding) -> Option<AssetInfo> {
     let fields = file_call(ev, id, Kind::Asset, &binding.value)?;
+    let frame = || {
+        let Some(Value::Axis(up)) = fields.get("up") else { return None };
+        Some(FileFrame { metres_per_unit: fields.number("unit")?, up })
+    };
     let format = match AssetType::of(fields.schema) {
-        AssetType::Obj => {
-            let Some(Value::Axis(up)) = fields.get("up") else { return None };
-            AssetFormat::Obj { metres_per_unit: fields.number("unit")?, up }
-        }
+        AssetType::Obj => AssetFormat::Obj(frame()?),
+        AssetType::Ply => AssetFormat::Ply(frame()?),
+        AssetType::Stl => AssetFormat::Stl(frame()?),
         AssetType::Gltf => AssetFormat::Gltf,
     };
     Some(AssetInfo { path: fields.text("path")?, path_span: fields.value_span("path")?, format })
@@ -73,12 +76,14 @@ fn file_call(ev: &mut Evaluator<'_>, id: ItemId, kind: Kind, expr: &Expr) -> Opt
                     .iter()
                     .map(|schema| format!("`{}(...)`", schema.name))
                     .collect();
-                let text = format!(
-                    "{} is {}, not {}",
-                    kind.with_article(),
-                    examples.join(" or "),
-                    value.described()
-                );
+                let listed = match examples.as_slice() {
+                    [rest @ .., last] if !rest.is_empty() => {
+                        format!("{} or {last}", rest.join(", "))
+                    }
+                    one => one.concat(),
+                };
+                let text =
+                    format!("{} is {listed}, not {}", kind.with_article(), value.described());
                 let error = Diagnostic::error(Code("E0305"), text).at(expr.span, value.described());
                 ev.fault(error);
             }

@@ -20,15 +20,23 @@ pub struct Asset {
 /// What a mesh file needs to be told.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AssetFormat {
-    /// Wavefront OBJ: metres per unit of the file, and which axis points up.
-    Obj {
-        /// Metres per unit.
-        metres_per_unit: f64,
-        /// Up axis of the file.
-        up: Axis,
-    },
+    /// Wavefront OBJ.
+    Obj(FileFrame),
+    /// Polygon file format (Stanford), text or binary.
+    Ply(FileFrame),
+    /// Stereolithography, text or binary.
+    Stl(FileFrame),
     /// glTF 2.0, text or binary: metres and +Y up by its specification.
     Gltf,
+}
+
+/// What formats do not say that have neither unit nor directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FileFrame {
+    /// Metres per unit of the file.
+    pub metres_per_unit: f64,
+    /// Up axis of the file.
+    pub up: Axis,
 }
 
 /// A signed coordinate axis.

@@ -1,8 +1,8 @@
-//! Mesh files: `asset NAME = obj(...)` and `asset NAME = gltf(...)`.
+//! Mesh files: `asset NAME = obj(...)`, `ply(...)`, `stl(...)` or `gltf(...)`.
 
 use super::{Default, Field, FieldType, Kind, TypeSchema};
 
-types!(AssetType { Obj = OBJ, Gltf = GLTF });
+types!(AssetType { Obj = OBJ, Ply = PLY, Stl = STL, Gltf = GLTF });
 
 const PATH: Field = Field::new(
     "path",
@@ -12,6 +12,18 @@ const PATH: Field = Field::new(
 )
 .foreign(&[("filename", "pbrt, Mitsuba"), ("file", "LuxCore"), ("uri", "glTF")]);
 
+const UNIT: Field = Field::new(
+    "unit",
+    FieldType::LengthUnit,
+    Default::Required,
+    "How long one unit of the file is.",
+);
+
+const fn up(usual: &'static str) -> Field {
+    let doc = "The axis of the file that points up.";
+    Field::new("up", FieldType::Axis, Default::Word(usual), doc)
+}
+
 const OBJ: TypeSchema = TypeSchema {
     kind: Kind::Asset,
     name: "obj",
@@ -20,22 +32,39 @@ const OBJ: TypeSchema = TypeSchema {
     example: "asset rock = obj(\"rock.obj\", unit: cm, up: +z)",
     fields: &[
         PATH,
-        Field::new(
-            "unit",
-            FieldType::LengthUnit,
-            Default::Required,
-            "How long one unit of the file is.",
-        )
-        .typical("downloaded scans are often in `mm` or `cm`, Blender writes `m`"),
-        Field::new(
-            "up",
-            FieldType::Axis,
-            Default::Word("+y"),
-            "The axis of the file that points up.",
-        )
-        .typical("`+y` for most files, `+z` for CAD"),
+        UNIT.typical("downloaded scans are often in `mm` or `cm`, Blender writes `m`"),
+        up("+y").typical("`+y` for most files, `+z` for CAD"),
     ],
     foreign: &[("wavefront", "common use"), ("mesh", "LuxCore")],
+};
+
+const PLY: TypeSchema = TypeSchema {
+    kind: Kind::Asset,
+    name: "ply",
+    doc: "A PLY file (Stanford), text or binary: polygons with normals (`nx ny nz`) and texture coordinates \
+          (`u v`, `s t`, `texture_u texture_v`, or `texcoord` of faces) where it has them. The format says neither \
+          unit nor where up is.",
+    example: "asset bunny = ply(\"bunny.ply\", unit: m)",
+    fields: &[
+        PATH,
+        UNIT.typical("scans are often in `mm` or `m`"),
+        up("+y").typical("`+y` for most scans, `+z` for Blender's"),
+    ],
+    foreign: &[("plymesh", "pbrt")],
+};
+
+const STL: TypeSchema = TypeSchema {
+    kind: Kind::Asset,
+    name: "stl",
+    doc: "An STL file, text or binary: triangles alone, without materials and texture coordinates. The solids of a \
+          text become parts: `gearbox.lid`. Its normals are computed, as of every mesh without them: edges of up to 60 degrees become smooth.",
+    example: "asset gear = stl(\"gear.stl\", unit: mm)",
+    fields: &[
+        PATH,
+        UNIT.typical("`mm` for printing and CAD"),
+        up("+z").typical("`+z` for printing and CAD"),
+    ],
+    foreign: &[("stereolithography", "common use")],
 };
 
 const GLTF: TypeSchema = TypeSchema {

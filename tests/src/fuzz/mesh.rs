@@ -1,9 +1,9 @@
-//! OBJ, MTL and glTF: what is accepted can be used without a check.
+//! OBJ, MTL, PLY, STL and glTF: what is accepted can be used without a check.
 
 use std::fs;
 use std::path::Path;
 
-use compiler::import::{ImportError, Limits, MeshFile, read_gltf, read_obj};
+use compiler::import::{ImportError, Limits, MeshFile, read_gltf, read_obj, read_ply, read_stl};
 use lang::scene::Axis;
 
 pub(super) const OBJ_WORDS: &[&[u8]] = &[
@@ -55,6 +55,53 @@ pub(super) const MTL_WORDS: &[&[u8]] = &[
     b"/dev/zero",
     b"-colorspace sRGB ",
     b"\xe9",
+];
+
+pub(super) const PLY_WORDS: &[&[u8]] = &[
+    b"ply\n",
+    b"format ascii 1.0\n",
+    b"format binary_little_endian 1.0\n",
+    b"format binary_big_endian 1.0\n",
+    b"element vertex 4\n",
+    b"element face 1\n",
+    b"element edge 1\n",
+    b"element face 4294967295\n",
+    b"property float x\n",
+    b"property double y\n",
+    b"property uchar red\n",
+    b"property float nx\n",
+    b"property float s\n",
+    b"property list uchar int vertex_indices\n",
+    b"property list uint uint vertex_index\n",
+    b"property list uchar float texcoord\n",
+    b"comment TextureFile a.png\n",
+    b"end_header\n",
+    b"\r",
+    b"nan",
+    b"-1",
+    b"1e39",
+    b"\xe9",
+    b"\0",
+    b"\xff\xff\xff\xff",
+];
+
+pub(super) const STL_WORDS: &[&[u8]] = &[
+    b"solid ",
+    b"facet normal 0 0 1\n",
+    b"outer loop\n",
+    b"vertex 1 2 3\n",
+    b"endloop\n",
+    b"endfacet\n",
+    b"endsolid\n",
+    b"SOLID",
+    b"\\\n",
+    b"\r",
+    b"nan",
+    b"1e39",
+    b"\xe9",
+    b"\0",
+    b"\xff\xff\xff\xff",
+    b"\0\0\x80\x7f",
 ];
 
 pub(super) const GLTF_WORDS: &[&[u8]] = &[
@@ -118,6 +165,14 @@ pub(super) fn mtl(folder: &Path, bytes: &[u8]) -> Result<(), String> {
     fs::write(folder.join("a.mtl"), bytes).map_err(|e| e.to_string())?;
     let path = folder.join("a.obj");
     judge(read_obj(OBJ_WITH_MATERIALS, &path, 1.0, Axis::PlusY, &limits()))
+}
+
+pub(super) fn ply(folder: &Path, bytes: &[u8]) -> Result<(), String> {
+    judge(read_ply(bytes, &folder.join("a.ply"), 0.01, Axis::PlusZ, &limits()))
+}
+
+pub(super) fn stl(folder: &Path, bytes: &[u8]) -> Result<(), String> {
+    judge(read_stl(bytes, &folder.join("a.stl"), 0.001, Axis::PlusZ, &limits()))
 }
 
 pub(super) fn gltf(folder: &Path, bytes: &[u8]) -> Result<(), String> {

@@ -18,6 +18,8 @@ use super::{Random, Seed, Target, entry, pack, picture};
 /// The seeds of a target that are made, with their names.
 fn made(target: &Target) -> Vec<Seed> {
     let seeds = match target.name {
+        "ply" => plys(),
+        "stl" => stls(),
         "gltf" => gltf(),
         "glb" => glbs(),
         "png" => pngs(),
@@ -58,6 +60,83 @@ fn put(bytes: &mut [u8], at: usize, value: &[u8]) {
 
 fn cut(bytes: &[u8], part: usize) -> Vec<u8> {
     bytes[..bytes.len() * part / 100].to_vec()
+}
+
+// Meshes.
+
+/// A square as two triangles, or a quadrilateral, in binary, with all that is read beside positions.
+fn binary_ply(big: bool) -> Vec<u8> {
+    let order = if big { "big" } else { "little" };
+    let mut out = format!(
+        "ply\nformat binary_{order}_endian 1.0\ncomment made\nelement vertex 4\nproperty float x\n\
+         property double y\nproperty float z\nproperty float nx\nproperty float ny\nproperty float nz\n\
+         property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 2\n\
+         property list uchar ushort vertex_indices\nproperty list uchar float texcoord\nend_header\n"
+    )
+    .into_bytes();
+    let float = |x: f32| if big { x.to_be_bytes() } else { x.to_le_bytes() };
+    let double = |x: f64| if big { x.to_be_bytes() } else { x.to_le_bytes() };
+    let short = |x: u16| if big { x.to_be_bytes() } else { x.to_le_bytes() };
+    for (x, y) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)] {
+        out.extend(float(x));
+        out.extend(double(y));
+        out.extend([0.0, 0.0, 0.0, 1.0].map(float).as_flattened());
+        out.extend([255, 128, 0]);
+    }
+    for (corners, uvs) in [(&[0, 1, 2][..], 6), (&[0, 1, 2, 3], 0)] {
+        out.extend(u8::try_from(corners.len()));
+        out.extend(corners.iter().flat_map(|corner| short(*corner)));
+        out.push(uvs);
+        out.extend((0..uvs).flat_map(|i| float(f32::from(i))));
+    }
+    out
+}
+
+fn plys() -> Made {
+    let little = binary_ply(false);
+    let mut claims = little.clone();
+    let at = claims.windows(8).position(|word| word == b"vertex 4").expect("its vertices");
+    claims[at + 7] = b'9';
+    vec![
+        ("bad-binary-cut", cut(&little, 90)),
+        ("bad-binary-claims", claims),
+        ("good-binary-little", little),
+        ("good-binary-big", binary_ply(true)),
+    ]
+}
+
+/// A tetrahedron whose comment begins as a text does.
+fn binary_stl() -> Vec<u8> {
+    let mut out = b"solid as many programs write it".to_vec();
+    out.resize(80, b' ');
+    let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0_f32]];
+    let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    out.extend(4_u32.to_le_bytes());
+    for face in faces {
+        out.extend([0; 12]);
+        out.extend(
+            face.iter().flat_map(|corner: &usize| points[*corner]).flat_map(f32::to_le_bytes),
+        );
+        out.extend([0; 2]);
+    }
+    out
+}
+
+fn stls() -> Made {
+    let good = binary_stl();
+    let mut infinite = good.clone();
+    put(&mut infinite, 96, &f32::INFINITY.to_le_bytes());
+    let mut nameless = good.clone();
+    put(&mut nameless, 0, b"STLB");
+    let mut longer = nameless.clone();
+    longer.extend([0; 7]);
+    vec![
+        ("bad-binary-cut", cut(&nameless, 90)),
+        ("bad-binary-infinite", infinite),
+        ("good-binary", good),
+        ("good-binary-nameless", nameless),
+        ("good-binary-longer", longer),
+    ]
 }
 
 // Images.

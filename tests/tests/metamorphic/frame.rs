@@ -42,7 +42,9 @@ fn scale(scene: &mut Scene, power: i32) {
     }
     for asset in &mut scene.assets {
         match &mut asset.format {
-            AssetFormat::Obj { metres_per_unit, up: _ } => *metres_per_unit *= by,
+            AssetFormat::Obj(frame) | AssetFormat::Ply(frame) | AssetFormat::Stl(frame) => {
+                frame.metres_per_unit *= by;
+            }
             AssetFormat::Gltf => panic!("no case has one"),
         }
     }

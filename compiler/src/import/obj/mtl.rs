@@ -17,9 +17,9 @@
 use super::super::error::{ErrorKind, ImportError};
 use super::super::file::Reader;
 use super::super::image_set::{Alpha, ImageSet};
+use super::super::lines::{numbers_of, split_word, text, uncommented};
 use super::super::material::{ImportedMaterial, MapUse};
 use super::super::report::ImportReport;
-use super::lines::{numbers_of, split_word, text, uncommented};
 use super::parse::Obj;
 use crate::input::Root;
 use files::ShowPath as _;

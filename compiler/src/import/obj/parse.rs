@@ -7,18 +7,13 @@
 use super::super::budget::Loan;
 use super::super::error::{ErrorKind, ImportError, excerpt};
 use super::super::file::Limits;
+use super::super::geometry::{
+    CORNER_BYTES, Face, Geometry, MAX_CORNERS, PartName, Run, State, VALUE_BYTES,
+};
+use super::super::lines::{Lines, MAX_LINE, numbers_of, split_word, text, uncommented, words};
 use super::super::mesh::NO_CORNER;
-use super::lines::{Lines, MAX_LINE, numbers_of, split_word, text, uncommented, words};
 use std::collections::BTreeMap;
 
-/// Most corners of one polygon; bounds the work of cutting it into triangles.
-const MAX_CORNERS: usize = 4096;
-/// Bytes that a position, UV or normal takes: here, in a list that doubles as it grows, and in the table by which a
-/// part numbers it.
-const VALUE_BYTES: u64 = 28;
-/// Bytes that a corner of a face takes at most: its three indices and its share of the face here, copies of the
-/// three values in a part, and its share of the triangles there; lists may have doubled.
-const CORNER_BYTES: u64 = 160;
 /// Bytes of a run, in a list that doubles.
 const RUN_BYTES: u64 = 80;
 /// Bytes beside its letters of a name and of the entry by which it is found.
@@ -37,59 +32,6 @@ pub(super) struct Obj {
     /// Material libraries with their lines.
     pub(super) libraries: Vec<(String, u64)>,
     pub(super) oddities: Oddities,
-}
-
-/// Geometry as the file has it: in its unit, its axes and its order.
-#[derive(Debug, Default)]
-pub(super) struct Geometry {
-    pub(super) positions: Vec<[f32; 3]>,
-    pub(super) uvs: Vec<[f32; 2]>,
-    pub(super) normals: Vec<[f32; 3]>,
-    /// Of all faces one after the other: indices into `positions`, `uvs` and `normals`. UV and normal of a corner
-    /// that has none are `NO_CORNER`; then no corner of its run has them.
-    pub(super) corners: Vec<[u32; 3]>,
-    pub(super) faces: Vec<Face>,
-    /// All faces, in order.
-    pub(super) runs: Vec<Run>,
-}
-
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Face {
-    /// 3 to `MAX_CORNERS`.
-    pub(super) n_corners: u32,
-    /// Its line in the file, for messages.
-    pub(super) line: u32,
-}
-
-/// Consecutive faces with one state.
-#[derive(Debug)]
-pub(super) struct Run {
-    pub(super) state: State,
-    pub(super) n_faces: usize,
-}
-
-/// What holds for a face beside its corners.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct State {
-    /// Index into `Obj::names`.
-    pub(super) name: u32,
-    /// Index into `Obj::materials`.
-    pub(super) material: Option<u32>,
-    /// Corners have UVs.
-    pub(super) has_uv: bool,
-    /// Corners have normals.
-    pub(super) has_normal: bool,
-    /// `s`: `None` where the file does not say, 0 for off.
-    pub(super) smoothing: Option<u32>,
-}
-
-/// Names in force at a face.
-#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct PartName {
-    /// Of the last `o`.
-    pub(super) object: String,
-    /// Of the last `g`, as written.
-    pub(super) groups: String,
 }
 
 /// What the user is warned about; of each kind how often it was met, and the line of the first.
@@ -282,7 +224,7 @@ impl Parser {
         self.state.has_uv = has[1] && !dangles[0];
         self.state.has_normal = has[2] && !dangles[1];
         let line = u32::try_from(self.line).unwrap_or(u32::MAX);
-        self.out.geometry.faces.push(Face { n_corners, line });
+        self.out.geometry.faces.push(Face { n_corners, at: line });
         self.continue_run()
     }
 

@@ -1,6 +1,6 @@
-//! Text becomes logical lines, words and finite numbers; knows no keyword of OBJ or MTL.
+//! Text becomes logical lines, words and finite numbers; knows no keyword of OBJ, MTL or STL.
 
-use super::super::error::{ErrorKind, excerpt};
+use super::error::{ErrorKind, excerpt};
 use std::borrow::Cow;
 
 /// Longest logical line, bytes; no honest line is longer.

@@ -1,25 +1,36 @@
-//! Flat arrays of an OBJ file become parts: polygons cut, triangles judged, missing normals computed.
+//! Geometry of a file becomes parts: polygons cut, triangles judged, missing normals computed.
 
-use super::super::check::{Quality, grow, is_zero, quality, single, unit};
-use super::super::error::{ErrorKind, ImportError};
-use super::super::file::Limits;
-use super::super::mesh::{Attribute, NO_CORNER, Part};
-use super::super::normals::{self, FLAT, Wanting};
-use super::super::polygon;
-use super::super::report::ImportReport;
+use super::budget::Loan;
+use super::check::{Quality, grow, is_zero, quality, single, unit};
+use super::error::{ErrorKind, ImportError};
+use super::file::Limits;
 use super::frame::Frame;
-use super::parse::{Face, Geometry, PartName};
+use super::geometry::{Face, Geometry, PartName};
+use super::mesh::{Attribute, NO_CORNER, Part, keep};
+use super::normals::{self, FLAT, Wanting};
+use super::polygon;
+use super::report::ImportReport;
 use std::collections::BTreeMap;
 
-/// What the parts are made from, beside the faces.
+/// What the parts are made from, beside the geometry.
 pub(super) struct Source<'a> {
     pub(super) file: &'a str,
+    pub(super) faces: Faces,
     pub(super) frame: Frame,
     /// Names that runs refer to.
     pub(super) names: &'a [PartName],
     /// For each material that runs refer to, its index among the imported ones.
     pub(super) material_ids: &'a [Option<u32>],
     pub(super) limits: &'a Limits,
+}
+
+/// How a face is named in messages.
+#[derive(Clone, Copy)]
+pub(super) enum Faces {
+    /// By its line: `file:12`.
+    ByLine,
+    /// By its number: `file: face 12`.
+    ByNumber,
 }
 
 /// A part under construction.
@@ -41,7 +52,11 @@ const NONE_HERE: [u32; 3] = [NO_CORNER; 3];
 
 impl Source<'_> {
     fn place(&self, face: Face) -> String {
-        format!("{}:{}", self.file, face.line)
+        let (file, at) = (self.file, face.at);
+        match self.faces {
+            Faces::ByLine => format!("{file}:{at}"),
+            Faces::ByNumber => format!("{file}: face {at}"),
+        }
     }
 
     fn limit(&self, message: String) -> ImportError {
@@ -65,8 +80,29 @@ impl Source<'_> {
     }
 }
 
-/// Makes the parts, in the order in which their names and materials first appear.
+/// Makes the parts, in the order in which their names and materials first appear, and takes what they need.
 pub(super) fn parts(
+    geometry: Geometry,
+    loan: Loan,
+    source: &Source<'_>,
+    report: &mut ImportReport,
+) -> Result<Vec<Part>, ImportError> {
+    let n_faces = geometry.faces.len();
+    let parts = made(geometry, source, report)?;
+    drop(loan);
+    keep(&parts, source.file, source.limits)?;
+    report.n_triangles = parts.iter().map(|part| part.triangles.len() as u64).sum();
+    if report.n_triangles == 0 {
+        let message = match n_faces {
+            0 => "the file has no faces".to_owned(),
+            n => format!("none of its {n} faces has an area"),
+        };
+        return Err(ImportError::new(ErrorKind::Empty, source.file, message));
+    }
+    Ok(parts)
+}
+
+fn made(
     geometry: Geometry,
     source: &Source<'_>,
     report: &mut ImportReport,
@@ -339,4 +375,4 @@ fn part_names(name: &PartName) -> (String, Vec<String>) {
     (full, aliases)
 }
 
-const _: () = assert!(FLAT == 0, "the parser makes group 0 of `s off`");
+const _: () = assert!(FLAT == 0, "group 0 is the one of faces that are flat");
