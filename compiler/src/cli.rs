@@ -4,6 +4,7 @@
 //! or written, 70 a bug of ours.
 
 mod args;
+mod assets;
 mod bounds;
 mod build;
 mod cache;

@@ -28,6 +28,7 @@ mod ply;
 mod polygon;
 mod report;
 mod stl;
+mod studio;
 mod topology;
 
 pub use self::budget::Budget;
@@ -42,4 +43,5 @@ pub use self::obj::{load_obj, read_obj};
 pub use self::ply::{load_ply, read_ply};
 pub use self::report::{FileRead, Finding, ImportReport, Warning};
 pub use self::stl::{load_stl, read_stl};
+pub use self::studio::{FileCamera, FileLight, LightKind, Studio};
 pub use self::topology::{Topology, topology};

@@ -18,7 +18,7 @@ use pack::manifest::KernelSize;
 use pack::{PackError, PackWriter};
 use shaders::{FeatureSet, LayoutError, Linked, ShaderError};
 
-use crate::import::ImportError;
+use crate::import::{ImportError, MeshFacts};
 use crate::lower::{self, Files as _, Listing, LowerError, Lowered, Rows};
 use crate::stage::{KeyOf, Share, Stages};
 use files::{Origin, SceneFiles};
@@ -177,6 +177,22 @@ pub fn list(
         Some((found, _, _)) => Ok(lower::listing(scene, &found)?),
         None => Err(CompileError::Scene),
     }
+}
+
+/// What is known of the mesh files of a scene, in the order of `Scene::assets`. Faults and warnings are added to
+/// `diagnostics`.
+///
+/// # Errors
+/// `CompileError::Scene` when `diagnostics` has errors, or what kept a file from being read.
+pub fn assets(
+    (scene, sources): (&Scene, &SourceSet),
+    options: &Options<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<Vec<MeshFacts>, CompileError> {
+    let (session, stages) = (Session::once(), Stages::new());
+    let origin = Origin { scene, sources, options, session: &session, stages: &stages };
+    let found = SceneFiles::new(origin, diagnostics)?;
+    found.map_or(Err(CompileError::Scene), |(found, _, _)| Ok(found.assets().to_vec()))
 }
 
 /// Whether the kernel is valid and reads what the compiler writes; then its size.

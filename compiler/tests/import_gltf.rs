@@ -4,7 +4,7 @@
 
 mod import_support;
 
-use compiler::import::{ErrorKind, ImportError, Limits, MeshFile, load_gltf, topology};
+use compiler::import::{ErrorKind, ImportError, LightKind, Limits, MeshFile, load_gltf, topology};
 use import_support::{Builder, glb, tiny_png, triangle};
 use lang::scene::{ColorSpace, Wrap};
 use serde_json::{Value, json};
@@ -524,4 +524,67 @@ fn deep_and_repeated_meshes_stay_within_limits() {
     let limits = Limits { triangles: 4, ..Limits::default() };
     let error = load_gltf(&path, &limits).expect_err("limit");
     assert_eq!(error.kind, ErrorKind::Limit);
+}
+
+#[test]
+fn required_lights_load_and_lights_and_cameras_are_known_where_nodes_place_them() {
+    let mut document = triangle();
+    document.json["extensionsUsed"] = json!(["KHR_lights_punctual"]);
+    document.json["extensionsRequired"] = json!(["KHR_lights_punctual"]);
+    document.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [
+        {"type": "point", "name": "own name", "intensity": 683.0},
+        {"type": "spot", "color": [1, 0.5, 0], "spot": {"outerConeAngle": 0.5}},
+        {"type": "directional"},
+    ]}});
+    document.json["cameras"] =
+        json!([{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}}]);
+    let of = |light: usize| json!({"KHR_lights_punctual": {"light": light}});
+    document.json["nodes"] = json!([
+        {"mesh": 0},
+        {"name": "up here", "translation": [0, 2, 0], "children": [2, 3]},
+        {"translation": [1, 0, 0], "extensions": of(0)},
+        {"name": "Key", "rotation": [-std::f32::consts::FRAC_1_SQRT_2, 0, 0, std::f32::consts::FRAC_1_SQRT_2], "extensions": of(1)},
+        {"extensions": of(2), "camera": 0},
+    ]);
+    document.json["scenes"] = json!([{"nodes": [0, 1, 4]}]);
+    let mesh = load(&document);
+    let [point, spot, sun] = mesh.studio.lights.as_slice() else { panic!("three lights") };
+    assert_eq!(
+        (point.name.as_str(), point.kind, point.at),
+        ("own name", LightKind::Point, [1.0, 2.0, 0.0])
+    );
+    assert_eq!((point.color, point.intensity), ([1.0; 3], 683.0));
+    assert_eq!(
+        (spot.name.as_str(), spot.kind),
+        ("Key", LightKind::Spot { inner: 0.0, outer: 0.5 })
+    );
+    assert!(spot.along[1] < -0.999_999, "turned down: {:?}", spot.along);
+    assert_eq!((sun.kind, sun.along), (LightKind::Directional, [0.0, 0.0, -1.0]));
+    let [camera] = mesh.studio.cameras.as_slice() else { panic!("one camera") };
+    assert_eq!(
+        (camera.vertical_fov, camera.from, camera.up),
+        (Some(0.5), [0.0; 3], [0.0, 1.0, 0.0])
+    );
+    let said: Vec<&str> = mesh.report.warnings.iter().map(|w| w.message.as_str()).collect();
+    let left_out =
+        "3 lights and 1 camera are left out: `rtc show --assets` prints them as text for the scene";
+    assert_eq!(said, [left_out]);
+    let wrong: [(&str, &str); 4] = [
+        (
+            r#"{"type": "point", "intensity": -1}"#,
+            "a.glb: light 0: its colour, intensity or angles are negative or not finite",
+        ),
+        (
+            r#"{"type": "point", "intensity": 1e39}"#,
+            "a.glb: light 0: its colour, intensity or angles are negative or not finite",
+        ),
+        (r#"{"type": "area"}"#, "a.glb: light 0: its type is not directional, point or spot"),
+        ("", "a.glb: light 0: there is no such light"),
+    ];
+    for (light, expected) in wrong {
+        let lights: Value = serde_json::from_str(&format!("[{light}]")).expect("JSON");
+        document.json["extensions"]["KHR_lights_punctual"]["lights"] = lights;
+        let error = load_bytes(&document.glb(), &[]).expect_err(expected).to_string();
+        assert_eq!(error, expected);
+    }
 }

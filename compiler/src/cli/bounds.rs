@@ -21,16 +21,25 @@ pub(super) fn bounds(
     reporter: &Reporter,
 ) -> Result<String, u8> {
     let cache = Cache::disabled();
-    let options = Options {
-        root: args.scene.parent().unwrap_or(Path::new("")),
-        trees: Trees::usual(&cache),
-        limits: args.limits(reporter)?,
-        defines: &args.define,
-    };
+    let options = options(args, &cache, reporter)?;
     let mut diagnostics = Vec::new();
     let listing = pipeline::list((scene, &analysis.sources), &options, &mut diagnostics);
     reporter.diagnostics(&analysis.sources, &diagnostics);
     listing.map(|listing| table(&listing)).map_err(|error| failed(&error, reporter))
+}
+
+/// How the files of a scene are read to look at them only.
+pub(super) fn options<'a>(
+    args: &'a SceneArgs,
+    cache: &'a Cache,
+    reporter: &Reporter,
+) -> Result<Options<'a>, u8> {
+    Ok(Options {
+        root: args.scene.parent().unwrap_or(Path::new("")),
+        trees: Trees::usual(cache),
+        limits: args.limits(reporter)?,
+        defines: &args.define,
+    })
 }
 
 fn table(listing: &Listing) -> String {
@@ -66,7 +75,7 @@ fn table(listing: &Listing) -> String {
 }
 
 /// `(-1, 0, -1)m .. (1, 2, 1)m, 2 x 2 x 2 m`.
-fn place(Bounds { lo, hi }: &Bounds) -> String {
+pub(super) fn place(Bounds { lo, hi }: &Bounds) -> String {
     let number =
         |x: f64| show_number(rounded(x, (hi[0] - lo[0]).max(hi[1] - lo[1]).max(hi[2] - lo[2])));
     let corner = |p: &[f64; 3]| format!("({})m", p.map(number).join(", "));
@@ -75,7 +84,7 @@ fn place(Bounds { lo, hi }: &Bounds) -> String {
 }
 
 /// To about a ten-thousandth of `size`.
-fn rounded(x: f64, size: f64) -> f64 {
+pub(super) fn rounded(x: f64, size: f64) -> f64 {
     if size <= 0.0 || !size.is_finite() {
         return x;
     }

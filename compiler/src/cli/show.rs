@@ -3,6 +3,7 @@
 use clap::Args;
 
 use super::args::{ReportArgs, SCENE, SceneArgs, printed};
+use super::assets::assets;
 use super::bounds::bounds;
 use super::compile::analyze;
 
@@ -16,6 +17,9 @@ pub(super) struct ShowArgs {
     /// Print where everything is: bounds, triangles and parts of every asset and instance.
     #[arg(long, conflicts_with = "resolved")]
     bounds: bool,
+    /// Print what is in the mesh files: parts, materials, sizes, and their lights and cameras as text for the scene.
+    #[arg(long, conflicts_with_all = ["resolved", "bounds"])]
+    assets: bool,
     #[command(flatten)]
     report: ReportArgs,
 }
@@ -32,6 +36,10 @@ pub(super) fn show(args: &ShowArgs) -> u8 {
         let text = bounds(&args.scene, (&analysis, scene), &reporter);
         return text.map_or_else(|code| code, |text| printed(&reporter, &text));
     }
+    if args.assets {
+        let text = assets(&args.scene, (&analysis, scene), &reporter);
+        return text.map_or_else(|code| code, |text| printed(&reporter, &text));
+    }
     let text = if args.resolved { lang::resolved(scene) } else { summary(scene) };
     printed(&reporter, &text)
 }
@@ -41,7 +49,7 @@ fn summary(scene: &lang::scene::Scene) -> String {
     let [width, height] = scene.film.size;
     let output = scene.render.output.as_deref().unwrap_or("named after the pack");
     format!(
-        "instances  {}\nmaterials  {}\ntextures   {}\nassets     {}\nlights     {}\nsky        {}\ncamera     {}\nfilm       {width} x {height} px\nsamples    {}\ndepth      {}\noutput     {output}\n\n`rtc show --resolved` prints every value, `rtc show --bounds` where everything is.\n",
+        "instances  {}\nmaterials  {}\ntextures   {}\nassets     {}\nlights     {}\nsky        {}\ncamera     {}\nfilm       {width} x {height} px\nsamples    {}\ndepth      {}\noutput     {output}\n\n`rtc show --resolved` prints every value, `rtc show --bounds` where everything is, `rtc show --assets` what is in its mesh files.\n",
         scene.instances.len(),
         scene.materials.len(),
         scene.textures.len(),

@@ -11,6 +11,7 @@ use super::image::{Environment, Image, Pixels};
 use super::material::ImportedMaterial;
 use super::mesh::{self, Attribute, MeshFile, Part};
 use super::report::ImportReport;
+use super::studio::Studio;
 
 /// Of a mesh file.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -21,6 +22,8 @@ pub struct MeshFacts {
     pub materials: Vec<ImportedMaterial>,
     /// Of its images, in the same order.
     pub images: Vec<ImageFacts>,
+    /// Its lights and cameras.
+    pub studio: Studio,
     /// What was noticed when it was read.
     pub report: ImportReport,
 }
@@ -76,6 +79,7 @@ impl MeshFacts {
             parts: file.parts.par_iter().map(PartFacts::of).collect(),
             materials: file.materials.clone(),
             images: file.images.par_iter().map(|image| ImageFacts::of(&image.image)).collect(),
+            studio: file.studio.clone(),
             report: file.report.clone(),
         }
     }

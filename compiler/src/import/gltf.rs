@@ -6,7 +6,8 @@
 //!
 //! The scene graph is flattened: each node's mesh is baked into the frame of the file. Mirroring
 //! transforms turn triangles round, so that outside stays outside. `v` is flipped, because glTF
-//! counts it downwards. Cameras, lights, skins, morph targets and animations are not read.
+//! counts it downwards. Lights and cameras are read, for people to copy into their scene; skins, morph targets and
+//! animations are not.
 
 mod accessor;
 mod bake;
@@ -15,8 +16,10 @@ mod document;
 mod layers;
 mod maps;
 mod material;
+mod matrix;
 mod node;
 mod primitive;
+mod studio;
 
 use self::container::Images;
 use self::document::Document;
@@ -25,12 +28,14 @@ use super::file::{Limits, Reader, read_file};
 use super::image_set::ImageSet;
 use super::mesh::{MeshFile, keep};
 use super::report::ImportReport;
+use super::studio::Studio;
 use ::gltf::json::{Accessor, Material, Root, deserialize, mesh, scene};
 use files::ShowPath as _;
 use std::path::Path;
 
 /// Extensions that are understood.
-const SUPPORTED: [&str; 9] = [
+const SUPPORTED: [&str; 10] = [
+    "KHR_lights_punctual",
     "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
@@ -61,7 +66,8 @@ pub fn read_gltf(bytes: &[u8], path: &Path, limits: &Limits) -> Result<MeshFile,
     warn_about(&document, &mut report);
     let folder = path.parent().unwrap_or(Path::new(""));
     let buffers = container::buffers(&document, chunk, folder, &mut reader)?;
-    let placed = node::placed_meshes(&document)?;
+    let (placed, studio) = node::walk(&document)?;
+    warn_about_studio(&studio, &document, &mut report);
     let table = primitive::Table::new(&document, &placed, &mut reader, &mut report)?;
     let mut images = ImageSet::default();
     let mut source = Images { document: &document, buffers: &buffers, folder, reader };
@@ -80,7 +86,7 @@ pub fn read_gltf(bytes: &[u8], path: &Path, limits: &Limits) -> Result<MeshFile,
         return Err(ImportError::new(ErrorKind::Empty, file, message));
     }
     let materials = materials.into_iter().map(|material| material.imported).collect();
-    Ok(MeshFile { parts, materials, images, report })
+    Ok(MeshFile { parts, materials, images, studio, report })
 }
 
 fn parse(json: &[u8], file: &str) -> Result<Root, ImportError> {
@@ -161,15 +167,29 @@ fn warn_about(document: &Document<'_>, report: &mut ImportReport) {
         report.warn(document.file, message);
     }
     let n_skinned = root.nodes.iter().filter(|node| node.skin.is_some()).count();
-    let n_cameras = root.nodes.iter().filter(|node| node.camera.is_some()).count();
     let left_out = [
         (root.animations.len(), "animations are left out: the mesh is as it is stored"),
         (n_skinned, "skinned nodes are taken in the pose in which they are stored"),
-        (n_cameras, "cameras are left out: the scene declares its own"),
     ];
     for (count, what) in left_out {
         if count > 0 {
             report.warn(document.file, format!("{count} {what}"));
         }
+    }
+}
+
+/// Says that lights and cameras are left out, and where they are to be had.
+fn warn_about_studio(studio: &Studio, document: &Document<'_>, report: &mut ImportReport) {
+    let counted = [(studio.lights.len(), "light"), (studio.cameras.len(), "camera")];
+    let found = counted.into_iter().filter(|(count, _)| *count > 0);
+    let named =
+        |(n, one): (usize, &str)| if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") };
+    let list: Vec<String> = found.map(named).collect();
+    if !list.is_empty() {
+        let n = studio.lights.len() + studio.cameras.len();
+        let (verb, them) = if n == 1 { ("is", "it") } else { ("are", "them") };
+        let what = list.join(" and ");
+        let help = format!("`rtc show --assets` prints {them} as text for the scene");
+        report.warn(document.file, format!("{what} {verb} left out: {help}"));
     }
 }

@@ -4,6 +4,7 @@ use super::error::ImportError;
 use super::file::Limits;
 use super::material::{ImportedImage, ImportedMaterial};
 use super::report::ImportReport;
+use super::studio::Studio;
 use std::collections::BTreeSet;
 
 /// A mesh file in memory.
@@ -15,6 +16,8 @@ pub struct MeshFile {
     pub materials: Vec<ImportedMaterial>,
     /// Images that materials refer to.
     pub images: Vec<ImportedImage>,
+    /// Lights and cameras, which are not used.
+    pub studio: Studio,
     /// What was noticed on the way.
     pub report: ImportReport,
 }

@@ -17,6 +17,7 @@ use super::frame::Frame;
 use super::image_set::ImageSet;
 use super::mesh::MeshFile;
 use super::report::ImportReport;
+use super::studio::Studio;
 use files::ShowPath as _;
 use lang::scene::Axis;
 use std::path::Path;
@@ -68,7 +69,7 @@ pub fn read_obj(
     let parts = build::parts(obj.geometry, loan, &source, &mut report)?;
     let images = images.decode(limits, &mut report)?;
     report.files = reader.finish();
-    Ok(MeshFile { parts, materials: library.materials, images, report })
+    Ok(MeshFile { parts, materials: library.materials, images, studio: Studio::default(), report })
 }
 
 fn warn_about(odd: &Oddities, file: &str, report: &mut ImportReport) {

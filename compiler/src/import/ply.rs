@@ -16,6 +16,7 @@ use super::frame::Frame;
 use super::geometry::PartName;
 use super::mesh::MeshFile;
 use super::report::ImportReport;
+use super::studio::Studio;
 use files::ShowPath as _;
 use lang::scene::Axis;
 use std::path::Path;
@@ -73,7 +74,13 @@ pub fn read_ply(
     };
     let parts = build::parts(rows.geometry, loan, &source, &mut report)?;
     report.files = reader.finish();
-    Ok(MeshFile { parts, materials: Vec::new(), images: Vec::new(), report })
+    Ok(MeshFile {
+        parts,
+        materials: Vec::new(),
+        images: Vec::new(),
+        studio: Studio::default(),
+        report,
+    })
 }
 
 fn warn_about(header: &Header<'_>, file: &str, report: &mut ImportReport) {

@@ -15,6 +15,7 @@ use super::geometry::{CORNER_BYTES, Face, Geometry, PartName, Run, State, VALUE_
 use super::lines::{Lines, MAX_LINE, numbers_of, split_word, text};
 use super::mesh::{MeshFile, NO_CORNER};
 use super::report::ImportReport;
+use super::studio::Studio;
 use files::ShowPath as _;
 use lang::scene::Axis;
 use std::collections::BTreeMap;
@@ -77,7 +78,13 @@ pub fn read_stl(
     };
     let parts = build::parts(solids.geometry, solids.loan, &source, &mut report)?;
     report.files = reader.finish();
-    Ok(MeshFile { parts, materials: Vec::new(), images: Vec::new(), report })
+    Ok(MeshFile {
+        parts,
+        materials: Vec::new(),
+        images: Vec::new(),
+        studio: Studio::default(),
+        report,
+    })
 }
 
 /// The triangles of a binary file; `None` for one that is text, or nothing of the kind.

@@ -1,16 +1,16 @@
-//! The scene graph becomes a list of meshes with their matrices and names.
+//! The scene graph becomes a list of meshes with their matrices and names, and its lights and cameras.
 
 use super::super::error::{ErrorKind, ImportError};
+use super::super::studio::Studio;
 use super::document::Document;
+use super::matrix::{IDENTITY, Matrix, product};
+use super::studio;
 use ::gltf::json::{Index, Node};
 
 /// Deepest nesting; real files stay below 50.
 const MAX_DEPTH: usize = 256;
 /// Longest name that is kept, in characters.
 const MAX_NAME: usize = 256;
-
-/// Rows of an affine matrix.
-pub(super) type Matrix = [[f64; 4]; 3];
 
 /// A mesh where the scene has it.
 pub(super) struct Placed {
@@ -40,17 +40,15 @@ enum Reached {
     From(usize),
 }
 
-const IDENTITY: Matrix = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
-
-/// All meshes of the default scene, depth first, in the order of the file. Without a default scene
+/// All meshes, lights and cameras of the default scene, depth first, in the order of the file. Without a default scene
 /// the first one is taken, and without scenes every node that is nobody's child.
-pub(super) fn placed_meshes(document: &Document<'_>) -> Result<Vec<Placed>, ImportError> {
+pub(super) fn walk(document: &Document<'_>) -> Result<(Vec<Placed>, Studio), ImportError> {
     let root = document.root;
     let mut stack: Vec<Visit> = Vec::new();
     let start = |node| Visit { node, parent: None, depth: 0, file_from_parent: IDENTITY };
     stack.extend(roots(document)?.into_iter().rev().map(start));
     let mut parents: Vec<Reached> = vec![Reached::Not; root.nodes.len()];
-    let mut placed = Vec::new();
+    let (mut placed, mut studio) = (Vec::new(), Studio::default());
     while let Some(visit) = stack.pop() {
         let index = visit.node.value();
         let what = format!("node {index}");
@@ -79,6 +77,7 @@ pub(super) fn placed_meshes(document: &Document<'_>) -> Result<Vec<Placed>, Impo
             let (path, unnamed) = path_of(document, &parents, index);
             placed.push(Placed { mesh: mesh.value(), file_from_mesh: matrix, path, unnamed });
         }
+        studio::collect(document, node, &matrix, &mut studio)?;
         let children = node.children.iter().flatten().rev().map(|child| Visit {
             node: *child,
             parent: Some(index),
@@ -87,7 +86,7 @@ pub(super) fn placed_meshes(document: &Document<'_>) -> Result<Vec<Placed>, Impo
         });
         stack.extend(children);
     }
-    Ok(placed)
+    Ok((placed, studio))
 }
 
 fn roots(document: &Document<'_>) -> Result<Vec<Index<Node>>, ImportError> {
@@ -164,13 +163,4 @@ fn rotation_matrix(q: [f64; 4]) -> Option<[[f64; 3]; 3]> {
         [2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)],
         [2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)],
     ])
-}
-
-/// `a` after `b`.
-fn product(a: &Matrix, b: &Matrix) -> Matrix {
-    let entry = |row: &[f64; 4], column: usize| {
-        let sum: f64 = (0..3).map(|k| row[k] * b[k][column]).sum();
-        if column == 3 { sum + row[3] } else { sum }
-    };
-    a.map(|row| [0, 1, 2, 3].map(|column| entry(&row, column)))
 }

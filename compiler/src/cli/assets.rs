@@ -1,0 +1,250 @@
+//! `rtc show --assets`: what is in the mesh files of a scene, and their lights and cameras as text to paste.
+
+use std::collections::BTreeSet;
+use std::f64::consts::PI;
+use std::fmt::Write as _;
+
+use lang::Analysis;
+use lang::scene::Scene;
+use lang::units::show_number;
+
+use super::args::SceneArgs;
+use super::bounds::{options, place, rounded};
+use super::compile::failed;
+use crate::cache::Cache;
+use crate::import::{FileCamera, FileLight, LightKind, MeshFacts, PartFacts};
+use crate::lower::Bounds;
+use crate::pipeline;
+use crate::report::Reporter;
+
+/// Lumens in a watt, as programs take it that turn the one into the other without a spectrum.
+const LUMENS_PER_WATT: f64 = 683.0;
+/// Radius of the ball that stands for a point, metres.
+const POINT: f64 = 0.02;
+/// Half the angle that the sun fills, degrees.
+const SUN: f64 = 0.265;
+
+/// The text; what is wrong with a file is reported and becomes an exit code.
+pub(super) fn assets(
+    args: &SceneArgs,
+    (analysis, scene): (&Analysis, &Scene),
+    reporter: &Reporter,
+) -> Result<String, u8> {
+    let cache = Cache::disabled();
+    let options = options(args, &cache, reporter)?;
+    let mut diagnostics = Vec::new();
+    let found = pipeline::assets((scene, &analysis.sources), &options, &mut diagnostics);
+    reporter.diagnostics(&analysis.sources, &diagnostics);
+    let facts = found.map_err(|error| failed(&error, reporter))?;
+    let mut text = String::new();
+    for (asset, facts) in scene.assets.iter().zip(&facts) {
+        describe(&mut text, &asset.name.text, &asset.path, facts);
+    }
+    if text.is_empty() {
+        text.push_str("no instance shows a mesh file\n");
+    }
+    Ok(text)
+}
+
+fn describe(text: &mut String, name: &str, path: &str, facts: &MeshFacts) {
+    let bounds = |part: &PartFacts| Bounds::of(part.bounds.map(|corner| corner.map(f64::from)));
+    let whole = Bounds::union(facts.parts.iter().filter_map(bounds));
+    let n_triangles: usize = facts.parts.iter().map(|part| part.n_triangles).sum();
+    let size = whole.as_ref().map_or("nothing".to_owned(), place);
+    let _ =
+        writeln!(text, "asset {name}  \"{path}\"\n  {}  {size}", count(n_triangles, "triangle"));
+    let material =
+        |part: &PartFacts| match part.material.and_then(|i| facts.materials.get(i as usize)) {
+            Some(material) => format!("material \"{}\"", shown(&material.name)),
+            None => "no material".to_owned(),
+        };
+    let rows = facts.parts.iter().map(|part| {
+        let size = bounds(part).as_ref().map_or("nothing".to_owned(), place);
+        let triangles = count(part.n_triangles, "triangle");
+        [format!("part \"{}\"", shown(&part.name)), material(part), triangles, size]
+    });
+    table(text, &rows.collect::<Vec<_>>());
+    let rows = facts.materials.iter().enumerate().map(|(index, material)| {
+        let of_it = |part: &&PartFacts| part.material.is_some_and(|i| i as usize == index);
+        let parts: Vec<&PartFacts> = facts.parts.iter().filter(of_it).collect();
+        let triangles = parts.iter().map(|part| part.n_triangles).sum();
+        let name = format!("material \"{}\"", shown(&material.name));
+        [name, count(parts.len(), "part"), count(triangles, "triangle"), String::new()]
+    });
+    table(text, &rows.collect::<Vec<_>>());
+    let mut names = Names::default();
+    let size = whole.map_or(1.0, |Bounds { lo, hi }| length([0, 1, 2].map(|k| hi[k] - lo[k])));
+    let middle = whole.map_or([0.0; 3], |bounds| bounds.middle());
+    for light in &facts.studio.lights {
+        let what = match light.kind {
+            LightKind::Point => "point",
+            LightKind::Spot { .. } => "spot",
+            LightKind::Directional => "directional",
+        };
+        let _ = writeln!(text, "  light \"{}\", {what}:", shown(&light.name));
+        let _ = writeln!(text, "    {}", light_text(light, &names.of(&light.name, "lamp"), size));
+    }
+    for camera in &facts.studio.cameras {
+        let _ = writeln!(text, "  camera \"{}\":", shown(&camera.name));
+        let name = names.of(&camera.name, "eye");
+        let _ = writeln!(text, "    {}", camera_text(camera, &name, size, middle));
+    }
+}
+
+fn count(n: usize, one: &str) -> String {
+    if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") }
+}
+
+/// A name of a file: control characters never reach a terminal.
+fn shown(name: &str) -> String {
+    name.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
+}
+
+/// Columns of one width each.
+fn table(text: &mut String, rows: &[[String; 4]]) {
+    let width = |k: usize| rows.iter().map(|row| row[k].chars().count()).max().unwrap_or(0);
+    let widths = [0, 1, 2].map(width);
+    for [a, b, c, d] in rows {
+        let [wide_a, wide_b, wide_c] = widths;
+        let line = format!("  {a:<wide_a$}  {b:<wide_b$}  {c:<wide_c$}  {d}");
+        let _ = writeln!(text, "{}", line.trim_end());
+    }
+}
+
+/// Names of declarations, each once.
+#[derive(Default)]
+struct Names(BTreeSet<String>);
+
+impl Names {
+    /// What `name` of a file becomes, or `kind` if nothing of it can be a name.
+    fn of(&mut self, name: &str, kind: &str) -> String {
+        let word = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
+        let plain: String = name.chars().map(word).collect();
+        let plain = plain.trim_matches('_');
+        // With the kind in front it is neither a number nor a word of the language.
+        let base = if plain.is_empty() { kind.to_owned() } else { format!("{kind}_{plain}") };
+        let mut free = base.clone();
+        let mut n = 1;
+        while !self.0.insert(free.clone()) {
+            n += 1;
+            free = format!("{base}_{n}");
+        }
+        free
+    }
+}
+
+fn light_text(light: &FileLight, name: &str, size: f64) -> String {
+    let color = light.color.map(|c| show_number(rounded(c, 1.0))).join(", ");
+    let at = vector(light.at, size);
+    let watts = light.intensity / LUMENS_PER_WATT;
+    let number = |x: f64| show_number(rounded(x, x));
+    let lamp = || {
+        let power = number(4.0 * PI * watts);
+        let radius = number(100.0 * POINT);
+        format!(
+            "light {name}: sphere {{ center = {at}m, radius = {radius}cm, color = linear({color}), power = {power} }}"
+        )
+    };
+    match light.kind {
+        LightKind::Point => lamp(),
+        LightKind::Spot { outer, .. } => {
+            let (angle, along) = (number(2.0 * outer.to_degrees()), vector(light.along, 1.0));
+            format!(
+                "// It shines along {along} into a cone of {angle}deg; this ball does into all directions.\n    {}",
+                lamp()
+            )
+        }
+        LightKind::Directional => {
+            let towards = vector(light.along.map(|x| -x), 1.0);
+            let sine = libm::sin(SUN.to_radians());
+            let strength = number(watts / (PI * sine * sine));
+            format!(
+                "light {name}: sphere {{ direction = {towards}, distance = 1km, angular_radius = {SUN}deg, \
+                 color = linear({color}), strength = {strength} }}"
+            )
+        }
+    }
+}
+
+fn camera_text(camera: &FileCamera, name: &str, size: f64, middle: [f64; 3]) -> String {
+    let Some(fov) = camera.vertical_fov else {
+        return "// It is orthographic; cameras of a scene are not.".to_owned();
+    };
+    // It looks at what is in the middle of the file, as far as it looks that way.
+    let to_middle = [0, 1, 2].map(|k| middle[k] - camera.from[k]);
+    let ahead: f64 = (0..3).map(|k| to_middle[k] * camera.along[k]).sum();
+    let ahead = if ahead > 1e-3 * size { ahead } else { size.max(1e-3) };
+    let to = [0, 1, 2].map(|k| camera.from[k] + ahead * camera.along[k]);
+    let upright = camera.up[0].abs() < 1e-4 && camera.along[1].abs() < 0.999 && camera.up[1] > 0.0;
+    let level = camera.along[0] * camera.up[2] - camera.along[2] * camera.up[0];
+    let up = if upright && level.abs() < 1e-4 {
+        String::new()
+    } else {
+        format!(", up = {}", vector(camera.up, 1.0))
+    };
+    format!(
+        "camera {name}: perspective {{ from = {}m, to = {}m{up}, fov.vertical = {}deg }}",
+        vector(camera.from, size),
+        vector(to, size),
+        show_number(rounded(fov.to_degrees(), 100.0))
+    )
+}
+
+/// `(0, 1, 2.5)`, to about a ten-thousandth of `size`.
+fn vector(v: [f64; 3], size: f64) -> String {
+    format!("({})", v.map(|x| show_number(rounded(x, size.max(length(v))))).join(", "))
+}
+
+fn length(v: [f64; 3]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn light(kind: LightKind) -> FileLight {
+        let (color, at, along) = ([1.0, 0.5, 0.25], [2.0, 2.0, -2.0], [0.0, -1.0, 0.0]);
+        FileLight { name: "Key Light".to_owned(), kind, color, intensity: 683.0, at, along }
+    }
+
+    #[test]
+    fn lights_become_balls_that_give_off_as_much() {
+        let point = "light k: sphere { center = (2, 2, -2)m, radius = 2cm, color = linear(1, 0.5, 0.25), power = 12.566 }";
+        assert_eq!(light_text(&light(LightKind::Point), "k", 4.0), point);
+        let spot = LightKind::Spot { inner: 0.0, outer: PI / 8.0 };
+        let note = "// It shines along (0, -1, 0) into a cone of 45deg; this ball does into all directions.\n    ";
+        assert_eq!(light_text(&light(spot), "k", 4.0), format!("{note}{point}"));
+        // One W/m2 at a right angle: pi sin^2(0.265 deg) times the radiance.
+        let sun = "light k: sphere { direction = (0, 1, 0), distance = 1km, angular_radius = 0.265deg, \
+                   color = linear(1, 0.5, 0.25), strength = 14880 }";
+        assert_eq!(light_text(&light(LightKind::Directional), "k", 4.0), sun);
+    }
+
+    #[test]
+    fn cameras_look_at_the_middle_and_say_where_up_is_if_they_are_tilted() {
+        let mut camera = FileCamera {
+            name: String::new(),
+            vertical_fov: Some(PI / 4.0),
+            from: [0.0, 1.0, 5.0],
+            along: [0.0, 0.0, -1.0],
+            up: [0.0, 1.0, 0.0],
+        };
+        let found = camera_text(&camera, "eye", 2.0, [0.0; 3]);
+        assert_eq!(
+            found,
+            "camera eye: perspective { from = (0, 1, 5)m, to = (0, 1, 0)m, fov.vertical = 45deg }"
+        );
+        camera.up = [1.0, 0.0, 0.0];
+        assert!(camera_text(&camera, "eye", 2.0, [0.0; 3]).contains(", up = (1, 0, 0), fov"));
+        camera.vertical_fov = None;
+        assert!(camera_text(&camera, "eye", 2.0, [0.0; 3]).starts_with("//"));
+    }
+
+    #[test]
+    fn names_are_words_and_differ() {
+        let mut names = Names::default();
+        let found = ["Key Light", "key-light", "", "7", "in"].map(|name| names.of(name, "lamp"));
+        assert_eq!(found, ["lamp_key_light", "lamp_key_light_2", "lamp", "lamp_7", "lamp_in"]);
+    }
+}
