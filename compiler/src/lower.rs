@@ -13,6 +13,7 @@ pub mod albedo;
 mod bounds;
 mod camera;
 mod closed;
+mod edited;
 mod extent;
 mod files;
 mod finish;
@@ -66,6 +67,7 @@ use crate::normalize::Normalization;
 use crate::stage::Stages;
 
 pub use bounds::Bounds;
+pub use edited::edited;
 pub use files::{Files, Meshes};
 pub use fit::framed;
 pub use listing::{Listed, Listing, listing};

@@ -129,6 +129,11 @@ pub fn compile_after(
         return Err(CompileError::Scene);
     };
     clock.phase("read files");
+    let edited = lower::edited(scene, found.assets(), diagnostics);
+    if diagnostics.iter().any(Diagnostic::is_error) {
+        return Err(CompileError::Scene);
+    }
+    let scene = edited.as_ref().unwrap_or(scene);
     let framed = lower::framed(scene, found.assets(), diagnostics);
     if scene.camera.fit.is_some() && framed.is_none() {
         return Err(CompileError::Scene);
@@ -174,7 +179,13 @@ pub fn list(
     let (session, stages) = (Session::once(), Stages::new());
     let origin = Origin { scene, sources, options, session: &session, stages: &stages };
     match SceneFiles::new(origin, diagnostics)? {
-        Some((found, _, _)) => Ok(lower::listing(scene, &found)?),
+        Some((found, _, _)) => {
+            let edited = lower::edited(scene, found.assets(), diagnostics);
+            if diagnostics.iter().any(Diagnostic::is_error) {
+                return Err(CompileError::Scene);
+            }
+            Ok(lower::listing(edited.as_ref().unwrap_or(scene), &found)?)
+        }
         None => Err(CompileError::Scene),
     }
 }

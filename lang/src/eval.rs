@@ -18,6 +18,7 @@ mod advice;
 mod binding;
 mod call;
 pub(crate) mod color;
+mod edit;
 pub(crate) mod function;
 mod literal;
 mod operator;
@@ -220,6 +221,7 @@ impl<'p> Evaluator<'p> {
                 let value = self.eval(base, scope);
                 self.member(&value, name)
             }
+            ExprKind::Edited { base, edits } => self.edited(base, edits, scope),
             ExprKind::Negate(inner) => self.negate(inner, scope),
             ExprKind::Binary { op, op_span, left, right } => {
                 self.binary((*op, *op_span), left, right, scope)

@@ -13,6 +13,7 @@ use std::fmt::{self, Write as _};
 use crate::material::Shown;
 use crate::scene::{AssetFormat, Axis, Camera, FileFrame, Instance, Light, Scene, Shape, Wrap};
 use crate::schema::color_text;
+use crate::shape::MeshEdit;
 use crate::units::{self, Dim};
 
 /// Every declaration of the scene, sorted by kind and name.
@@ -114,12 +115,13 @@ fn block(out: &mut String, head: &str, fields: &[(&str, String)]) -> fmt::Result
 
 fn instance_fields(scene: &Scene, instance: &Instance) -> Vec<(&'static str, String)> {
     let shape = match (&instance.shape, instance.shape.shown()) {
-        (Shape::Mesh { asset, part }, _) => {
+        (Shape::Mesh { asset, parts }, _) => {
             let asset = scene.assets.get(*asset).map_or("", |asset| asset.name.text.as_str());
-            match part {
+            let shape = match parts.name() {
                 Some(part) => format!("{asset}.part(\"{part}\")"),
                 None => asset.to_owned(),
-            }
+            };
+            shape + &edits(scene, instance)
         }
         (_, shown) => shown.unwrap_or_default(),
     };
@@ -141,6 +143,19 @@ fn instance_fields(scene: &Scene, instance: &Instance) -> Vec<(&'static str, Str
         fields.push(("velocity", vector(instance.velocity, "m/s")));
     }
     fields
+}
+
+/// What is changed of a mesh file, behind its name.
+fn edits(scene: &Scene, instance: &Instance) -> String {
+    let edit = |edit: &MeshEdit<usize>| {
+        let material = edit.material.and_then(|material| scene.materials.get(material));
+        let material = material.map_or("none", |material| material.name.text.as_str());
+        format!("{} \"{}\" = {material}", edit.of.word(), edit.pattern)
+    };
+    if instance.edits.is_empty() {
+        return String::new();
+    }
+    format!(" {{ {} }}", instance.edits.iter().map(edit).collect::<Vec<_>>().join(", "))
 }
 
 fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {

@@ -24,7 +24,7 @@ pub use crate::material::{
     Color, Inside, Material, MaterialModel, NormalMap, Pattern, Principled, Scalar,
 };
 pub use crate::medium::{Medium, MediumModel};
-pub use crate::shape::Shape;
+pub use crate::shape::{EditOf, MeshEdit, Parts, Shape};
 pub use crate::sky::{Sky, SkyModel};
 
 /// A whole checked scene.

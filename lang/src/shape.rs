@@ -4,7 +4,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::schema::{Bounds, Default, Field, FieldType, Kind, TypeSchema, types};
+use crate::schema::{Bounds, Default, Field, FieldType, Kind, TypeSchema, types, words};
+use crate::source::Span;
 use crate::units::{self, Dim};
 
 types!(ShapeType { Sphere = SPHERE, Rectangle = RECTANGLE, Box = BOX });
@@ -30,13 +31,60 @@ pub enum Shape {
         /// Sizes along x, y, z.
         size: [f64; 3],
     },
-    /// A mesh file, or one named part of it (OBJ group or object; glTF node or mesh).
+    /// A mesh file, or parts of it (OBJ group or object; solid of STL; glTF node or mesh).
     Mesh {
         /// Index into `Scene::assets`.
         asset: usize,
-        /// Name of the part as written after the dot; `None` is the whole file.
-        part: Option<String>,
+        /// Which of its parts.
+        parts: Parts,
     },
+}
+
+/// Which parts of a mesh file.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Parts {
+    /// All.
+    All,
+    /// Those of a name, as written after the dot.
+    Named(String),
+    /// Those with these indices, ascending: what is left when others look different. No text says this.
+    Listed(Vec<usize>),
+}
+
+impl Parts {
+    /// The name that is written.
+    #[must_use]
+    pub fn name(&self) -> Option<&str> {
+        match self {
+            Self::Named(name) => Some(name),
+            Self::All | Self::Listed(_) => None,
+        }
+    }
+}
+
+/// A change of what a mesh file shows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeshEdit<M> {
+    /// What `pattern` names.
+    pub of: EditOf,
+    /// Names in the file that it holds for: `*` stands for any letters, `?` for one.
+    pub pattern: String,
+    /// Where the pattern stands.
+    pub pattern_span: Span,
+    /// What these parts are made of; `None`: they are left out.
+    pub material: Option<M>,
+    /// Where the material is named.
+    pub material_span: Span,
+}
+
+words! {
+    /// What the pattern of a change names.
+    pub enum EditOf {
+        /// Materials of the file.
+        Material = "material" "what is made of a material of the file",
+        /// Its parts.
+        Part = "part" "parts of the file",
+    }
 }
 
 impl Shape {

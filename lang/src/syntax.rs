@@ -306,6 +306,13 @@ pub enum ExprKind {
         /// Right of the dot.
         name: Ident,
     },
+    /// `car { material "paint*" = red }`
+    Edited {
+        /// What is changed.
+        base: Box<Expr>,
+        /// The changes.
+        edits: Vec<Edit>,
+    },
     /// `-x`
     Negate(Box<Expr>),
     /// `a + b`
@@ -389,6 +396,17 @@ pub struct Entry {
     /// Left of the colon.
     pub key: Option<Box<Expr>>,
     /// The value.
+    pub value: Expr,
+}
+
+/// A change of a mesh file: `material "paint*" = red`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Edit {
+    /// `material`, `part`.
+    pub kind: Ident,
+    /// Names in the file that it holds for.
+    pub pattern: Text,
+    /// Right of `=`.
     pub value: Expr,
 }
 

@@ -40,6 +40,13 @@ fn show(expr: &Expr) -> String {
         ),
         ExprKind::Path(path) => format!("path:{}", path.text()),
         ExprKind::Member { base, name } => format!("({}).{}", show(base), name.text),
+        ExprKind::Edited { base, edits } => format!(
+            "{} edited({})",
+            show(base),
+            join(edits.iter().map(|edit| {
+                format!("{} {:?} = {}", edit.kind.text, edit.pattern.text, show(&edit.value))
+            }))
+        ),
         ExprKind::Negate(value) => format!("neg({})", show(value)),
         ExprKind::Binary { op, left, right, .. } => {
             format!("({} {} {})", show(left), op.symbol(), show(right))

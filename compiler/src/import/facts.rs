@@ -4,6 +4,7 @@
 //! something new is made of its triangles or texels. Contents are named by what was read, not by the file: another
 //! material in a file is no other mesh.
 
+use lang::scene::Parts;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -90,10 +91,14 @@ impl MeshFacts {
         mesh::find(&self.parts, |part| (&part.name, &part.aliases), name)
     }
 
-    /// The parts that a shape names, or all.
+    /// The parts that a shape shows.
     #[must_use]
-    pub fn chosen(&self, name: Option<&str>) -> Vec<usize> {
-        name.map_or_else(|| (0..self.parts.len()).collect(), |name| self.find_parts(name))
+    pub fn chosen(&self, parts: &Parts) -> Vec<usize> {
+        match parts {
+            Parts::All => (0..self.parts.len()).collect(),
+            Parts::Named(name) => self.find_parts(name),
+            Parts::Listed(list) => list.clone(),
+        }
     }
 
     /// As [`MeshFile::part_names`].

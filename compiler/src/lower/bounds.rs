@@ -65,12 +65,12 @@ impl Bounds {
 /// The corners of boxes around an instance, which are turned as it is; nothing where it has no extent.
 pub(super) fn corners(instance: &Instance, assets: &[MeshFacts]) -> Vec<[f64; 3]> {
     let boxes = match &instance.shape {
-        Shape::Mesh { asset, part } => {
-            let parts = assets.get(*asset).map_or_else(Vec::new, |file| {
-                let chosen = file.chosen(part.as_deref());
+        Shape::Mesh { asset, parts } => {
+            let boxes = assets.get(*asset).map_or_else(Vec::new, |file| {
+                let chosen = file.chosen(parts);
                 chosen.iter().map(|part| file.parts[*part].bounds).collect()
             });
-            let known = parts.into_iter().filter(|[lo, hi]| lo[0] <= hi[0]);
+            let known = boxes.into_iter().filter(|[lo, hi]| lo[0] <= hi[0]);
             known.map(|corners| corners.map(|corner| corner.map(f64::from))).collect()
         }
         Shape::Sphere { .. } | Shape::Rectangle { .. } | Shape::Box { .. } => {
@@ -105,9 +105,9 @@ pub(super) fn tight(instance: &Instance, assets: &[MeshFacts], meshes: &Meshes) 
             Bounds::of([end(-1.0), end(1.0)])
         }
         Shape::Rectangle { .. } | Shape::Box { .. } => Bounds::of(corners(instance, assets)),
-        Shape::Mesh { asset, part } => {
+        Shape::Mesh { asset, parts } => {
             let (file, facts) = (meshes.get(asset)?, assets.get(*asset)?);
-            let chosen = facts.chosen(part.as_deref());
+            let chosen = facts.chosen(parts);
             let points = chosen.iter().flat_map(|part| &file.parts[*part].positions);
             Bounds::of(points.map(|p| place(instance, p.map(f64::from))))
         }
@@ -120,9 +120,9 @@ pub(super) fn triangles(instance: &Instance, assets: &[MeshFacts]) -> Option<u64
         Shape::Sphere { .. } => None,
         Shape::Rectangle { .. } => Some(2),
         Shape::Box { .. } => Some(12),
-        Shape::Mesh { asset, part } => {
+        Shape::Mesh { asset, parts } => {
             let file = assets.get(*asset)?;
-            let chosen = file.chosen(part.as_deref());
+            let chosen = file.chosen(parts);
             Some(chosen.iter().map(|part| file.parts[*part].n_triangles as u64).sum())
         }
     }

@@ -2,7 +2,7 @@
 
 use lang::diagnostic::{Code, Diagnostic};
 use lang::material::Traits as _;
-use lang::scene::{Instance, Scene, Shape};
+use lang::scene::{Instance, Parts, Scene, Shape};
 
 use super::files::Files;
 use crate::import::{ImportError, Topology, topology};
@@ -33,8 +33,8 @@ pub(super) fn check(
         if let Some(what) = instance.shape.open() {
             diagnostics.push(open(instance, &filling, format!("{what} has no inside")));
         }
-        let Shape::Mesh { asset, part } = &instance.shape else { continue };
-        let found = surface(*asset, part.as_deref(), (files, stages))?;
+        let Shape::Mesh { asset, parts } = &instance.shape else { continue };
+        let found = surface(*asset, parts, (files, stages))?;
         if found.boundary_edges > 0 {
             diagnostics.push(open(instance, &filling, holes(&found)));
         } else if found.signed_volume < 0.0 {
@@ -44,14 +44,14 @@ pub(super) fn check(
     Ok(())
 }
 
-/// The surface that the parts of a file form which a shape names.
+/// The surface that the parts of a file form which a shape shows.
 pub(super) fn surface(
     asset: usize,
-    part: Option<&str>,
+    parts: &Parts,
     (files, stages): (&dyn Files, &Stages),
 ) -> Result<Topology, ImportError> {
     let facts = &files.assets()[asset];
-    let parts = facts.chosen(part);
+    let parts = facts.chosen(parts);
     let mut key = KeyOf::stage("topology");
     for part in &parts {
         key.bytes(&facts.parts[*part].content);

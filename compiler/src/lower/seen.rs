@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 use lang::diagnostic::{Code, Diagnostic};
-use lang::scene::{Camera, Scene, Shape};
+use lang::scene::{Camera, Parts, Scene, Shape};
 use lang::units;
 use pack::abi::NONE;
 
@@ -184,27 +184,27 @@ impl Look<'_> {
             }
             Form::Mesh(_) | Form::Stored(..) => {
                 let instance = self.scene.instances.get(body.object as usize);
-                let Some(Shape::Mesh { asset, part }) = instance.map(|instance| &instance.shape)
+                let Some(Shape::Mesh { asset, parts }) = instance.map(|instance| &instance.shape)
                 else {
                     return Ok(false);
                 };
-                self.mesh_encloses((*asset, part.as_deref()), body, p)?
+                self.mesh_encloses((*asset, parts), body, p)?
             }
         })
     }
 
     fn mesh_encloses(
         &self,
-        (asset, part): (usize, Option<&str>),
+        (asset, parts): (usize, &Parts),
         body: &Body,
         p: DVec3,
     ) -> Result<bool, ImportError> {
         let files: &dyn Files = self.materials.files;
-        if closed::surface(asset, part, (files, self.stages))?.boundary_edges > 0 {
+        if closed::surface(asset, parts, (files, self.stages))?.boundary_edges > 0 {
             return Ok(false);
         }
         let facts = &files.assets()[asset];
-        let chosen = facts.chosen(part);
+        let chosen = facts.chosen(parts);
         let mut key = KeyOf::stage("is a point in a mesh");
         for part in &chosen {
             key.bytes(&facts.parts[*part].content);

@@ -14,7 +14,7 @@ use std::str::FromStr;
 
 use glam::DMat3;
 use lang::material::Traits as _;
-use lang::scene::{Color, Instance, Scene, Shape};
+use lang::scene::{Color, Instance, Parts, Scene, Shape};
 use thiserror::Error;
 
 use super::geometry::transform::Transform;
@@ -88,10 +88,10 @@ impl Plan {
         let least = MIN_SIZE * extent(scene, shutter);
         let mut meshes = BTreeMap::<MeshName<'_>, (Mesh<'_>, Vec<usize>)>::new();
         for (index, instance) in scene.instances.iter().enumerate() {
-            let Shape::Mesh { asset, part } = &instance.shape else { continue };
+            let Shape::Mesh { asset, parts } = &instance.shape else { continue };
             let file = &assets[*asset];
-            let name = (*asset, part.as_deref());
-            let new = || (Mesh::new(file, part.as_deref()), Vec::new());
+            let name = (*asset, parts);
+            let new = || (Mesh::new(file, parts), Vec::new());
             let (mesh, places) = meshes.entry(name).or_insert_with(new);
             let linear = Transform::of(instance, shutter).linear;
             let fits = condition(linear) <= MAX_CONDITION && scale(linear) * mesh.size >= least;
@@ -121,8 +121,8 @@ impl Plan {
     }
 }
 
-/// Asset and part.
-type MeshName<'a> = (usize, Option<&'a str>);
+/// Asset and parts.
+type MeshName<'a> = (usize, &'a Parts);
 
 /// A mesh of the scene.
 struct Mesh<'a> {
@@ -133,8 +133,8 @@ struct Mesh<'a> {
 }
 
 impl<'a> Mesh<'a> {
-    fn new(file: &'a MeshFacts, part: Option<&str>) -> Self {
-        let parts: Vec<_> = file.chosen(part).into_iter().map(|part| &file.parts[part]).collect();
+    fn new(file: &'a MeshFacts, parts: &Parts) -> Self {
+        let parts: Vec<_> = file.chosen(parts).into_iter().map(|part| &file.parts[part]).collect();
         let n_triangles = parts.iter().map(|part| part.n_triangles).sum();
         // A part without vertices has no bounds.
         let coordinates = parts.iter().flat_map(|part| part.bounds.as_flattened());

@@ -29,9 +29,9 @@ pub(super) fn check(scene: &Scene, assets: &[MeshFacts], diagnostics: &mut Vec<D
 
 /// Sizes of the thing along its own axes, metres; `None` where nothing can be said.
 fn size(instance: &Instance, assets: &[MeshFacts]) -> Option<DVec3> {
-    let own = if let Shape::Mesh { asset, part } = &instance.shape {
+    let own = if let Shape::Mesh { asset, parts } = &instance.shape {
         let file = &assets[*asset];
-        let parts = file.chosen(part.as_deref());
+        let parts = file.chosen(parts);
         let positions = parts.iter().flat_map(|part| &file.parts[*part].bounds);
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for p in positions.map(|p| DVec3::from(p.map(f64::from))) {

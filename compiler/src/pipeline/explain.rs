@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use lang::scene::{Instance, MediumModel, Name, Scene, Shape, SkyModel};
+use lang::scene::{Instance, MediumModel, Name, Parts, Scene, Shape, SkyModel};
 use lang::source::Span;
 use pack::abi::{
     LightKind, Material, MaterialKind, NONE, SamplerKind, SkyKind, TRI_SMOOTH, TextureFormat,
@@ -118,10 +118,10 @@ impl Explain<'_> {
 
     /// The first instance of the mesh that has most of them.
     fn most_shown(&self) -> Option<&Instance> {
-        let mut shown: BTreeMap<(usize, Option<&str>), (usize, &Instance)> = BTreeMap::new();
+        let mut shown: BTreeMap<(usize, &Parts), (usize, &Instance)> = BTreeMap::new();
         for instance in &self.scene.instances {
-            if let Shape::Mesh { asset, part } = &instance.shape {
-                shown.entry((*asset, part.as_deref())).or_insert((0, instance)).0 += 1;
+            if let Shape::Mesh { asset, parts } = &instance.shape {
+                shown.entry((*asset, parts)).or_insert((0, instance)).0 += 1;
             }
         }
         // The last of the greatest in reverse order is the first.

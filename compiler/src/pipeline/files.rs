@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use lang::diagnostic::{Code, Diagnostic, Fix};
-use lang::scene::{Asset, AssetFormat, Axis, FileFrame, Scene, Shape, SkyModel};
+use lang::scene::{Asset, AssetFormat, Axis, FileFrame, Parts, Scene, Shape, SkyModel};
 use lang::source::{SourceSet, Span};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -497,7 +497,7 @@ fn report(report: &ImportReport, span: Span, diagnostics: &mut Vec<Diagnostic>) 
 /// A part that a file does not have is an unknown name, with the names it has.
 fn find_parts(scene: &Scene, assets: &[Option<MeshFacts>], diagnostics: &mut Vec<Diagnostic>) {
     for instance in &scene.instances {
-        let Shape::Mesh { asset, part: Some(part) } = &instance.shape else { continue };
+        let Shape::Mesh { asset, parts: Parts::Named(part) } = &instance.shape else { continue };
         let Some(file) = &assets[*asset] else { continue };
         if !file.find_parts(part).is_empty() {
             continue;

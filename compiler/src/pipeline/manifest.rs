@@ -119,14 +119,14 @@ impl Context<'_> {
             Shape::Sphere { .. } => ("sphere", None),
             Shape::Rectangle { .. } => ("rectangle", None),
             Shape::Box { .. } => ("box", None),
-            Shape::Mesh { asset, part } => ("mesh", Some((*asset, part))),
+            Shape::Mesh { asset, parts } => ("mesh", Some((*asset, parts))),
         };
         let asset = mesh.and_then(|(asset, _)| self.scene.assets.get(asset));
         Shown {
             object: instance.object.as_ref().map(|name| self.declared(name)),
             shape: self.named(shape, Some(instance.shape_span)),
             asset: asset.map(|asset| self.declared(&asset.name)),
-            part: mesh.and_then(|(_, part)| part.clone()),
+            part: mesh.and_then(|(_, parts)| parts.name().map(str::to_owned)),
         }
     }
 

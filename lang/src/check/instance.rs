@@ -33,6 +33,18 @@ pub(super) struct Placed {
     pub(super) pose: Pose,
 }
 
+impl Placed {
+    /// What it is made of, as far as the scene says.
+    pub(super) fn materials(&self) -> Vec<ItemId> {
+        let edits = match &*self.shape {
+            ShapeValue::Mesh(_, _, edits) => edits.as_slice(),
+            ShapeValue::Plain(_) | ShapeValue::Object(..) | ShapeValue::Objects(_) => &[],
+        };
+        let edited = edits.iter().filter_map(|edit| edit.material);
+        self.material.map(|(id, _)| id).into_iter().chain(edited).collect()
+    }
+}
+
 /// Collects what is in the world.
 #[derive(Default)]
 pub(super) struct World {

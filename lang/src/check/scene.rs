@@ -15,6 +15,7 @@ use crate::scene::{
     Asset, Instance, Light, Material, MaterialModel, Medium, Name, Scene, Shape, Texture,
 };
 use crate::schema::Kind;
+use crate::shape::{MeshEdit, Parts};
 
 impl Checker {
     /// Builds the scene, as far as it is sound.
@@ -27,14 +28,13 @@ impl Checker {
         let mut view = view?;
         let mut placed = std::mem::take(&mut self.world.placed);
         placed.sort_by(|a, b| a.key.cmp(&b.key));
-        let used: BTreeSet<ItemId> =
-            placed.iter().filter_map(|p| p.material.map(|(id, _)| id)).collect();
+        let used: BTreeSet<ItemId> = placed.iter().flat_map(Placed::materials).collect();
         let read: BTreeSet<ItemId> =
             used.iter().filter_map(|id| self.sound(*id)).flat_map(material::textures).collect();
         let meshes: BTreeSet<ItemId> = placed
             .iter()
             .filter_map(|p| match *p.shape {
-                ShapeValue::Mesh(id, _) => Some(id),
+                ShapeValue::Mesh(id, ..) => Some(id),
                 ShapeValue::Plain(_) | ShapeValue::Object(..) | ShapeValue::Objects(_) => None,
             })
             .collect();
@@ -160,10 +160,16 @@ fn instances(
     placed
         .into_iter()
         .map(|placed| {
+            let mut edits = Vec::new();
             let shape = match &*placed.shape {
                 ShapeValue::Plain(shape) => shape.clone(),
-                ShapeValue::Mesh(id, part) => {
-                    Shape::Mesh { asset: *asset_at.get(id)?, part: part.clone() }
+                ShapeValue::Mesh(id, part, changes) => {
+                    edits = changes
+                        .iter()
+                        .map(|edit| renamed(edit, material_at))
+                        .collect::<Option<_>>()?;
+                    let parts = part.clone().map_or(Parts::All, Parts::Named);
+                    Shape::Mesh { asset: *asset_at.get(id)?, parts }
                 }
                 ShapeValue::Object(..) | ShapeValue::Objects(_) => return None,
             };
@@ -178,11 +184,25 @@ fn instances(
                 shape_span: placed.shape_span,
                 material,
                 material_span: placed.material.map(|(_, span)| span),
+                edits,
                 world_from_object: placed.pose.matrix,
                 velocity: placed.pose.velocity,
             })
         })
         .collect()
+}
+
+/// A change with the index of its material.
+fn renamed(
+    edit: &MeshEdit<ItemId>,
+    material_at: &BTreeMap<ItemId, usize>,
+) -> Option<MeshEdit<usize>> {
+    let material = match &edit.material {
+        Some(id) => Some(*material_at.get(id)?),
+        None => None,
+    };
+    let MeshEdit { of, pattern_span, material_span, .. } = *edit;
+    Some(MeshEdit { of, pattern: edit.pattern.clone(), pattern_span, material, material_span })
 }
 
 /// Items by the names they have in the scene.
@@ -211,9 +231,9 @@ fn no_light(ev: &mut Evaluator<'_>, scene: &Scene) {
     let lit = scene.lights.iter().any(|light| light.radiance.iter().any(|c| *c > 0.0))
         || scene.sky.as_ref().is_some_and(|sky| !sky::is_black(sky))
         || scene.instances.iter().any(|instance| {
-            instance
-                .material
-                .is_none_or(|material| material::emits(&scene.materials[material].model))
+            let emits = |material: usize| material::emits(&scene.materials[material].model);
+            instance.material.is_none_or(emits)
+                || instance.edits.iter().filter_map(|edit| edit.material).any(emits)
         });
     if !lit {
         let text = "no light in this scene: the picture would be black";

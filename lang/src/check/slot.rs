@@ -110,7 +110,9 @@ impl Evaluator<'_> {
         let wanted = "a shape, an asset, an object or a list of objects";
         match value {
             Value::Shape(_) => value,
-            Value::Item(Kind::Asset, id) => Value::Shape(Rc::new(ShapeValue::Mesh(id, None))),
+            Value::Item(Kind::Asset, id) => {
+                Value::Shape(Rc::new(ShapeValue::Mesh(id, None, Vec::new())))
+            }
             Value::Item(Kind::Object, id) => {
                 Value::Shape(Rc::new(ShapeValue::Object(id, slot.span())))
             }

@@ -70,6 +70,12 @@ pub(crate) fn walk_paths<'e>(expr: &'e Expr, visit: &mut dyn FnMut(&'e syntax::P
         ExprKind::Tuple { items, .. } => items.iter().for_each(|item| walk_paths(item, visit)),
         ExprKind::List(entries) => entries.iter().for_each(|e| walk_paths(&e.value, visit)),
         ExprKind::Member { base, .. } => walk_paths(base, visit),
+        ExprKind::Edited { base, edits } => {
+            walk_paths(base, visit);
+            for edit in edits {
+                walk_paths(&edit.value, visit);
+            }
+        }
         ExprKind::Negate(inner) => walk_paths(inner, visit),
         ExprKind::Binary { left, right, .. } | ExprKind::Compare { left, right, .. } => {
             walk_paths(left, visit);

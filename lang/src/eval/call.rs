@@ -80,7 +80,7 @@ impl Evaluator<'_> {
         };
         match part {
             Some(text) if is_asset && last == "part" => {
-                Value::Shape(Rc::new(ShapeValue::Mesh(id, Some(text.clone()))))
+                Value::Shape(Rc::new(ShapeValue::Mesh(id, Some(text.clone()), Vec::new())))
             }
             _ => {
                 let error = Diagnostic::error(

@@ -38,7 +38,7 @@ impl Evaluator<'_> {
             (_, []) => Value::Item(kind, id),
             (Kind::Asset, parts) => {
                 let names: Vec<&str> = parts.iter().map(|part| part.text.as_str()).collect();
-                Value::Shape(Rc::new(ShapeValue::Mesh(id, Some(names.join(".")))))
+                Value::Shape(Rc::new(ShapeValue::Mesh(id, Some(names.join(".")), Vec::new())))
             }
             (Kind::Texture, [channel, rest @ ..]) => {
                 let value = self.channel(id, channel);

@@ -5,6 +5,7 @@ use std::rc::Rc;
 use crate::resolve::ItemId;
 use crate::scene::{Axis, Rgb, Shape};
 use crate::schema::Kind;
+use crate::shape::MeshEdit;
 use crate::source::Span;
 use crate::units::{self, Dim};
 
@@ -55,8 +56,8 @@ pub(crate) enum Value {
 pub(crate) enum ShapeValue {
     /// A shape that needs no file.
     Plain(Shape),
-    /// A mesh file or one part of it.
-    Mesh(ItemId, Option<String>),
+    /// A mesh file or one part of it, with what is changed.
+    Mesh(ItemId, Option<String>, Vec<MeshEdit<ItemId>>),
     /// Another object, with the place where it is named.
     Object(ItemId, Span),
     /// A group, each member with the place where it is named.

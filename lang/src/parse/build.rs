@@ -9,7 +9,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::Axis;
 use crate::source::{Span, byte_offset};
 use crate::syntax::{
-    Arg, Base, BinaryOp, Binding, CompareOp, Entry, Expr, ExprKind, Field, Ident, Import,
+    Arg, Base, BinaryOp, Binding, CompareOp, Edit, Entry, Expr, ExprKind, Field, Ident, Import,
     ImportNames, Index, Number, Param, Path, Text, Unit,
 };
 
@@ -192,7 +192,13 @@ impl Reader<'_> {
     fn postfix(&mut self, pair: Pair<'_, Rule>) -> Expr {
         let mut parts = pair.into_inner();
         let mut base = self.expr(next(&mut parts));
-        while parts.next().is_some() {
+        while let Some(part) = parts.next() {
+            if part.as_rule() == Rule::edits {
+                let span = base.span.to(self.span(&part));
+                let edits = part.into_inner().map(|edit| self.edit(edit)).collect();
+                let base = Box::new(base);
+                return Expr { kind: ExprKind::Edited { base, edits }, span };
+            }
             let name = self.ident(&next(&mut parts));
             let span = base.span.to(name.span);
             let kind = match base.kind {
@@ -207,6 +213,13 @@ impl Reader<'_> {
             base = Expr { kind, span };
         }
         base
+    }
+
+    fn edit(&mut self, pair: Pair<'_, Rule>) -> Edit {
+        let mut parts = pair.into_inner();
+        let kind = self.ident(&next(&mut parts));
+        let pattern = self.string(&next(&mut parts));
+        Edit { kind, pattern, value: self.expr(next(&mut parts)) }
     }
 
     fn group(&mut self, pair: Pair<'_, Rule>) -> Expr {

@@ -1,7 +1,7 @@
 //! Things in the world.
 
 use super::common::Name;
-use crate::shape::Shape;
+use crate::shape::{MeshEdit, Shape};
 use crate::source::Span;
 
 /// A thing in the world.
@@ -15,10 +15,13 @@ pub struct Instance {
     pub shape: Shape,
     /// Where the shape expression stands in the text.
     pub shape_span: Span,
-    /// Index into `Scene::materials`; `None` takes the asset's own materials.
+    /// Index into `Scene::materials`; `None` takes the asset's own materials. Of parts
+    /// that `edits` names, theirs go first.
     pub material: Option<usize>,
     /// Where the material is named, if it is.
     pub material_span: Option<Span>,
+    /// What is changed of the mesh file that it shows; the last that holds for a part decides.
+    pub edits: Vec<MeshEdit<usize>>,
     /// Rows of the 3x4 matrix `world_from_object`, metres: scale first, then rotate (about x, then
     /// y, then z), then translate; the objects an instance is nested in come after.
     pub world_from_object: [[f64; 4]; 3],

@@ -62,6 +62,11 @@ pub(super) const VELOCITY: Field = Field::new(
 .typical("a walker 1.5m/s, a thrown ball 20m/s, a shutter 0ms..20ms")
 .foreign(&[("speed", "common use"), ("vel", "common use"), ("motion", "common use")]);
 
+const SHAPE: &str = "What it looks like: a shape, a mesh file or part, an object, or a list of objects. Behind a mesh file may stand \
+     what is changed of it: `car { material \"paint*\" = red, part \"wheel*\" = none }`. The texts are names of its \
+     materials and parts, `*` stands for any letters and `?` for one; `none` leaves out what has the name, and the \
+     last line that holds for a part decides.";
+
 const fn material(doc: &'static str) -> Field {
     Field::new(
         "material",
@@ -80,13 +85,7 @@ const OBJECT: TypeSchema = TypeSchema {
           is not in the world until an instance names it.",
     example: "object post { shape = box(size: (20, 300, 20)cm), material = clay }",
     fields: &[
-        Field::new(
-            "shape",
-            FieldType::Shape,
-            Default::Required,
-            "What it looks like: a shape, a mesh file or part, an object, or a list of objects.",
-        )
-        .foreign(&[
+        Field::new("shape", FieldType::Shape, Default::Required, SHAPE).foreign(&[
             ("geometry", "common use"),
             ("mesh", "glTF and Blender"),
             ("children", "glTF"),
@@ -115,7 +114,7 @@ const INSTANCE: TypeSchema = TypeSchema {
             "shape",
             FieldType::Shape,
             Default::Absent("the shape of the object after the colon"),
-            "What it looks like: a shape, a mesh file or part, an object, or a list of objects.",
+            SHAPE,
         )
         .foreign(&[
             ("geometry", "common use"),

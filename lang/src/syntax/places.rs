@@ -1,8 +1,8 @@
 //! Trees without their places, so that two texts can be compared for what they say.
 
 use super::{
-    Arg, Base, Decl, Entry, Expr, ExprKind, Field, File, Ident, ImportNames, Item, ItemKind, Path,
-    Text, Unit,
+    Arg, Base, Decl, Edit, Entry, Expr, ExprKind, Field, File, Ident, ImportNames, Item, ItemKind,
+    Path, Text, Unit,
 };
 use crate::source::Span;
 
@@ -122,6 +122,14 @@ fn expr(node: &mut Expr) {
         ExprKind::Member { base, name } => {
             expr(base);
             ident(name);
+        }
+        ExprKind::Edited { base, edits } => {
+            expr(base);
+            for Edit { kind, pattern, value } in edits {
+                ident(kind);
+                text(pattern);
+                expr(value);
+            }
         }
         ExprKind::Negate(value) => expr(value),
         ExprKind::Binary { op_span, left, right, .. }

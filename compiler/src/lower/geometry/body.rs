@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 use lang::diagnostic::{Code, Diagnostic};
-use lang::scene::{Instance, Light, Scene, Shape};
+use lang::scene::{Instance, Light, Parts, Scene, Shape};
 use pack::abi::{self, NONE};
 
 use super::transform::Transform;
@@ -271,8 +271,8 @@ impl Maker<'_, '_> {
             Shape::Sphere { radius } => self.sphere(*radius, diagnostics),
             Shape::Rectangle { size } => self.faces(&[rectangle(*size)]),
             Shape::Box { size } => self.faces(&box_faces(*size)),
-            Shape::Mesh { asset, part } => {
-                let mesh = self.mesh(*asset, part.as_deref(), sheets, diagnostics);
+            Shape::Mesh { asset, parts } => {
+                let mesh = self.mesh(*asset, parts, sheets, diagnostics);
                 match stored {
                     None => Form::Mesh(mesh),
                     Some(index) => self.stored(index, &mesh, meshes),
@@ -331,7 +331,7 @@ impl Maker<'_, '_> {
     fn mesh(
         &mut self,
         asset: usize,
-        part: Option<&str>,
+        shown: &Parts,
         sheets: Option<Sheets>,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> MeshForm {
@@ -339,7 +339,7 @@ impl Maker<'_, '_> {
         let file = &files.assets()[asset];
         let mut content = KeyOf::stage("parts of a mesh");
         let (mut parts, mut bare) = (Vec::new(), None);
-        for index in file.chosen(part) {
+        for index in file.chosen(shown) {
             let part = &file.parts[index];
             let own = part.material.map_or(MaterialRef::Default, |material| MaterialRef::Asset {
                 asset,
@@ -401,8 +401,8 @@ impl Maker<'_, '_> {
                 grain::beam(thing, &corners)
             }
             Form::Mesh(_) | Form::Stored(..) => {
-                let Shape::Mesh { asset, part } = &self.instance.shape else { return Ok(None) };
-                let parts = self.materials.files.assets()[*asset].chosen(part.as_deref());
+                let Shape::Mesh { asset, parts } = &self.instance.shape else { return Ok(None) };
+                let parts = self.materials.files.assets()[*asset].chosen(parts);
                 self.beam_of_mesh(thing, *asset, &parts)?
             }
         };
