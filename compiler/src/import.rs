@@ -10,6 +10,7 @@
 mod budget;
 mod build;
 mod check;
+mod colors;
 mod error;
 mod facts;
 mod file;
@@ -24,6 +25,7 @@ mod material;
 mod mesh;
 mod normals;
 mod obj;
+mod paint;
 mod ply;
 mod polygon;
 mod report;
@@ -40,6 +42,7 @@ pub use self::image::{Environment, Image, Pixels, decode_image, load_environment
 pub use self::material::{ImportedImage, ImportedMaterial, MapUse};
 pub use self::mesh::{Attribute, MeshFile, NO_CORNER, Part};
 pub use self::obj::{load_obj, read_obj};
+pub use self::paint::Paint;
 pub use self::ply::{load_ply, read_ply};
 pub use self::report::{FileRead, Finding, ImportReport, Warning};
 pub use self::stl::{load_stl, read_stl};

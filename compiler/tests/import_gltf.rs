@@ -588,3 +588,43 @@ fn required_lights_load_and_lights_and_cameras_are_known_where_nodes_place_them(
         assert_eq!(error, expected);
     }
 }
+
+#[test]
+fn vertex_colours_multiply_the_base_colour_where_the_material_has_no_images() {
+    for (kind, has_image) in [("VEC3", false), ("VEC4", false), ("VEC3", true)] {
+        let mut document = triangle();
+        let colors = match kind {
+            "VEC3" => document.floats(&[[1.0, 0.0, 0.5], [0.0, 1.0, 0.5], [0.0, 0.0, 0.5]], kind),
+            _ => document
+                .floats(&[[1.0, 0.0, 0.5, 1.0], [0.0, 1.0, 0.5, 0.0], [0.0, 0.0, 0.5, 1.0]], kind),
+        };
+        document.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(colors);
+        document.json["meshes"][0]["primitives"][0]["material"] = json!(0);
+        let mut material =
+            json!({"name": "m", "pbrMetallicRoughness": {"baseColorFactor": [0.5, 1, 1, 1]}});
+        if has_image {
+            let png = document.view(&tiny_png());
+            document.json["images"] = json!([{"bufferView": png, "mimeType": "image/png"}]);
+            document.json["textures"] = json!([{"source": 0}]);
+            material["pbrMetallicRoughness"]["baseColorTexture"] = json!({"index": 0});
+        }
+        document.json["materials"] = json!([material]);
+        let mesh = load(&document);
+        let part = &mesh.parts[0];
+        let found = &mesh.materials[part.material.expect("a material") as usize];
+        assert_eq!((found.name.as_str(), found.color), ("m", [0.5, 1.0, 1.0]));
+        let said: Vec<&str> = mesh.report.warnings.iter().map(|w| w.message.as_str()).collect();
+        if has_image {
+            assert_eq!(said, ["1 part has vertex colours beside images: the colours are not used"]);
+            assert_eq!((part.paint, mesh.images.len()), (None, 1));
+            continue;
+        }
+        assert!(said.is_empty(), "{said:?}");
+        let map = found.color_map.expect("the colours");
+        assert_eq!((map.space, map.wrap), (ColorSpace::Linear, [Wrap::Clamp; 2]));
+        let image = &mesh.images[map.image as usize].image;
+        assert_eq!([image.width, image.height], [2, 2]);
+        assert_eq!(part.corner_uvs_for(true, 0), Some([[0.25, 0.75], [0.75, 0.75], [0.25, 0.25]]));
+        assert_eq!(part.corner_uvs_for(false, 0), Some([[0.0, 1.0], [1.0, 1.0], [0.0, 0.0]]));
+    }
+}

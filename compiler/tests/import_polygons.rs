@@ -1,10 +1,11 @@
 //! PLY and STL: the same mesh as the OBJ file of it, and everything wrong named with its place.
 
 #![expect(clippy::float_cmp, reason = "these numbers are exact")]
+#![expect(clippy::cast_possible_truncation, reason = "whole and small")]
 
 use compiler::import::{
-    Attribute, Budget, ErrorKind, ImportError, Limits, MeshFile, read_obj, read_ply, read_stl,
-    topology,
+    Attribute, Budget, ErrorKind, ImportError, Limits, MeshFile, Pixels, read_obj, read_ply,
+    read_stl, topology,
 };
 use lang::scene::Axis;
 use std::path::Path;
@@ -159,7 +160,7 @@ fn normals_and_texture_coordinates_of_vertices_and_of_faces_are_read() {
     assert_eq!(part.corner_uvs(1), None);
     let said: Vec<&str> = found.report.warnings.iter().map(|w| w.message.as_str()).collect();
     let image = "the image `a.png` is not used; declare it as `texture` and give it to a material";
-    assert_eq!(said, ["colours of 3 vertices are not used", image]);
+    assert_eq!(said, [image]);
 }
 
 #[test]
@@ -330,4 +331,99 @@ fn limits_come_before_memory() {
     let poor = Limits { memory: Budget::of(1_000_000), ..Limits::default() };
     let error = read_ply(&many, Path::new("a.ply"), 1.0, Axis::PlusY, &poor);
     assert_eq!(error.expect_err("no memory").kind, ErrorKind::Memory);
+}
+
+/// The linear colour that a painted part has at a corner, as its image is read there.
+fn color_at(file: &MeshFile, part: usize, [u, v]: [f32; 2]) -> [f32; 3] {
+    let material = &file.materials[file.parts[part].material.expect("painted") as usize];
+    let image = &file.images[material.color_map.expect("an image").image as usize].image;
+    let Pixels::Rgba16F(bits) = &image.data else { panic!("half floats") };
+    let (x, y) = (u * image.width as f32 - 0.5, (1.0 - v) * image.height as f32 - 0.5);
+    let texel = |i: f32, j: f32, k: usize| {
+        let [i, j] = [i as usize, j as usize];
+        let i = i.min(image.width as usize - 1);
+        let at = 4 * (j.min(image.height as usize - 1) * image.width as usize + i) + k;
+        half::f16::from_bits(bits[at]).to_f32()
+    };
+    let (i, j) = ((x + 1e-3).floor(), (y + 1e-3).floor());
+    let (s, t) = ((x - i).max(0.0), (y - j).max(0.0));
+    [0, 1, 2].map(|k| {
+        let row = |j: f32| texel(i, j, k) * (1.0 - s) + texel(i + 1.0, j, k) * s;
+        row(j) * (1.0 - t) + row(j + 1.0) * t
+    })
+}
+
+#[test]
+fn colours_of_vertices_are_an_image_that_is_their_mean_everywhere() {
+    let colors: [[f32; 3]; 8] = std::array::from_fn(|i| {
+        let x = i as f32 / 7.0;
+        [x, 1.0 - x, (i % 2) as f32]
+    });
+    let names = ["x", "y", "z", "red", "green", "blue"];
+    let vertices: Vec<Vec<f32>> =
+        POINTS.iter().zip(colors).map(|(p, c)| p.iter().chain(&c).copied().collect()).collect();
+    let found = load_ply(&ply(Order::Little, &names, &vertices, &FACES)).expect("a good file");
+    let part = &found.parts[0];
+    assert_eq!((part.triangles.len(), found.images.len(), found.materials.len()), (6, 1, 1));
+    assert!(found.report.warnings.is_empty());
+    assert_eq!(part.corner_uvs_for(false, 0), None, "of no use to other materials");
+    for (tri_idx, corners) in part.triangles.iter().enumerate() {
+        let uvs = part.corner_uvs_for(true, tri_idx).expect("painted");
+        // Positions were copied in the order of their first use: found again by where they are.
+        let of = |vertex: u32| {
+            let p = part.positions[vertex as usize];
+            let same = |q: &[f32; 3]| {
+                let [x, y, z] = q.map(|x| x * 0.01);
+                (p[0] - x).abs() + (p[1] - z).abs() + (p[2] + y).abs() < 1e-6
+            };
+            colors[POINTS.iter().position(same).expect("one of the points")]
+        };
+        let known = corners.map(of);
+        for weights in
+            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.2, 0.5, 0.3], [0.0, 0.5, 0.5]]
+        {
+            let mean = |values: [f32; 3]| (0..3).map(|k| values[k] * weights[k]).sum::<f32>();
+            let uv = [0, 1].map(|axis| mean(uvs.map(|uv| uv[axis])));
+            let color = color_at(&found, 0, uv);
+            for channel in 0..3 {
+                let expected = mean(known.map(|color| color[channel]));
+                assert!(
+                    (color[channel] - expected).abs() < 2e-3,
+                    "{tri_idx} {weights:?} {color:?} {expected}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn one_colour_is_a_factor_and_integers_have_the_srgb_curve() {
+    let text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+                property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n\
+                property list uchar int vertex_index\nend_header\n0 0 0 255 188 0\n1 0 0 255 188 0\n0 1 0 255 188 0\n3 0 1 2\n";
+    let found = load_ply(text.as_bytes()).expect("a good file");
+    let material = &found.materials[found.parts[0].material.expect("coloured") as usize];
+    assert!(found.images.is_empty() && material.diffuse_only);
+    let [r, g, b] = material.color;
+    assert!(r == 1.0 && (g - 0.5029).abs() < 1e-4 && b == 0.0, "{g}");
+    // OBJ: 0 to 1, or to 255; none where some vertices have none.
+    for (rgb, expected) in [("1 0.5 0", 0.2140), ("255 188 0", 0.5029)] {
+        let text = format!("v 0 0 0 {rgb}\nv 1 0 0 {rgb}\nv 0 1 0 {rgb}\nf 1 2 3\n");
+        let found =
+            read_obj(text.as_bytes(), Path::new("a.obj"), 1.0, Axis::PlusY, &Limits::default());
+        let found = found.expect("a good file");
+        assert!(
+            (found.materials[0].color[1] - expected).abs() < 1e-4,
+            "{:?}",
+            found.materials[0].color
+        );
+    }
+    let text = "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n";
+    let found = read_obj(text.as_bytes(), Path::new("a.obj"), 1.0, Axis::PlusY, &Limits::default());
+    let found = found.expect("a good file");
+    assert_eq!(
+        found.report.warnings[0].message,
+        "2 vertices have a colour and others none; no colour is used"
+    );
+    assert!(found.materials.is_empty());
 }

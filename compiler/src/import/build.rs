@@ -39,6 +39,7 @@ struct Draft {
     name: u32,
     material: Option<u32>,
     positions: Vec<[f32; 3]>,
+    colors: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
     uvs: Vec<[f32; 2]>,
     uv_corners: Vec<[u32; 3]>,
@@ -234,8 +235,13 @@ impl Copier {
         source: &Source<'_>,
     ) -> Result<(), ImportError> {
         for [vertex, uv, normal] in corners {
+            let old = *vertex;
+            let n_before = draft.positions.len();
             let position = |old: u32| source.position(file.positions[old as usize]);
             self.positions.renumber(vertex, &mut draft.positions, source, position)?;
+            if draft.positions.len() > n_before {
+                draft.colors.extend(file.colors.get(old as usize));
+            }
             let value = |old: u32| Ok(file.uvs[old as usize]);
             self.uvs.renumber(uv, &mut draft.uvs, source, value)?;
             let value = |old: u32| Ok(source.normal(file.normals[old as usize]));
@@ -356,6 +362,8 @@ fn finish(mut draft: Draft, names: &[PartName]) -> Part {
         normals: Attribute::Indexed { values: draft.normals, corners: draft.normal_corners },
         uvs,
         triangles: draft.triangles,
+        colors: draft.colors,
+        paint: None,
     }
 }
 

@@ -40,6 +40,8 @@ pub struct PartFacts {
     pub material: Option<u32>,
     /// Whether it has texture coordinates.
     pub has_uvs: bool,
+    /// Whether its own material has the colours of its vertices.
+    pub is_painted: bool,
     /// How many triangles it has.
     pub n_triangles: usize,
     /// Lowest and highest coordinates of its vertices, metres; the wrong way round where it has none.
@@ -121,6 +123,7 @@ impl PartFacts {
             aliases: part.aliases.clone(),
             material: part.material,
             has_uvs: part.uvs != Attribute::Absent,
+            is_painted: part.paint.is_some(),
             n_triangles: part.triangles.len(),
             bounds,
             content: geometry(part),

@@ -13,6 +13,8 @@ pub(super) const CORNER_BYTES: u64 = 160;
 #[derive(Debug, Default)]
 pub(super) struct Geometry {
     pub(super) positions: Vec<[f32; 3]>,
+    /// Linear colours of vertices, 0 ..= 1: none, or as many as positions.
+    pub(super) colors: Vec<[f32; 3]>,
     pub(super) uvs: Vec<[f32; 2]>,
     pub(super) normals: Vec<[f32; 3]>,
     /// Of all faces one after the other: indices into `positions`, `uvs` and `normals`. UV and normal of a corner

@@ -23,6 +23,7 @@ mod studio;
 
 use self::container::Images;
 use self::document::Document;
+use super::colors;
 use super::error::{ErrorKind, ImportError};
 use super::file::{Limits, Reader, read_file};
 use super::image_set::ImageSet;
@@ -86,7 +87,7 @@ pub fn read_gltf(bytes: &[u8], path: &Path, limits: &Limits) -> Result<MeshFile,
         return Err(ImportError::new(ErrorKind::Empty, file, message));
     }
     let materials = materials.into_iter().map(|material| material.imported).collect();
-    Ok(MeshFile { parts, materials, images, studio, report })
+    colors::bake(MeshFile { parts, materials, images, studio, report }, &file, limits)
 }
 
 fn parse(json: &[u8], file: &str) -> Result<Root, ImportError> {

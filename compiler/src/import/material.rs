@@ -161,6 +161,24 @@ impl ImportedMaterial {
         }
     }
 
+    /// Whether it reads any image.
+    #[must_use]
+    pub fn has_images(&self) -> bool {
+        let maps = [
+            self.color_map,
+            self.metallic_roughness_map,
+            self.transmission_map,
+            self.specular_map,
+            self.specular_color_map,
+            self.coat_map,
+            self.coat_roughness_map,
+            self.emission_map,
+            self.normal_map,
+            self.alpha_map,
+        ];
+        maps.iter().any(Option::is_some)
+    }
+
     /// Most of it is solid glass: lower to `dielectric`, which has neither colour nor metal in it.
     #[must_use]
     pub fn is_glass(&self) -> bool {

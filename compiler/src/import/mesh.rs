@@ -3,6 +3,7 @@
 use super::error::ImportError;
 use super::file::Limits;
 use super::material::{ImportedImage, ImportedMaterial};
+use super::paint::Paint;
 use super::report::ImportReport;
 use super::studio::Studio;
 use std::collections::BTreeSet;
@@ -61,6 +62,10 @@ pub struct Part {
     pub uvs: Attribute<[f32; 2]>,
     /// Counter-clockwise seen from outside, each index `< positions.len()`.
     pub triangles: Vec<[u32; 3]>,
+    /// Linear colours of vertices, 0 ..= 1, until they are an image; none, or as many as positions.
+    pub(super) colors: Vec<[f32; 3]>,
+    /// Where the image of its material has these colours; of no use to other materials.
+    pub paint: Option<Paint>,
 }
 
 impl<T: Copy> Attribute<T> {
@@ -88,6 +93,15 @@ impl Part {
     #[must_use]
     pub fn corner_normals(&self, tri_idx: usize) -> Option<[[f32; 3]; 3]> {
         self.normals.at(tri_idx, self.triangles[tri_idx])
+    }
+
+    /// UVs of triangle `tri_idx` for the material of the file if `own`, else for any other; if it has any.
+    #[must_use]
+    pub fn corner_uvs_for(&self, own: bool, tri_idx: usize) -> Option<[[f32; 2]; 3]> {
+        match self.paint.filter(|_| own) {
+            Some(paint) => Some(paint.uvs(tri_idx)),
+            None => self.corner_uvs(tri_idx),
+        }
     }
 
     /// UVs of triangle `tri_idx`, if it has any.

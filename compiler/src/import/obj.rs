@@ -10,6 +10,7 @@ mod parse;
 
 use self::parse::Oddities;
 use super::build::{self, Faces, Source};
+use super::colors;
 use super::error::{ErrorKind, ImportError};
 use super::file::{Limits, Reader, read_file};
 use super::foreign::{Format, foreign};
@@ -69,7 +70,9 @@ pub fn read_obj(
     let parts = build::parts(obj.geometry, loan, &source, &mut report)?;
     let images = images.decode(limits, &mut report)?;
     report.files = reader.finish();
-    Ok(MeshFile { parts, materials: library.materials, images, studio: Studio::default(), report })
+    let materials = library.materials;
+    let made = MeshFile { parts, materials, images, studio: Studio::default(), report };
+    colors::bake(made, &file, limits)
 }
 
 fn warn_about(odd: &Oddities, file: &str, report: &mut ImportReport) {
@@ -79,10 +82,15 @@ fn warn_about(odd: &Oddities, file: &str, report: &mut ImportReport) {
     }
     let mut warn = |(count, line): (u64, u64), message: &dyn Fn(u64) -> String| {
         if count > 0 {
-            report.warn(format!("{file}:{line}"), message(count));
+            report.warn(
+                if line == 0 { file.to_owned() } else { format!("{file}:{line}") },
+                message(count),
+            );
         }
     };
-    warn(odd.colored, &|n| format!("colours of {n} vertices are not used"));
+    warn(odd.colored, &|n| {
+        format!("{n} vertices have a colour and others none; no colour is used")
+    });
     warn(odd.latin, &|n| {
         format!("{n} names are not UTF-8 and were read as Latin-1; this is the first")
     });

@@ -6,9 +6,10 @@
 mod header;
 mod rows;
 
-use self::header::{Header, Vertex};
+use self::header::Header;
 use self::rows::Rows;
 use super::build::{self, Faces, Source};
+use super::colors;
 use super::error::{ErrorKind, ImportError};
 use super::file::{Limits, Reader, read_file};
 use super::foreign::{Format, foreign};
@@ -74,19 +75,12 @@ pub fn read_ply(
     };
     let parts = build::parts(rows.geometry, loan, &source, &mut report)?;
     report.files = reader.finish();
-    Ok(MeshFile {
-        parts,
-        materials: Vec::new(),
-        images: Vec::new(),
-        studio: Studio::default(),
-        report,
-    })
+    let (materials, images) = (Vec::new(), Vec::new());
+    let made = MeshFile { parts, materials, images, studio: Studio::default(), report };
+    colors::bake(made, &file, limits)
 }
 
 fn warn_about(header: &Header<'_>, file: &str, report: &mut ImportReport) {
-    if header.has(&Vertex::COLOR) {
-        report.warn(file, format!("colours of {} vertices are not used", header.n_vertices));
-    }
     for name in &header.images {
         let message = format!(
             "the image `{name}` is not used; declare it as `texture` and give it to a material"

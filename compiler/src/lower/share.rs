@@ -90,7 +90,9 @@ impl Plan {
         for (index, instance) in scene.instances.iter().enumerate() {
             let Shape::Mesh { asset, parts } = &instance.shape else { continue };
             let file = &assets[*asset];
-            let name = (*asset, parts);
+            let is_painted =
+                file.parts.iter().any(|part| part.is_painted) && instance.material.is_none();
+            let name = (*asset, parts, is_painted);
             let new = || (Mesh::new(file, parts), Vec::new());
             let (mesh, places) = meshes.entry(name).or_insert_with(new);
             let linear = Transform::of(instance, shutter).linear;
@@ -121,8 +123,8 @@ impl Plan {
     }
 }
 
-/// Asset and parts.
-type MeshName<'a> = (usize, &'a Parts);
+/// Asset, parts, and whether they show the colours of their vertices.
+type MeshName<'a> = (usize, &'a Parts, bool);
 
 /// A mesh of the scene.
 struct Mesh<'a> {

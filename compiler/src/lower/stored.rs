@@ -71,8 +71,8 @@ fn absolute(m: DMat3) -> DMat3 {
 }
 
 impl Stored {
-    /// The triangles of some parts, each with its material.
-    pub(super) fn new(parts: &[(&Part, u32)]) -> Self {
+    /// The triangles of some parts, each with its material, which is the file's if `own`.
+    pub(super) fn new(parts: &[(&Part, u32)], own: bool) -> Self {
         let corners =
             |(part, _): &(&Part, u32)| (0..part.triangles.len()).map(|i| part.corners(i)).collect();
         let all: Vec<Vec<[[f32; 3]; 3]>> = parts.iter().map(corners).collect();
@@ -86,7 +86,7 @@ impl Stored {
                     continue;
                 }
                 mesh.corners.push(corners);
-                mesh.shades.push(shade(part, tri_idx, *material));
+                mesh.shades.push(shade(part, (own, tri_idx), *material));
             }
         }
         mesh.labels = vec![[NONE; 3]; mesh.corners.len()];
@@ -143,10 +143,10 @@ pub(super) fn has_no_area(corners: &[[f32; 3]; 3]) -> bool {
 }
 
 /// What is known of a triangle.
-fn shade(part: &Part, tri_idx: usize, material: u32) -> abi::TriShade {
+fn shade(part: &Part, (own, tri_idx): (bool, usize), material: u32) -> abi::TriShade {
     let normals = part.corner_normals(tri_idx);
     let octahedral = |n: [f32; 3]| octahedral(DVec3::from(n.map(f64::from)));
-    let [uv0, uv1, uv2] = part.corner_uvs(tri_idx).unwrap_or_default();
+    let [uv0, uv1, uv2] = part.corner_uvs_for(own, tri_idx).unwrap_or_default();
     let smooth = if normals.is_some() { TRI_SMOOTH } else { 0 };
     abi::TriShade {
         normals: normals.map_or([0; 3], |normals| normals.map(octahedral)),

@@ -156,7 +156,7 @@ fn stored(bodies: &Bodies, files: &dyn Files, stages: &Stages) -> Result<Vec<Sto
             let file = &meshes[&shared.asset];
             let parts = shared.parts.iter().zip(&shared.materials);
             let parts: Vec<_> = parts.map(|(part, m)| (&file.parts[*part], *m)).collect();
-            Stored::new(&parts)
+            Stored::new(&parts, shared.own)
         })
     };
     Ok(bodies.meshes.par_iter().zip(known).map(make).collect())

@@ -42,8 +42,8 @@ const PLY: TypeSchema = TypeSchema {
     kind: Kind::Asset,
     name: "ply",
     doc: "A PLY file (Stanford), text or binary: polygons with normals (`nx ny nz`) and texture coordinates \
-          (`u v`, `s t`, `texture_u texture_v`, or `texcoord` of faces) where it has them. The format says neither \
-          unit nor where up is.",
+          (`u v`, `s t`, `texture_u texture_v`, or `texcoord` of faces) where it has them. Colours of vertices \
+          are its material. The format says neither unit nor where up is.",
     example: "asset bunny = ply(\"bunny.ply\", unit: m)",
     fields: &[
         PATH,

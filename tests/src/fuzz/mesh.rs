@@ -214,6 +214,8 @@ fn assert_usable(mesh: &MeshFile) {
             }
             let uvs = part.corner_uvs(tri).unwrap_or_default();
             assert!(uvs.iter().flatten().all(|x| x.is_finite()));
+            let painted = part.paint.map(|paint| paint.uvs(tri)).unwrap_or_default();
+            assert!(painted.iter().flatten().all(|x| (0.0..=1.0).contains(x)));
         }
     }
     for material in &mesh.materials {

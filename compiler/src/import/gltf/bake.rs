@@ -142,7 +142,8 @@ impl Bake<'_> {
         if !triangles.is_empty() {
             grow(&mut self.report.bounds, &positions);
         }
-        Ok(Part { positions, normals, uvs, triangles, ..Part::default() })
+        let colors = self.decoded.colors.clone().unwrap_or_default();
+        Ok(Part { positions, normals, uvs, triangles, colors, ..Part::default() })
     }
 }
 

@@ -6,6 +6,7 @@ use super::super::report::ImportReport;
 use super::accessor::Buffers;
 use super::document::Document;
 use super::node::Placed;
+use ::gltf::json::accessor::Type;
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
 use ::gltf::json::{Accessor, Index, Material};
@@ -24,6 +25,8 @@ pub(super) struct Decoded {
     pub(super) positions: Vec<[f32; 3]>,
     pub(super) normals: Option<Vec<[f32; 3]>>,
     pub(super) uvs: Option<Vec<[f32; 2]>>,
+    /// Linear, 0 ..= 1.
+    pub(super) colors: Option<Vec<[f32; 3]>>,
     pub(super) triangles: Vec<[u32; 3]>,
 }
 
@@ -64,7 +67,7 @@ impl Table {
         }
         let mut used = BTreeMap::new();
         let (mut n_triangles, mut n_bytes) = (0_u64, 0_u64);
-        let mut left_out = [0_u64; 4];
+        let mut left_out = [0_u64; 3];
         for (mesh_idx, mesh) in document.root.meshes.iter().enumerate() {
             let n_uses = u64::from(uses[mesh_idx]);
             for (primitive_idx, primitive) in mesh.primitives.iter().enumerate() {
@@ -78,9 +81,8 @@ impl Table {
                     left_out[0] += 1;
                     continue;
                 };
-                left_out[1] += u64::from(attribute(primitive, Semantic::Colors(0)).is_some());
-                left_out[2] += u64::from(primitive.targets.is_some());
-                left_out[3] += u64::from(has_tangents(document, primitive));
+                left_out[1] += u64::from(primitive.targets.is_some());
+                left_out[2] += u64::from(has_tangents(document, primitive));
                 if let Some(material) = primitive.material {
                     used.insert(material.value(), material);
                 }
@@ -99,7 +101,6 @@ impl Table {
         reader.take(n_bytes, document.file)?;
         let what = [
             "primitives of points or lines are left out",
-            "primitives have vertex colours, which are not used",
             "primitives have morph targets, which are not used",
             "primitives have tangents for their normal maps; those of the UVs are used instead",
         ];
@@ -189,6 +190,12 @@ pub(super) fn decode(
         same_length(values.len(), index)?;
         uvs = Some(values);
     }
+    let mut colors = None;
+    if let Some(index) = attribute(primitive, Semantic::Colors(0)) {
+        let values = colors_of(buffers, index)?;
+        same_length(values.len(), index)?;
+        colors = Some(values);
+    }
     let order = match primitive.indices {
         Some(index) => buffers.indices(index, n)?,
         None => (0..u32::try_from(n).unwrap_or(u32::MAX)).collect(),
@@ -199,7 +206,18 @@ pub(super) fn decode(
         return Err(document.error(ErrorKind::Format, what, message));
     }
     let triangles = assemble(mode, &order);
-    Ok(Some(Decoded { positions, normals, uvs, triangles }))
+    Ok(Some(Decoded { positions, normals, uvs, colors, triangles }))
+}
+
+/// Colours with three or four components; the fourth, which is coverage, is left aside.
+fn colors_of(buffers: &Buffers<'_>, index: Index<Accessor>) -> Result<Vec<[f32; 3]>, ImportError> {
+    let kind = buffers.document.root.get(index).map(|accessor| accessor.type_);
+    let clamped = |rgb: [f32; 3]| rgb.map(|x| x.clamp(0.0, 1.0));
+    if kind == Some(Checked::Valid(Type::Vec4)) {
+        let values = buffers.floats::<4>(index)?;
+        return Ok(values.into_iter().map(|[r, g, b, _]| clamped([r, g, b])).collect());
+    }
+    Ok(buffers.floats::<3>(index)?.into_iter().map(clamped).collect())
 }
 
 /// Triangles of a list, strip or fan, all wound the same way.

@@ -5,6 +5,7 @@
 //! are one [`Run`]. What a keyword means for the mesh, units and axes are not known here.
 
 use super::super::budget::Loan;
+use super::super::colors::linear;
 use super::super::error::{ErrorKind, ImportError, excerpt};
 use super::super::file::Limits;
 use super::super::geometry::{
@@ -39,7 +40,7 @@ pub(super) struct Obj {
 pub(super) struct Oddities {
     /// By keyword: lines that were skipped.
     pub(super) skipped: BTreeMap<String, (u64, u64)>,
-    /// Vertices with a colour, which is not used.
+    /// Vertices with a colour where others have none; no colour is used.
     pub(super) colored: (u64, u64),
     /// Names that are not UTF-8 and were read as Latin-1.
     pub(super) latin: (u64, u64),
@@ -61,7 +62,25 @@ pub(super) fn parse(text: &[u8], file: &str, limits: &Limits) -> Result<(Obj, Lo
             ImportError::new(kind, format!("{file}:{number}"), message)
         })?;
     }
-    Ok((parser.out, parser.loan))
+    let mut out = parser.out;
+    settle_colors(&mut out);
+    Ok((out, parser.loan))
+}
+
+/// Colours as linear factors, if all vertices have some. They have the sRGB curve, and go to 1, or to 255 where one is
+/// larger.
+fn settle_colors(obj: &mut Obj) {
+    let colors = &mut obj.geometry.colors;
+    if colors.len() != obj.geometry.positions.len() {
+        obj.oddities.colored.0 += colors.len() as u64;
+        colors.clear();
+        return;
+    }
+    let most = colors.as_flattened().iter().fold(1.0_f32, |most, x| most.max(*x));
+    let scale = if most > 1.0 { 1.0 / 255.0 } else { 1.0 };
+    for color in colors {
+        *color = color.map(|x| linear(x * scale));
+    }
 }
 
 struct Parser {
@@ -145,7 +164,16 @@ impl Parser {
                     return Err((ErrorKind::Number, message.to_owned()));
                 }
             }
-            6 | 7 => count(&mut self.out.oddities.colored, self.line),
+            6 | 7 => {
+                self.charge(VALUE_BYTES)?;
+                let place = self.out.geometry.positions.len();
+                // Those of all vertices, or none.
+                if self.out.geometry.colors.len() == place {
+                    self.out.geometry.colors.push([numbers[3], numbers[4], numbers[5]]);
+                } else {
+                    count(&mut self.out.oddities.colored, self.line);
+                }
+            }
             n => return format_error(format!("a vertex has 3 numbers (x y z), found {n}")),
         }
         self.charge(VALUE_BYTES)?;

@@ -21,6 +21,8 @@ pub(super) struct Header<'a> {
     pub(super) elements: Vec<Element>,
     pub(super) n_vertices: u32,
     pub(super) n_faces: u64,
+    /// What the numbers of colours are divided by; 0: they are linear.
+    pub(super) color_scale: f32,
     /// Images that comments name.
     pub(super) images: Vec<String>,
 }
@@ -89,6 +91,7 @@ impl<'a> Header<'a> {
             elements: Vec::with_capacity(found.elem_defs.len()),
             n_vertices: 0,
             n_faces: 0,
+            color_scale: 0.0,
             images: found.comments.iter().filter_map(|comment| image_of(comment)).collect(),
             text: String::new(),
         };
@@ -152,6 +155,11 @@ impl<'a> Header<'a> {
                     u32::try_from(count).ok().filter(|n| *n < u32::MAX).ok_or_else(|| {
                         (ErrorKind::Limit, format!("{count} vertices; 2^32 are too many"))
                     })?;
+                let red = element
+                    .properties
+                    .iter()
+                    .find(|property| Vertex::named(&property.name) == Some(Vertex::COLOR[0]));
+                self.color_scale = red.map_or(0.0, |red| color_scale(&red.property_type));
                 let has = |number: &Vertex| slots.contains(&Slot::Vertex(*number));
                 if !Vertex::POSITION.iter().all(has) {
                     return Err(format_error("its vertices do not have `x`, `y` and `z`"));
@@ -183,6 +191,17 @@ impl<'a> Header<'a> {
                 }
             }
         }
+    }
+}
+
+/// The largest number of a type of colour; 0 for floats, which are linear. Integers have the sRGB curve.
+fn color_scale(kind: &PropertyType) -> f32 {
+    match kind {
+        PropertyType::Scalar(ScalarType::U16 | ScalarType::I16) => 65535.0,
+        PropertyType::Scalar(
+            ScalarType::U8 | ScalarType::I8 | ScalarType::U32 | ScalarType::I32,
+        ) => 255.0,
+        PropertyType::Scalar(ScalarType::F32 | ScalarType::F64) | PropertyType::List { .. } => 0.0,
     }
 }
 

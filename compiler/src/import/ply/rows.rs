@@ -7,6 +7,7 @@ use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
 use super::super::budget::Loan;
+use super::super::colors::linear;
 use super::super::error::{ErrorKind, ImportError};
 use super::super::file::Limits;
 use super::super::geometry::{CORNER_BYTES, Face, Geometry, MAX_CORNERS, Run, State, VALUE_BYTES};
@@ -24,6 +25,8 @@ pub(super) struct Rows {
     n_vertices: u32,
     has_normals: bool,
     has_uvs: bool,
+    /// See [`Header::color_scale`]; `None` without colours.
+    color_scale: Option<f32>,
     loan: Loan,
     /// Bytes that are not asked for yet.
     due: u64,
@@ -44,13 +47,16 @@ impl Rows {
         limits: &Limits,
     ) -> Result<(Self, Loan), ImportError> {
         let (has_normals, has_uvs) = (header.has(&Vertex::NORMAL), header.has(&Vertex::UV));
-        let n_kinds = 1 + u64::from(has_normals) + u64::from(has_uvs);
+        let color_scale = header.has(&Vertex::COLOR).then_some(header.color_scale);
+        let n_kinds =
+            1 + u64::from(has_normals) + u64::from(has_uvs) + u64::from(color_scale.is_some());
         let mut rows = Self {
             geometry: Geometry::default(),
             n_not_polygons: 0,
             n_vertices: header.n_vertices,
             has_normals,
             has_uvs,
+            color_scale,
             loan: limits.memory.take(u64::from(header.n_vertices) * n_kinds * VALUE_BYTES, file)?,
             due: 0,
             row: 0,
@@ -96,6 +102,11 @@ impl Rows {
         if self.has_normals {
             let [x, y, z] = Vertex::NORMAL.map(single);
             self.geometry.normals.push([x?, y?, z?]);
+        }
+        if let Some(scale) = self.color_scale {
+            let [r, g, b] = Vertex::COLOR.map(single);
+            let value = |x: f32| if scale > 0.0 { linear(x / scale) } else { x.clamp(0.0, 1.0) };
+            self.geometry.colors.push([r?, g?, b?].map(value));
         }
         if self.has_uvs {
             let [u, v] = Vertex::UV.map(single);

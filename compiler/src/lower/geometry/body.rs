@@ -72,6 +72,8 @@ pub(in crate::lower) struct MeshForm {
     pub(in crate::lower) asset: usize,
     /// Index of each part in the file, and its material.
     pub(in crate::lower) parts: Vec<(usize, u32)>,
+    /// The materials are those of the file.
+    pub(in crate::lower) own: bool,
     /// How its leaves or petals differ.
     pub(in crate::lower) sheets: Option<Sheets>,
     /// What its geometry is, whatever file it comes from.
@@ -88,7 +90,7 @@ pub(in crate::lower) struct Shared {
     /// The material of each part: the file's own, or those of the last place where no place asks for them.
     pub(in crate::lower) materials: Vec<u32>,
     /// `materials` are the file's.
-    own: bool,
+    pub(in crate::lower) own: bool,
     content: Option<Key>,
 }
 
@@ -338,6 +340,7 @@ impl Maker<'_, '_> {
         let files = self.materials.files;
         let file = &files.assets()[asset];
         let mut content = KeyOf::stage("parts of a mesh");
+        let is_own = self.instance.material.is_none();
         let (mut parts, mut bare) = (Vec::new(), None);
         for index in file.chosen(shown) {
             let part = &file.parts[index];
@@ -346,14 +349,18 @@ impl Maker<'_, '_> {
                 material: material as usize,
             });
             let material = self.material(own);
-            if !part.has_uvs && reads_textures(&self.materials.records()[material as usize]) {
+            let has_uvs = part.has_uvs || is_own && part.is_painted;
+            if !has_uvs && reads_textures(&self.materials.records()[material as usize]) {
                 bare = bare.or(Some(part));
             }
             content.bytes(&part.content);
+            if part.is_painted {
+                content.number(is_own);
+            }
             parts.push((index, material));
         }
         diagnostics.extend(bare.map(|part| self.without_uvs(part)));
-        MeshForm { asset, parts, sheets, content: content.end() }
+        MeshForm { asset, parts, own: is_own, sheets, content: content.end() }
     }
 
     /// Notes a place of the stored mesh `index`, made of `mesh`.

@@ -125,7 +125,7 @@ impl Triangle<'_> {
         let transform = &self.body.transform;
         let normals =
             self.normals().map(|normals| normals.map(|n| octahedral(transform.normal * n)));
-        let uvs = self.part.corner_uvs(self.tri_idx).unwrap_or_default();
+        let uvs = self.part.corner_uvs_for(self.form.own, self.tri_idx).unwrap_or_default();
         let [uv0, uv1, uv2] = self.order().map(|k| uvs[k]);
         let smooth = if normals.is_some() { TRI_SMOOTH } else { 0 };
         let object = self.body.object | smooth;
