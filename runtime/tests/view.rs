@@ -185,10 +185,15 @@ fn a_page_works_through_a_tunnel_and_only_under_names_of_this_machine() {
 
 /// Numbers of a plane: width, height, channels, epoch, samples; then those of the pixels.
 fn plane(bytes: &[u8]) -> ([u32; 5], Vec<f32>) {
-    let words: Vec<u32> =
-        bytes.chunks(4).map(|word| u32::from_le_bytes(word.try_into().unwrap())).collect();
+    let words: Vec<u32> = bytes
+        .chunks(4)
+        .map(|word| u32::from_le_bytes(word.try_into().expect("four bytes")))
+        .collect();
     let (head, values) = words.split_at(5);
-    (head.try_into().unwrap(), values.iter().map(|bits| f32::from_bits(*bits)).collect())
+    (
+        head.try_into().expect("five numbers"),
+        values.iter().map(|bits| f32::from_bits(*bits)).collect(),
+    )
 }
 
 #[test]

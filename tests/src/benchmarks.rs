@@ -13,6 +13,7 @@ mod packs;
 mod profile;
 mod trees;
 mod walks;
+mod writing;
 
 use std::error::Error;
 use std::fmt::Write as _;
@@ -34,7 +35,7 @@ pub struct Table {
 }
 
 /// All of them, in the order of the page.
-pub const TABLES: [Table; 10] = [
+pub const TABLES: [Table; 11] = [
     Table { name: "devices", about: "path tracing on the CPU and others", write: devices::table },
     Table {
         name: "agreement",
@@ -52,6 +53,7 @@ pub const TABLES: [Table; 10] = [
     Table { name: "edits", about: "compiling again after edits", write: compiling::edits },
     Table { name: "open", about: "mapping and checking packs", write: open::table },
     Table { name: "first", about: "process start to first pixel", write: first::table },
+    Table { name: "writing", about: "pictures while rendering", write: writing::table },
     Table { name: "ablation", about: "gain from kernel specialisation", write: ablated },
 ];
 
@@ -69,6 +71,7 @@ pub fn child(name: &str, arguments: impl Iterator<Item = String>) -> Option<u8> 
     match name {
         edits::CHILD => Some(edits::child(arguments)),
         first::CHILD => Some(first::child(arguments)),
+        writing::CHILD => Some(writing::child(arguments)),
         _ => None,
     }
 }

@@ -129,6 +129,7 @@ fn add_panel(scene: &mut Scene, panel: Panel) {
         shape_span: span,
         material: Some(scene.materials.len()),
         material_span: None,
+        edits: Vec::new(),
         world_from_object: panel.pose.matrix,
         velocity: panel.pose.velocity,
     });
