@@ -19,12 +19,14 @@ mod brightness;
 #[warn(clippy::wildcard_enum_match_arm)]
 pub(crate) mod camera;
 pub(crate) mod collect;
+mod dark;
 mod define;
 pub(crate) mod exclusive;
 mod field;
 pub(crate) mod fields;
 pub(crate) mod file;
 pub(crate) mod given;
+mod group;
 mod index;
 mod instance;
 #[warn(clippy::wildcard_enum_match_arm)]

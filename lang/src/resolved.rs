@@ -101,6 +101,7 @@ fn light_fields(light: &Light) -> (&'static str, Vec<(&'static str, String)>) {
     if light.velocity.iter().any(|c| c.abs() > 0.0) {
         fields.push(("velocity", vector(light.velocity, "m/s")));
     }
+    fields.extend(group(light.group.as_ref()));
     (kind, fields)
 }
 
@@ -111,6 +112,11 @@ fn block(out: &mut String, head: &str, fields: &[(&str, String)]) -> fmt::Result
         writeln!(out, "  {name} = {value}")?;
     }
     writeln!(out, "}}")
+}
+
+/// A light group, where there is one.
+fn group(name: Option<&String>) -> Option<(&'static str, String)> {
+    name.map(|name| ("group", format!("\"{name}\"")))
 }
 
 fn instance_fields(scene: &Scene, instance: &Instance) -> Vec<(&'static str, String)> {
@@ -142,6 +148,7 @@ fn instance_fields(scene: &Scene, instance: &Instance) -> Vec<(&'static str, Str
     if instance.velocity.iter().any(|c| c.abs() > 0.0) {
         fields.push(("velocity", vector(instance.velocity, "m/s")));
     }
+    fields.extend(group(instance.group.as_ref()));
     fields
 }
 

@@ -57,7 +57,7 @@ pub(crate) use {types, words};
 pub(crate) mod asset;
 pub(crate) mod camera;
 mod film;
-mod instance;
+pub(crate) mod instance;
 pub(crate) mod light;
 mod render;
 mod table;
@@ -287,6 +287,8 @@ pub enum FieldType {
     Text,
     /// A path in quotes, relative to the file that says it.
     Path,
+    /// The name of a light group, in quotes.
+    Group,
     /// One number for all axes, or one for each; not zero.
     Scale,
     /// `+x`, `-x`, `+y`, `-y`, `+z` or `-z`.
@@ -408,6 +410,7 @@ pub fn unit_of(ty: FieldType) -> Option<(Dim, &'static str)> {
         | FieldType::Shape
         | FieldType::Text
         | FieldType::Path
+        | FieldType::Group
         | FieldType::Axis
         | FieldType::LengthUnit => None,
     }
@@ -447,6 +450,7 @@ pub fn type_text(ty: FieldType) -> String {
         FieldType::Interval(b) => format!("interval of {}", noun(b.dim)),
         FieldType::Text => "text".to_owned(),
         FieldType::Path => "path".to_owned(),
+        FieldType::Group => "name in quotes".to_owned(),
         FieldType::Scale => "number or three numbers".to_owned(),
         FieldType::Axis => "axis".to_owned(),
         FieldType::LengthUnit => "unit of length".to_owned(),
@@ -471,6 +475,7 @@ pub fn range_text(ty: FieldType) -> String {
         }
         FieldType::Color(_) | FieldType::ColorSlot(_) => "each channel at least 0".to_owned(),
         FieldType::Scale => "not zero".to_owned(),
+        FieldType::Group => format!("letters, digits, `_` and `-`, at most {MAX_GROUP}"),
         FieldType::Vector(..)
         | FieldType::NormalSlot
         | FieldType::Word(_)
@@ -516,6 +521,9 @@ pub fn color_text([r, g, b]: [f64; 3]) -> String {
         format!("linear({}, {}, {})", number(r), number(g), number(b))
     }
 }
+
+/// Longest name of a light group: it is part of the names of channels.
+pub const MAX_GROUP: usize = 40;
 
 /// Largest width or height of a film, in pixels.
 pub const MAX_FILM_SIDE: u32 = 65_536;

@@ -7,6 +7,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::resolved::{Declared, number, vector};
 use crate::scene::{Name, Rgb};
+use crate::schema::instance::GROUP;
 use crate::schema::{
     ANY, Bounds, Default, Field, FieldType, Kind, TypeSchema, WHITE, color_text, types,
 };
@@ -20,6 +21,8 @@ pub struct Sky {
     pub name: Name,
     /// Where its radiance comes from.
     pub model: SkyModel,
+    /// Its light group, if it names one.
+    pub group: Option<String>,
 }
 
 /// Sky models; all colours are radiance.
@@ -73,7 +76,7 @@ impl Sky {
     /// Name of its type, and its fields as they would be written.
     pub(crate) fn shown(&self) -> Declared {
         let one = ("strength", "1".to_owned());
-        let (kind, fields) = match &self.model {
+        let (kind, mut fields) = match &self.model {
             SkyModel::Constant(rgb) => ("constant", vec![("color", color_text(*rgb)), one]),
             SkyModel::Gradient {
                 zenith,
@@ -117,6 +120,7 @@ impl Sky {
                 ("image", fields)
             }
         };
+        fields.extend(self.group.iter().map(|group| ("group", format!("\"{group}\""))));
         (kind, fields)
     }
 }
@@ -156,7 +160,7 @@ pub(crate) fn read(name: Name, fields: &Fields) -> Option<Sky> {
         },
         SkyType::Gradient => gradient(fields, strength)?,
     };
-    Some(Sky { name, model })
+    Some(Sky { name, model, group: fields.text("group") })
 }
 
 fn gradient(fields: &Fields, strength: f64) -> Option<SkyModel> {
@@ -215,6 +219,7 @@ const CONSTANT: TypeSchema = TypeSchema {
         Field::new("color", FieldType::Color(ANY), Default::Color(WHITE), "Colour of the sky.")
             .foreign(&[("L", "pbrt"), ("radiance", "Mitsuba"), ("Color", "Blender")]),
         STRENGTH,
+        GROUP,
     ],
     foreign: &[
         ("infinite", "pbrt and LuxCore"),
@@ -276,6 +281,7 @@ const GRADIENT: TypeSchema = TypeSchema {
             "How much lower than `blend.low` the ground colour is reached.",
         ),
         STRENGTH,
+        GROUP,
         Field::new(
             "sun.direction",
             FieldType::Vector(Dim::NONE, ""),
@@ -323,6 +329,7 @@ const IMAGE: TypeSchema = TypeSchema {
         )
         .foreign(&[("to_world", "Mitsuba"), ("transformation", "LuxCore"), ("azimuth", "common use")]),
         STRENGTH,
+        GROUP,
     ],
     foreign: &[
         ("envmap", "Mitsuba"),

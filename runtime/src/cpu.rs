@@ -94,6 +94,11 @@ pub(crate) fn kernel<'a>(setup: &'a Setup<'_>, frame: &'a Frame) -> kernel::f32:
     scalar(Inputs::new(setup, frame))
 }
 
+/// The same in double precision, through the nodes of the pack.
+pub(crate) fn kernel_f64<'a>(setup: &'a Setup<'_>, frame: &'a Frame) -> kernel::f64::Kernel<'a> {
+    bound!(f64, Inputs::new(setup, frame), &mut [])
+}
+
 fn scalar(inputs: Inputs<'_>) -> kernel::f32::Kernel<'_> {
     let mut kernel = bound!(f32, inputs, &mut []);
     kernel.companion = Companion::new(inputs.tree);

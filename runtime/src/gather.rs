@@ -7,6 +7,7 @@ use crate::cpu;
 use crate::film::Film;
 use crate::job::Job;
 use crate::layers::{Layer, Layers, Matte, MatteKind, Nearest, Wanted, count};
+use crate::lights::{self, LightGroups, Row};
 use crate::region::{Rect, SampleRange};
 use crate::scene::Scene;
 use crate::schedule::WorkItem;
@@ -50,9 +51,7 @@ pub(crate) fn gather(
     let work = || {
         setup.tree();
         let rows = film.region.y..film.region.y + film.region.h;
-        rows.into_par_iter()
-            .map(|y| if signals.is_cancelled() { None } else { Some(gatherer.row(y)) })
-            .collect::<Option<Vec<_>>>()
+        rows.into_par_iter().map(|y| gatherer.row(y, signals)).collect::<Option<Vec<_>>>()
     };
     let rows = catch_unwind(AssertUnwindSafe(|| pool.install(work)))
         .map_err(|panic| GatherError::Bug(cpu::panic_text(panic.as_ref())))?;
@@ -85,9 +84,12 @@ struct Names {
 
 struct Gatherer<'a> {
     setup: &'a Setup<'a>,
+    job: &'a Job,
     wanted: &'a Wanted,
+    lights: LightGroups<'a>,
     region: Rect,
-    /// Ranges of samples, and how often the film has them with other seeds.
+    /// Samples that the film has of each pixel, their ranges, and how often it has those with other seeds.
+    counts: &'a [u32],
     ranges: &'a [SampleRange],
     replicates: u32,
     /// Whether samples that see the sky count as covered: it is a part of the picture.
@@ -102,14 +104,17 @@ struct Gatherer<'a> {
 }
 
 impl<'a> Gatherer<'a> {
-    fn new(scene: &Scene, setup: &'a Setup<'a>, job: &'a Job, film: &'a Film) -> Self {
+    fn new(scene: &'a Scene, setup: &'a Setup<'a>, job: &'a Job, film: &'a Film) -> Self {
         let manifest = scene.pack().manifest().unwrap_or_default();
         let (things, materials, mattes) = names(&manifest);
         let settings = scene.settings();
         Self {
             setup,
+            job,
             wanted: &job.wanted,
+            lights: LightGroups::of(scene),
             region: film.region,
+            counts: &film.counts,
             ranges: &film.ranges,
             replicates: film.replicates(),
             opaque: scene.pack().sky().is_some() && !job.wanted.transparent,
@@ -121,29 +126,58 @@ impl<'a> Gatherer<'a> {
         }
     }
 
-    /// The layers of row `y`, and the sums of the sky that it shows.
-    fn row(&self, y: u32) -> (Layers, Vec<[f64; 3]>) {
-        let Rect { x, w, .. } = self.region;
+    /// The layers of row `y`, and the sums of the sky that it shows; `None` once the user has interrupted.
+    fn row(&self, y: u32, signals: &Signals) -> Option<(Layers, Vec<[f64; 3]>)> {
+        let Rect { w, .. } = self.region;
         let (mut layers, mut backdrop) = self.empty(w as usize);
         let batches = (0..self.replicates)
             .flat_map(|replicate| self.ranges.iter().map(move |range| (replicate, range)));
         for (replicate, samples) in
             batches.flat_map(|(replicate, range)| range.batches().map(move |b| (replicate, b)))
         {
+            if signals.is_cancelled() {
+                return None;
+            }
             layers.samples += samples.count();
-            for at in (0..w).step_by(PIXELS as usize) {
-                let tile = Rect { x: x + at, y, w: PIXELS.min(w - at), h: 1 };
-                let item = WorkItem { tile, samples, replicate, probe: false };
-                let found = cpu::aovs(self.setup, &item);
-                let of_pixels = found.chunks_exact(samples.count() as usize);
-                for (i, of_pixel) in (at as usize..).zip(of_pixels) {
-                    for sample in of_pixel {
-                        self.take(&mut layers, &mut backdrop, i, sample);
-                    }
+            if self.wanted.has_aovs() {
+                self.aovs(&mut layers, &mut backdrop, (y, replicate, samples));
+            }
+            if !layers.lights.is_empty() {
+                let tile = Rect { y, h: 1, ..self.region };
+                let counts = self.counts_of(y);
+                let (setup, job) = (self.setup, self.job);
+                let row = Row { setup, job, tile, replicate, samples, counts };
+                lights::add(&self.lights, &row, &mut layers.lights);
+            }
+        }
+        Some((layers, backdrop))
+    }
+
+    /// Samples that the film has of the pixels of row `y`.
+    fn counts_of(&self, y: u32) -> &[u32] {
+        let w = self.region.w as usize;
+        self.counts.chunks(w.max(1)).nth((y - self.region.y) as usize).unwrap_or_default()
+    }
+
+    /// Adds the AOVs of a batch of row `y`.
+    fn aovs(
+        &self,
+        layers: &mut Layers,
+        backdrop: &mut [[f64; 3]],
+        (y, replicate, samples): (u32, u32, SampleRange),
+    ) {
+        let Rect { x, w, .. } = self.region;
+        for at in (0..w).step_by(PIXELS as usize) {
+            let tile = Rect { x: x + at, y, w: PIXELS.min(w - at), h: 1 };
+            let item = WorkItem { tile, samples, replicate, probe: false };
+            let found = cpu::aovs(self.setup, &item);
+            let of_pixels = found.chunks_exact(samples.count() as usize);
+            for (i, of_pixel) in (at as usize..).zip(of_pixels) {
+                for sample in of_pixel {
+                    self.take(layers, backdrop, i, sample);
                 }
             }
         }
-        (layers, backdrop)
     }
 
     /// Layers of so many pixels without samples, and without the names of mattes, which may be many.
@@ -162,6 +196,7 @@ impl<'a> Gatherer<'a> {
             samples: 0,
             albedo: sums(has(Layer::Albedo)),
             normal: sums(has(Layer::Normal)),
+            lights: if has(Layer::Lights) { self.lights.empty(n) } else { Vec::new() },
             covered: if has(Layer::Alpha) { vec![0; n] } else { Vec::new() },
             nearest: if nearest { vec![Nearest::NONE; n] } else { Vec::new() },
             mattes: crypto.iter().map(matte).collect(),
@@ -232,6 +267,9 @@ impl<'a> Gatherer<'a> {
             whole.albedo.extend(row.albedo);
             whole.normal.extend(row.normal);
             whole.covered.extend(row.covered);
+            for (group, row) in whole.lights.iter_mut().zip(row.lights) {
+                group.sums.extend(row.sums);
+            }
             whole.nearest.extend(row.nearest);
             for (matte, row) in whole.mattes.iter_mut().zip(row.mattes) {
                 matte.shares.extend(row.shares);

@@ -6,9 +6,12 @@
 //! It knows neither devices nor files.
 
 mod crypto;
+mod group;
 mod matte;
 
 pub use self::crypto::{id_of, manifest_text};
+pub use self::group::Group;
+pub(crate) use self::group::shares;
 pub(crate) use self::matte::count;
 pub use self::matte::{Matte, MatteKind};
 
@@ -40,6 +43,8 @@ pub enum Layer {
     Variance,
     /// Samples of each pixel.
     Samples,
+    /// The light of each light group; together they are the picture.
+    Lights,
     /// Share of the samples that see the scene and not the sky.
     Alpha,
 }
@@ -60,6 +65,7 @@ impl Layer {
             Self::Crypto => "crypto",
             Self::Variance => "variance",
             Self::Samples => "samples",
+            Self::Lights => "lights",
             Self::Alpha => "alpha",
         }
     }
@@ -136,12 +142,20 @@ impl Wanted {
         self.layers.iter().map(|layer| layer.name()).collect::<Vec<_>>().join(",")
     }
 
-    /// About how many bytes the layers of a pixel take.
+    /// Whether the kernel's AOVs are asked for.
     #[must_use]
-    pub fn bytes(&self) -> u64 {
+    pub fn has_aovs(&self) -> bool {
+        let others = [Layer::Variance, Layer::Samples, Layer::Lights];
+        self.transparent || self.layers.iter().any(|layer| !others.contains(layer))
+    }
+
+    /// About how many bytes the layers of a pixel take, in a scene of so many light groups.
+    #[must_use]
+    pub fn bytes(&self, groups: u64) -> u64 {
         let has = |layer| u64::from(self.layers.contains(&layer));
         let nearest = u64::from(self.layers.iter().any(|layer| layer.is_nearest()));
-        let sums = has(Layer::Albedo) + has(Layer::Normal) + u64::from(self.transparent);
+        let groups = has(Layer::Lights) * groups;
+        let sums = has(Layer::Albedo) + has(Layer::Normal) + u64::from(self.transparent) + groups;
         let mattes = MatteKind::ALL.len() * size_of::<Vec<(u32, u32)>>();
         let each = [
             sums * size_of::<[f64; 3]>() as u64,
@@ -190,6 +204,8 @@ pub struct Layers {
     pub albedo: Vec<[f64; 3]>,
     /// Sums of `Layer::Normal`.
     pub normal: Vec<[f64; 3]>,
+    /// Light by light group, in the order of channels.
+    pub lights: Vec<Group>,
     /// Samples that show the scene.
     pub covered: Vec<u32>,
     /// The nearest surfaces.
@@ -214,8 +230,10 @@ impl Layers {
 
     /// Adds the layers of other samples of the same pixels, whose indices are higher.
     pub fn add(&mut self, other: &Self) {
+        let lights = self.lights.iter_mut().zip(&other.lights);
         let planes = [(&mut self.albedo, &other.albedo), (&mut self.normal, &other.normal)];
-        for (sums, more) in planes {
+        let lights = lights.map(|(group, more)| (&mut group.sums, &more.sums));
+        for (sums, more) in planes.into_iter().chain(lights) {
             for (sum, more) in sums.as_flattened_mut().iter_mut().zip(more.as_flattened()) {
                 *sum += more;
             }

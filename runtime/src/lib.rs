@@ -36,6 +36,7 @@ mod job;
 pub mod kernel;
 pub mod layers;
 mod left_out;
+mod lights;
 mod mark;
 mod memory;
 mod outcome;

@@ -31,16 +31,16 @@ pub struct TooLarge {
     pub free: u64,
 }
 
-/// Bytes of memory that the film of `job` takes while it is rendered; `saved`: with a copy of it that is written to
-/// a checkpoint meanwhile.
+/// Bytes of memory that the film of `job` takes while it is rendered, in a scene of so many light groups; `saved`: with
+/// a copy of it that is written to a checkpoint meanwhile.
 #[must_use]
-pub fn film_bytes(job: &Job, saved: bool) -> u64 {
+pub fn film_bytes(job: &Job, groups: u64, saved: bool) -> u64 {
     let pixel = match (job.measure.is_some(), saved) {
         (true, _) => KEPT + MEASURED + BATCH * REPLICATES as u64,
         (false, true) => 2 * KEPT + BATCH,
         (false, false) => KEPT + BATCH,
     };
-    job.crop.pixels() * (pixel + job.wanted.bytes())
+    job.crop.pixels() * (pixel + job.wanted.bytes(groups))
 }
 
 /// Bytes of a pixel while it is written, at most: means, planes of an EXR with residuals, and the file.
@@ -62,8 +62,13 @@ pub(crate) struct Free {
 /// # Errors
 /// When it is large, and larger than what is free; when it does not fit into the limit of the process, be it while
 /// it is rendered or while it is written.
-pub(crate) fn announce(job: &Job, saved: bool, free: Free) -> Result<Option<String>, TooLarge> {
-    let (need, pixels) = (film_bytes(job, saved), job.crop.pixels());
+pub(crate) fn announce(
+    job: &Job,
+    groups: u64,
+    saved: bool,
+    free: Free,
+) -> Result<Option<String>, TooLarge> {
+    let (need, pixels) = (film_bytes(job, groups, saved), job.crop.pixels());
     if let Some(free) = free.limit {
         let need = need.max(pixels * (KEPT + WRITTEN)) + REST;
         // What `malloc` has set aside for threads counts as used, and may hold it all the same.
@@ -125,27 +130,28 @@ mod tests {
     #[test]
     fn large_films_are_announced_and_those_that_do_not_fit_are_refused() {
         let large = job(16_384, None);
-        assert_eq!(film_bytes(&large, false), 40 << 28);
+        assert_eq!(film_bytes(&large, 0, false), 40 << 28);
         let free = |machine: u64| Free { machine: Some(machine), limit: None };
-        let said = announce(&large, false, free(11 << 30)).expect("it fits");
+        let said = announce(&large, 0, false, free(11 << 30)).expect("it fits");
         assert_eq!(said.as_deref(), Some("the film takes 10.7 GB of memory while it is rendered"));
         assert_eq!(
-            announce(&large, false, Free::default()),
+            announce(&large, 0, false, Free::default()),
             Ok(said),
             "where nothing is known nothing is refused"
         );
-        let error =
-            announce(&large, false, free(4_000_000_000)).expect_err("it does not fit").to_string();
+        let error = announce(&large, 0, false, free(4_000_000_000))
+            .expect_err("it does not fit")
+            .to_string();
         let expected = "a film of 268435456 pixels takes 10.7 GB of memory while it is rendered, and \
             4.0 GB are free: render less of it with --crop or --size";
         assert_eq!(error, expected);
-        assert_eq!(film_bytes(&large, true), 68 << 28, "with its copy");
+        assert_eq!(film_bytes(&large, 0, true), 68 << 28, "with its copy");
         // Four more numbers of double precision, their variance, and three more batches.
-        assert_eq!(film_bytes(&job(1, Some(Measure::default())), true), 40 + 40 + 36);
+        assert_eq!(film_bytes(&job(1, Some(Measure::default())), 0, true), 40 + 40 + 36);
         // Small ones are not worth a word, and are never refused; a crop counts by its own pixels.
-        assert_eq!(announce(&job(1920, None), true, free(1 << 20)), Ok(None));
+        assert_eq!(announce(&job(1920, None), 0, true, free(1 << 20)), Ok(None));
         let part = Job { crop: Rect { x: 0, y: 0, w: 16, h: 16 }, ..large };
-        assert_eq!(announce(&part, true, free(1 << 20)), Ok(None));
+        assert_eq!(announce(&part, 0, true, free(1 << 20)), Ok(None));
     }
 
     #[test]
@@ -153,11 +159,11 @@ mod tests {
         let limited = |limit: u64| Free { machine: None, limit: Some(limit) };
         let job = job(1920, None);
         let most = 1920 * 1920 * (28 + 96) + (4 << 20);
-        assert_eq!(announce(&job, false, limited(most)), Ok(None));
+        assert_eq!(announce(&job, 0, false, limited(most)), Ok(None));
         // Whether there is room all the same is tried out.
-        assert_eq!(announce(&job, false, limited(most - 1)), Ok(None));
+        assert_eq!(announce(&job, 0, false, limited(most - 1)), Ok(None));
         let vast = Job { crop: Rect::whole([1 << 24; 2]), ..job };
-        let error = announce(&vast, false, limited(most)).expect_err("no room").to_string();
+        let error = announce(&vast, 0, false, limited(most)).expect_err("no room").to_string();
         let end = "and 461 MB are free: render less of it with --crop or --size";
         assert!(error.ends_with(end), "{error}");
         assert!(zeros::<u64>(1 << 60).is_err() && zeros::<u64>(u64::MAX).is_err());

@@ -3,7 +3,9 @@
 //! Every file appears complete or not at all: it is written beside its final name and renamed. This
 //! module does not render.
 
+mod channel;
 mod exr;
+mod groups;
 mod merge;
 mod picture;
 mod planes;

@@ -5,6 +5,7 @@ use crate::control::Control;
 use crate::cpu;
 use crate::gather::{GatherError, gather};
 use crate::job::{Job, JobError};
+use crate::lights::LightGroups;
 use crate::memory::{self, TooLarge};
 use crate::outcome::Outcome;
 use crate::output::Meta;
@@ -93,7 +94,8 @@ pub fn render_session(
     let Session { from, keep } = session;
     // A run that is measured has four pictures to keep, which no checkpoint holds.
     let (from, keep) = if job.measure.is_some() { (None, None) } else { (from, keep) };
-    if let Some(text) = memory::announce(job, keep.is_some(), memory::free())? {
+    let groups = LightGroups::count(scene, job);
+    if let Some(text) = memory::announce(job, groups, keep.is_some(), memory::free())? {
         control.signals().note(&text);
     }
     let done = from.as_ref().and_then(|from| from.film.ranges.last()).map_or(0, |done| done.end);

@@ -30,7 +30,7 @@ pub use error::{Location, ShaderError};
 pub use features::{Binding, FeatureSet, NodeLayout, PORTABLE_STORAGE, Windows};
 pub use generate::{WINDOW_WORDS, generated_texts, record_texts, root_module};
 pub use layout::{LayoutError, abi_module, check_layouts};
-pub use link::{Linked, link, link_modules, link_with_aov};
+pub use link::{AOV, LIGHTS, Linked, Root, link, link_modules, link_with};
 pub use modules::module_texts;
 #[cfg(feature = "spirv")]
 pub use validate::spirv_words;

@@ -12,8 +12,10 @@ use std::sync::LazyLock;
 /// Name of the entry point of a scene's kernel.
 const ENTRY: &str = "render";
 
-/// Module and name of the entry point of AOVs.
-const AOV: (&str, &str) = ("kernel/aov.wgsl", "aov");
+/// The entry point of AOVs.
+pub const AOV: Root<'_> = ("kernel/aov.wgsl", "aov");
+/// What tells light groups apart, step by step; a host drives it.
+pub const LIGHTS: Root<'_> = ("kernel/lights.wgsl", "lights_advance");
 
 /// One kernel.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -79,9 +81,9 @@ pub fn link(features: &FeatureSet) -> Result<Linked, ShaderError> {
     link_roots(features, &[(generate::root_module(features), ENTRY)])
 }
 
-/// The same with the entry point of AOVs beside `render`, for `features` with geometry.
-pub fn link_with_aov(features: &FeatureSet) -> Result<Linked, ShaderError> {
-    link_roots(features, &[(generate::root_module(features), ENTRY), AOV])
+/// The same with what layers need beside `render`, for `features` with geometry.
+pub fn link_with(features: &FeatureSet, more: &[Root<'_>]) -> Result<Linked, ShaderError> {
+    link_roots(features, &[&[(generate::root_module(features), ENTRY)], more].concat())
 }
 
 fn link_roots(features: &FeatureSet, roots: &[Root<'_>]) -> Result<Linked, ShaderError> {
@@ -98,8 +100,8 @@ pub fn link_modules(modules: &[(&str, &str)], root: &str) -> Result<Linked, Shad
     link_ready(modules, &Ready::new(), &[(root, ENTRY)])
 }
 
-/// A module and the entry point in it.
-type Root<'r> = (&'r str, &'r str);
+/// A module and the function in it that a kernel is to have.
+pub type Root<'r> = (&'r str, &'r str);
 
 /// `ready`: some of the modules.
 fn link_ready<'t>(

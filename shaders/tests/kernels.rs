@@ -13,7 +13,7 @@ use common::feature_sets;
 use forms::rewrites;
 use naga::valid::ModuleInfo;
 use naga::{Expression, Function, Handle, MathFunction, Module, Statement};
-use shaders::{FeatureSet, check_layouts, link, link_with_aov, validate};
+use shaders::{AOV, FeatureSet, LIGHTS, check_layouts, link, link_with, validate};
 use std::collections::BTreeSet;
 
 fn kernel(name: &str, features: &FeatureSet) -> (Module, ModuleInfo) {
@@ -42,11 +42,11 @@ fn every_single_feature_and_every_pair_is_sound() {
     assert!(forms.is_empty(), "forms that drivers rewrite: {forms:#?}");
 }
 
-/// CPUs run the full kernel with its AOVs. The picture's part of it is the full kernel to the byte.
+/// CPUs run the full kernel with what layers need. The picture's part of it is the full kernel to the byte.
 #[test]
 fn aovs_are_sound_and_leave_the_picture_alone() {
     let full = FeatureSet::full();
-    let linked = link_with_aov(&full).expect("links");
+    let linked = link_with(&full, &[AOV, LIGHTS]).expect("links");
     let (module, info) = validate(&linked).unwrap_or_else(|e| panic!("{e}"));
     let entries: Vec<&str> = module.entry_points.iter().map(|entry| entry.name.as_str()).collect();
     assert!(entries.contains(&"render") && entries.contains(&"aov"), "{entries:?}");
@@ -227,7 +227,7 @@ fn every_declaration_of_every_module_is_in_some_kernel() {
         missing.extend(declared_functions(text).map(|function| (*file, function)));
     }
     let lens = FeatureSet { lens: true, ..FeatureSet::empty() };
-    let with_aov = link_with_aov(&FeatureSet::full()).expect("links").text;
+    let with_aov = link_with(&FeatureSet::full(), &[AOV, LIGHTS]).expect("links").text;
     let present: BTreeSet<&str> = declared_functions(&with_aov).collect();
     missing.retain(|(_, function)| !present.contains(function));
     // The full one has most of them.

@@ -11,6 +11,7 @@ pub mod ball;
 pub mod benchmarks;
 pub mod console;
 pub mod edits;
+pub mod exr_file;
 pub mod features;
 pub mod flips;
 pub mod furnace;

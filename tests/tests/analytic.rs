@@ -169,38 +169,16 @@ fn a_small_sun_gives_pi_l_sine_squared() {
     all(&checks);
 }
 
+/// Radiance of a white floor under irradiance E: E / pi. A watt of white light is 683 lumens.
+fn lit_floor(name: &str, expected: f64, light: &str) -> Check {
+    let text = format!("{WHITE_FLOOR}{light}\n{}", view([-3.0, 0.5, 0.0], [0.0; 3], 2));
+    Check::new(name, expected, text)
+}
+
 #[test]
-fn declared_lights_give_what_their_units_say() {
-    // Radiance of a white floor under irradiance E: E / pi. A watt of white light is 683 lumens.
-    let under =
-        |light: &str| format!("{WHITE_FLOOR}{light}\n{}", view([-3.0, 0.5, 0.0], [0.0; 3], 2));
-    let form = 0.554_126_424;
-    let panel = "at = (0, 1, 0)m, size = (2, 2)m";
-    let check = |name: &str, expected: f64, light: &str| Check::new(name, expected, under(light));
+fn spot_lights_give_what_their_units_say() {
+    let check = lit_floor;
     all(&[
-        // I / d^2.
-        check(
-            "point, candelas",
-            1.0 / (4.0 * PI),
-            "light l: point { at = (0, 2, 0)m, intensity = 683cd }",
-        ),
-        check(
-            "point, W/sr",
-            3.0 / (4.0 * PI),
-            "light l: point { at = (0, 2, 0)m, intensity = 3W/sr }",
-        ),
-        // 4 pi I is the power of a sphere.
-        check(
-            "point, lumens",
-            5.0 / (4.0 * PI * 4.0 * PI),
-            "light l: point { at = (0, 2, 0)m, power = 3415lm, radius = 3cm }",
-        ),
-        check(
-            "sphere, watts",
-            5.0 / (4.0 * PI * 4.0 * PI),
-            "light l: sphere { center = (0, 2, 0)m, radius = 5cm, power = 5W }",
-        ),
-        // pi A L is the power of one side.
         // All of the beam, in its middle and at its edge, where the light is half of that.
         check(
             "spot, candelas",
@@ -227,6 +205,38 @@ fn declared_lights_give_what_their_units_say() {
             0.0,
             "light l: spot { at = (0, 2, 0)m, direction = (0, 1, 0), intensity = 1W/sr }",
         ),
+    ]);
+}
+
+#[test]
+fn declared_lights_give_what_their_units_say() {
+    let form = 0.554_126_424;
+    let panel = "at = (0, 1, 0)m, size = (2, 2)m";
+    let check = lit_floor;
+    all(&[
+        // I / d^2.
+        check(
+            "point, candelas",
+            1.0 / (4.0 * PI),
+            "light l: point { at = (0, 2, 0)m, intensity = 683cd }",
+        ),
+        check(
+            "point, W/sr",
+            3.0 / (4.0 * PI),
+            "light l: point { at = (0, 2, 0)m, intensity = 3W/sr }",
+        ),
+        // 4 pi I is the power of a sphere.
+        check(
+            "point, lumens",
+            5.0 / (4.0 * PI * 4.0 * PI),
+            "light l: point { at = (0, 2, 0)m, power = 3415lm, radius = 3cm }",
+        ),
+        check(
+            "sphere, watts",
+            5.0 / (4.0 * PI * 4.0 * PI),
+            "light l: sphere { center = (0, 2, 0)m, radius = 5cm, power = 5W }",
+        ),
+        // pi A L is the power of one side.
         check(
             "rectangle, watts",
             form,

@@ -3,12 +3,11 @@
 #![expect(clippy::float_cmp, reason = "numbers, counts and shares of few samples are exact")]
 
 use clap::ValueEnum as _;
-use exr::prelude::{AttributeValue, FlatSamples, ReadChannels as _, ReadLayers as _};
 use runtime::layers::{Layer, LayerNames, Wanted};
-use runtime::output::{self, Picture, encode_png, encode_png16, merge, read_exr};
+use runtime::output::{self, encode_png, encode_png16, merge, read_exr};
 use runtime::{Outcome, SampleRange};
 use std::collections::BTreeMap;
-use std::path::Path;
+use tests::exr_file::File;
 use tests::picture;
 
 /// A red cube, a mirror that shows a green wall beside the picture, nothing behind them.
@@ -31,7 +30,7 @@ render main: path {{ camera = eye, film = small, samples = 32, depth = 6, seed =
     ))
 }
 
-const ALL: [Layer; 11] = [
+const ALL: [Layer; 12] = [
     Layer::Albedo,
     Layer::Normal,
     Layer::Depth,
@@ -42,6 +41,7 @@ const ALL: [Layer; 11] = [
     Layer::Material,
     Layer::Crypto,
     Layer::Samples,
+    Layer::Lights,
     Layer::Alpha,
 ];
 
@@ -60,47 +60,9 @@ fn wanted(layers: &[Layer], names: LayerNames) -> Wanted {
     Wanted { layers: layers.iter().copied().collect(), transparent: false, names }
 }
 
-/// Channels and texts of a file, as the `exr` crate finds them.
-struct File {
-    channels: BTreeMap<String, Vec<f32>>,
-    texts: BTreeMap<String, String>,
-}
-
-impl File {
-    fn of(path: &Path) -> Self {
-        let image = exr::prelude::read()
-            .no_deep_data()
-            .largest_resolution_level()
-            .all_channels()
-            .first_valid_layer()
-            .all_attributes()
-            .from_file(path)
-            .expect("an EXR");
-        let channels = image.layer_data.channel_data.list.iter().map(|channel| {
-            let values = match &channel.sample_data {
-                FlatSamples::F32(values) => values.clone(),
-                FlatSamples::U32(values) => values.iter().map(|n| *n as f32).collect(),
-                FlatSamples::F16(_) => panic!("{} has 16 bits", channel.name),
-            };
-            (channel.name.to_string(), values)
-        });
-        let texts = image.layer_data.attributes.other.iter().filter_map(|(name, value)| {
-            let AttributeValue::Text(text) = value else { return None };
-            Some((name.to_string(), text.to_string()))
-        });
-        Self { channels: channels.collect(), texts: texts.collect() }
-    }
-
-    fn written(picture: &Picture, residual: bool) -> Self {
-        let file = tempfile::Builder::new().suffix(".exr").tempfile().expect("a file");
-        output::write(file.path(), picture, residual).expect("it can be written");
-        Self::of(file.path())
-    }
-
-    /// Some channels of one name at a pixel.
-    fn at<const N: usize>(&self, stem: &str, ends: [&str; N], [x, y]: [usize; 2]) -> [f32; N] {
-        ends.map(|end| self.channels[&format!("{stem}{end}")][y * SIZE + x])
-    }
+/// Some channels of one name at a pixel.
+fn pixel<const N: usize>(file: &File, stem: &str, ends: [&str; N], [x, y]: [usize; 2]) -> [f32; N] {
+    ends.map(|end| file.channels[&format!("{stem}{end}")][y * SIZE + x])
 }
 
 /// Where the cube, the mirror and nothing are.
@@ -120,31 +82,31 @@ fn layers_hold_what_the_scene_says() {
     let layer = |name: &str| format!("ViewLayer.{name}.");
     let (rgb, xyz) = (["R", "G", "B"], ["X", "Y", "Z"]);
     // Denoisers look into the mirror, which keeps half of the light.
-    near(file.at(&layer("Denoising Albedo"), rgb, CUBE), [0.8, 0.1, 0.1], 1e-6);
-    near(file.at(&layer("Denoising Albedo"), rgb, PANE), [0.05, 0.4, 0.05], 1e-6);
-    near(file.at(&layer("Denoising Albedo"), rgb, NOTHING), [0.0; 3], 0.0);
-    near(file.at(&layer("Denoising Normal"), xyz, CUBE), [0.0, 0.0, 1.0], 1e-6);
-    near(file.at(&layer("Denoising Normal"), xyz, PANE), [-1.0, 0.0, 0.0], 1e-6);
+    near(pixel(&file, &layer("Denoising Albedo"), rgb, CUBE), [0.8, 0.1, 0.1], 1e-6);
+    near(pixel(&file, &layer("Denoising Albedo"), rgb, PANE), [0.05, 0.4, 0.05], 1e-6);
+    near(pixel(&file, &layer("Denoising Albedo"), rgb, NOTHING), [0.0; 3], 0.0);
+    near(pixel(&file, &layer("Denoising Normal"), xyz, CUBE), [0.0, 0.0, 1.0], 1e-6);
+    near(pixel(&file, &layer("Denoising Normal"), xyz, PANE), [-1.0, 0.0, 0.0], 1e-6);
     // The others are of what the camera ray meets.
-    near(file.at(&layer("Depth"), ["Z"], CUBE), [4.5], 1e-5);
-    near(file.at(&layer("Depth"), ["Z"], NOTHING), [1e10], 0.0);
-    let [_, _, z] = file.at(&layer("Position"), xyz, CUBE);
+    near(pixel(&file, &layer("Depth"), ["Z"], CUBE), [4.5], 1e-5);
+    near(pixel(&file, &layer("Depth"), ["Z"], NOTHING), [1e10], 0.0);
+    let [_, _, z] = pixel(&file, &layer("Position"), xyz, CUBE);
     near([z], [0.5], 1e-5);
-    let [x, y, z] = file.at(&layer("Position"), xyz, PANE);
-    near([x + z, file.at(&layer("Depth"), ["Z"], PANE)[0]], [1.2, 5.0 - z], 1e-5);
+    let [x, y, z] = pixel(&file, &layer("Position"), xyz, PANE);
+    near([x + z, pixel(&file, &layer("Depth"), ["Z"], PANE)[0]], [1.2, 5.0 - z], 1e-5);
     assert!(y.abs() < 0.2);
-    assert_eq!(file.at(&layer("UV"), ["A"], PANE), [1.0]);
+    assert_eq!(pixel(&file, &layer("UV"), ["A"], PANE), [1.0]);
     for (name, numbers) in [
         ("Object Index", [1.0, 2.0, 0.0]),
         ("Instance Index", [1.0, 2.0, 0.0]),
         // Materials are numbered as they are used.
         ("Material Index", [1.0, 2.0, 0.0]),
     ] {
-        let found = [CUBE, PANE, NOTHING].map(|at| file.at(&layer(name), ["X"], at)[0]);
+        let found = [CUBE, PANE, NOTHING].map(|at| pixel(&file, &layer(name), ["X"], at)[0]);
         assert_eq!(found, numbers, "{name}");
     }
-    assert_eq!(file.at(&layer("Debug Sample Count"), ["X"], PANE), [32.0]);
-    let alpha = |at| file.at(&layer("Combined"), ["A"], at);
+    assert_eq!(pixel(&file, &layer("Debug Sample Count"), ["X"], PANE), [32.0]);
+    let alpha = |place| pixel(&file, &layer("Combined"), ["A"], place);
     assert_eq!([CUBE, PANE, NOTHING].map(alpha), [[1.0], [1.0], [0.0]]);
 }
 
@@ -219,15 +181,15 @@ fn coverage_adds_up_to_alpha_and_the_manifest_leads_back() {
         let manifest: BTreeMap<String, String> =
             serde_json::from_str(text("manifest")).expect("JSON");
         assert_eq!(manifest[name], format!("{id:08x}"));
-        let [first, share] = file.at(&format!("{layer}00."), ["r", "g"], CUBE);
+        let [first, share] = pixel(&file, &format!("{layer}00."), ["r", "g"], CUBE);
         assert_eq!((first.to_bits(), share), (id, 1.0));
         let mut edges = 0;
         for i in 0..SIZE * SIZE {
             let at = [i % SIZE, i / SIZE];
             let shares: f32 = (0..3)
-                .flat_map(|level| file.at(&format!("{layer}{level:02}."), ["g", "a"], at))
+                .flat_map(|level| pixel(&file, &format!("{layer}{level:02}."), ["g", "a"], at))
                 .sum();
-            let [alpha] = file.at("ViewLayer.Combined.", ["A"], at);
+            let [alpha] = pixel(&file, "ViewLayer.Combined.", ["A"], at);
             near([shares], [alpha], 1e-6);
             edges += u32::from(alpha > 0.0 && alpha < 1.0);
         }
@@ -281,8 +243,8 @@ fn a_transparent_picture_has_no_sky_and_a_png_with_alpha() {
     let without = render(&things, &transparent(true), range(0, 32)).picture;
     let (opaque, clear) = (File::written(&with_sky, false), File::written(&without, false));
     assert!(opaque.channels["A"].iter().all(|alpha| *alpha == 1.0));
-    near(opaque.at("", ["R", "G", "B"], NOTHING), [0.6, 0.8, 1.0], 1e-6);
-    near(clear.at("", ["R", "G", "B", "A"], NOTHING), [0.0; 4], 0.0);
+    near(pixel(&opaque, "", ["R", "G", "B"], NOTHING), [0.6, 0.8, 1.0], 1e-6);
+    near(pixel(&clear, "", ["R", "G", "B", "A"], NOTHING), [0.0; 4], 0.0);
     // Over the sky again it is the picture.
     for (c, sky) in [("R", 0.6), ("G", 0.8), ("B", 1.0)] {
         for (i, over) in opaque.channels[c].iter().enumerate() {

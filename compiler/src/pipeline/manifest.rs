@@ -1,9 +1,11 @@
 //! Names, places and counts for people who look into a pack, and the name of its inputs.
 
+use std::collections::BTreeMap;
+
 use lang::scene::{Instance, Name, Scene, Shape};
 use lang::source::{SourceSet, Span};
 use pack::Manifest;
-use pack::manifest::{Feature, KernelSize, Named, Shown};
+use pack::manifest::{Feature, Group, KernelSize, Named, Shown};
 use shaders::FeatureSet;
 
 use super::explain::{Explain, Row};
@@ -50,6 +52,7 @@ impl Context<'_> {
             shown: scene.instances.iter().map(|i| self.shown(i)).collect(),
             textures: scene.textures.iter().map(|t| self.declared(&t.name)).collect(),
             lights: scene.lights.iter().map(|l| self.declared(&l.name)).collect(),
+            groups: groups(scene),
             cameras: vec![self.declared(&scene.camera.name)],
             features_kept,
             features_left_out,
@@ -145,4 +148,29 @@ impl Context<'_> {
     fn file_name(&self, name: &str) -> String {
         relative(name.as_ref(), self.options.root)
     }
+}
+
+/// The light groups that the scene names, and the objects of the pack that are in each: instances first, then lights.
+fn groups(scene: &Scene) -> Vec<Group> {
+    let instances = scene.instances.iter().map(|instance| instance.group.as_ref());
+    let lights = scene.lights.iter().map(|light| light.group.as_ref());
+    let mut runs: BTreeMap<&str, Vec<(u32, u32)>> = BTreeMap::new();
+    for (object, group) in (0..).zip(instances.chain(lights)) {
+        let Some(group) = group else { continue };
+        let runs = runs.entry(group).or_default();
+        match runs.last_mut() {
+            Some((first, count)) if *first + *count == object => *count += 1,
+            _ => runs.push((object, 1)),
+        }
+    }
+    let sky = scene.sky.as_ref().and_then(|sky| sky.group.as_deref());
+    if let Some(sky) = sky {
+        runs.entry(sky).or_default();
+    }
+    let group = |(name, objects): (&str, _)| Group {
+        name: name.to_owned(),
+        sky: sky == Some(name),
+        objects,
+    };
+    runs.into_iter().map(group).collect()
 }

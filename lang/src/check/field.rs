@@ -1,6 +1,6 @@
 //! One value against what its field wants: type, dimension, range, texture space.
 
-use super::lint;
+use super::{group, lint};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::eval::value::Value;
 use crate::eval::{Evaluator, Scope, with_unit_fix};
@@ -72,6 +72,17 @@ impl Evaluator<'_> {
             }
             ExprKind::Path(path) if path.segments.len() == 1 && wants_word(field.ty) => {
                 self.word(slot, &path.segments[0])
+            }
+            ExprKind::Path(path)
+                if matches!(field.ty, FieldType::Group)
+                    && path.segments.len() == 1
+                    && self.program.lookup(scope.module, path).is_none() =>
+            {
+                let name = &path.segments[0];
+                let text = format!("{} needs a text in quotes", slot.name());
+                let error = Diagnostic::error(Code("E0305"), text).at(expr.span, "not in quotes");
+                let quoted = format!("\"{}\"", name.text);
+                self.fault(error.with_fix(Fix::guess("add quotes", expr.span, quoted)))
             }
             ExprKind::Path(path) => {
                 let kind = match field.ty {
@@ -212,7 +223,7 @@ impl Evaluator<'_> {
             },
             FieldType::Shape => self.fit_shape(slot, value),
             FieldType::Interval(bounds) => self.fit_interval(slot, value, bounds),
-            FieldType::Text | FieldType::Path => self.fit_text(slot, value),
+            FieldType::Text | FieldType::Path | FieldType::Group => self.fit_text(slot, value),
             FieldType::Scale => self.fit_scale(slot, value),
             FieldType::Axis if matches!(value, Value::Axis(_)) => value,
             FieldType::Axis => self.wrong_kind(slot, &value, "an axis such as `+y`"),
@@ -444,6 +455,12 @@ impl Evaluator<'_> {
         if text.is_empty() {
             let message = format!("{} is empty", slot.name());
             return self.fault(Diagnostic::error(Code("E0501"), message).at(slot.span(), "empty"));
+        }
+        if matches!(slot.field.ty, FieldType::Group) {
+            let literal = matches!(slot.expr.kind, ExprKind::Text(_));
+            if let Some(error) = group::fault(text, slot.span(), literal) {
+                return self.fault(error);
+            }
         }
         if is_path && text.contains('\\') {
             let message = "a path has a `\\` in it, which only works on Windows";

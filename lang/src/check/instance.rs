@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use super::fields::Fields;
 use super::given::Givens;
+use super::group::{self, Group};
 use super::object::{self, Objects, Thing};
 use super::transform::{self, Pose};
 use crate::diagnostic::{Code, Diagnostic};
@@ -30,6 +31,7 @@ pub(super) struct Placed {
     pub(super) shape: Rc<ShapeValue>,
     pub(super) shape_span: Span,
     pub(super) material: Option<(ItemId, Span)>,
+    pub(super) group: Group,
     pub(super) pose: Pose,
 }
 
@@ -56,12 +58,19 @@ pub(super) struct World {
     steps: usize,
 }
 
+/// What things hand on to the things that they hold.
+#[derive(Clone, Default)]
+struct Inherited {
+    material: Option<(ItemId, Span)>,
+    group: Group,
+}
+
 /// Where the walk through groups is.
 struct Place<'a> {
     key: &'a (String, i64, String),
     name_span: Span,
-    /// Material of the instance itself, which replaces all others.
-    over: Option<(ItemId, Span)>,
+    /// What the instance itself says, which replaces what all others say.
+    over: Inherited,
 }
 
 impl World {
@@ -144,12 +153,13 @@ impl World {
         };
         transform::check(ev, fields);
         let Some(pose) = transform::pose(fields) else { return };
-        let over = object::material(fields);
+        let over = Inherited { material: object::material(fields), group: group::group(fields) };
+        let (material, group) = (over.material, over.group.clone());
         let place = Place { key, name_span, over };
         let shape_span = fields.value_span("shape").or(base.map(|(_, at)| at)).unwrap_or(name_span);
-        let thing = Thing { object: None, shape, shape_span, material: over, pose };
+        let thing = Thing { object: None, shape, shape_span, material, group, pose };
         if placed {
-            self.flatten(ev, &place, (&thing, &thing.pose), &mut Vec::new(), None);
+            self.flatten(ev, &place, (&thing, &thing.pose), &mut Vec::new(), &Inherited::default());
         }
     }
 
@@ -161,9 +171,12 @@ impl World {
         place: &Place<'_>,
         (thing, world): (&Thing, &Pose),
         path: &mut Vec<ItemId>,
-        inherited: Option<(ItemId, Span)>,
+        inherited: &Inherited,
     ) {
-        let own = place.over.or(thing.material).or(inherited);
+        let own = Inherited {
+            material: place.over.material.or(thing.material).or(inherited.material),
+            group: first([&place.over.group, &thing.group, &inherited.group]),
+        };
         let children: &[(ItemId, Span)] = match &*thing.shape {
             ShapeValue::Objects(children) => children,
             ShapeValue::Object(child, at) => &[(*child, *at)],
@@ -181,7 +194,7 @@ impl World {
             if named {
                 path.push(child);
             }
-            self.flatten(ev, place, (&inner, &world), path, own);
+            self.flatten(ev, place, (&inner, &world), path, &own);
             if named {
                 path.pop();
             }
@@ -202,7 +215,7 @@ impl World {
         ev: &mut Evaluator<'_>,
         place: &Place<'_>,
         (thing, world): (&Thing, &Pose),
-        (path, material): (&[ItemId], Option<(ItemId, Span)>),
+        (path, Inherited { material, group }): (&[ItemId], Inherited),
     ) {
         if self.placed.len() >= MAX_INSTANCES {
             self.overflow(ev, place);
@@ -237,9 +250,15 @@ impl World {
             shape: Rc::clone(&thing.shape),
             shape_span: thing.shape_span,
             material,
+            group,
             pose: *world,
         });
     }
+}
+
+/// The first group that is there.
+fn first(groups: [&Group; 3]) -> Group {
+    groups.into_iter().find_map(Clone::clone)
 }
 
 /// Reports a missing shape once, before any index is tried.

@@ -26,6 +26,7 @@ pub(super) struct Panel {
     pub(super) shape: Shape,
     pub(super) pose: Pose,
     pub(super) material: MaterialModel,
+    pub(super) group: Option<String>,
 }
 
 /// Checks how the fields of a light go together.
@@ -197,7 +198,8 @@ fn ball(
     let emitter = Emitter { flux, intensity };
     let radiance = brightness::radiance(ev, &name, fields, emitter)?;
     let velocity = fields.vector("velocity")?;
-    let light = Light { name, center, velocity, radius, radiance, tint, beam };
+    let group = fields.text("group");
+    let light = Light { name, center, velocity, radius, radiance, tint, beam, group };
     Some(Lit::Ball(Box::new(light)))
 }
 
@@ -223,7 +225,8 @@ fn panel(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Option<Panel> {
     };
     let emissive = Emissive { color: Color::Constant(radiance), strength: 1.0, both_sides };
     let material = MaterialModel::Emissive(emissive);
-    Some(Panel { name, shape: Shape::Rectangle { size }, pose, material })
+    let group = fields.text("group");
+    Some(Panel { name, shape: Shape::Rectangle { size }, pose, material, group })
 }
 
 /// Times `factor`.

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::fields::Fields;
+use super::group::{self, Group};
 use super::index::refuse_index;
 use super::transform::{self, Pose};
 use crate::diagnostic::{Code, Diagnostic};
@@ -24,6 +25,7 @@ pub(super) struct Thing {
     pub(super) shape: Rc<ShapeValue>,
     pub(super) shape_span: Span,
     pub(super) material: Option<(ItemId, Span)>,
+    pub(super) group: Group,
     pub(super) pose: Pose,
 }
 
@@ -120,6 +122,7 @@ fn thing(id: ItemId, fields: &Fields) -> Option<Thing> {
         shape,
         shape_span: fields.value_span("shape")?,
         material: material(fields),
+        group: group::group(fields),
         pose: transform::pose(fields)?,
     })
 }

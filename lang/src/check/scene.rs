@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::instance::Placed;
 use super::light::{Lit, Panel};
 use super::render::name;
-use super::{Checker, ids_of, is_in_world, light, material, medium, motion, sky};
+use super::{Checker, dark, ids_of, is_in_world, light, material, medium, motion, sky};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::eval::value::ShapeValue;
@@ -57,12 +57,15 @@ impl Checker {
                 Some(Material { name: name.clone(), model, normal })
             })
             .collect::<Option<Vec<Material>>>()?;
+        let material_at = index(&material_order);
+        let model = |id| Some(&materials.get(*material_at.get(&id)?)?.model);
+        let warnings = dark::groups(&placed, model);
         let mut scene = Scene {
             assets: self.assets(&asset_order)?,
             textures: textures(ev, &texture_order)?,
             materials,
             media: self.media(&medium_order)?,
-            instances: instances(placed, &index(&material_order), &index(&asset_order))?,
+            instances: instances(placed, &material_at, &index(&asset_order))?,
             lights,
             sky: view.sky,
             camera: view.camera,
@@ -71,6 +74,9 @@ impl Checker {
         };
         for panel in panels {
             add_panel(&mut scene, panel);
+        }
+        for warning in warnings {
+            ev.tell(warning);
         }
         no_light(ev, &scene);
         nothing_in_the_air(ev, &scene);
@@ -132,6 +138,7 @@ fn add_panel(scene: &mut Scene, panel: Panel) {
         edits: Vec::new(),
         world_from_object: panel.pose.matrix,
         velocity: panel.pose.velocity,
+        group: panel.group,
     });
     let name = Name { text, span };
     scene.materials.push(Material { name, model: panel.material, normal: None });
@@ -188,6 +195,7 @@ fn instances(
                 edits,
                 world_from_object: placed.pose.matrix,
                 velocity: placed.pose.velocity,
+                group: placed.group.map(|(name, _)| name.as_ref().to_owned()),
             })
         })
         .collect()

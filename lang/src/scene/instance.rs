@@ -27,4 +27,6 @@ pub struct Instance {
     pub world_from_object: [[f64; 4]; 3],
     /// World frame, metres per second; `world_from_object` is that of the moment 0.
     pub velocity: [f64; 3],
+    /// Its light group, if it or an object around it names one.
+    pub group: Option<String>,
 }

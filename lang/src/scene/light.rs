@@ -19,6 +19,8 @@ pub struct Light {
     pub tint: Option<Tint>,
     /// The cone into which it shines; all around without.
     pub beam: Option<Beam>,
+    /// Its light group, if it names one.
+    pub group: Option<String>,
 }
 
 /// A cone of light. Between the angles the light falls off smoothly.

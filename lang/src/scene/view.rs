@@ -118,6 +118,8 @@ words! {
         Variance = "variance" "of the mean luminance, where the error is measured",
         /// Of each pixel.
         Samples = "samples" "of the pixel",
+        /// By light group.
+        Lights = "lights" "the light of each light group, see `group`; together they are the picture",
         /// Where the sky is not.
         Alpha = "alpha" "share of the samples that see the scene",
     }

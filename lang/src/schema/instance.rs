@@ -67,6 +67,16 @@ const SHAPE: &str = "What it looks like: a shape, a mesh file or part, an object
      materials and parts, `*` stands for any letters and `?` for one; `none` leaves out what has the name, and the \
      last line that holds for a part decides.";
 
+/// Of whatever gives off light.
+pub(crate) const GROUP: Field = Field::new(
+    "group",
+    FieldType::Group,
+    Default::Absent("`rest`; for a sky `sky`"),
+    "Light group: `rtr --layers lights` writes the light of all that have the same one as a layer.",
+)
+.typical("`\"key\"`, `\"fill\"`, `\"lamps\"`")
+.foreign(&[("lightgroup", "Blender"), ("light_group", "common use")]);
+
 const fn material(doc: &'static str) -> Field {
     Field::new(
         "material",
@@ -98,6 +108,7 @@ const OBJECT: TypeSchema = TypeSchema {
         AXIS_Y,
         AXIS_Z,
         VELOCITY,
+        GROUP,
     ],
     foreign: &[],
 };
@@ -129,6 +140,7 @@ const INSTANCE: TypeSchema = TypeSchema {
         AXIS_Y,
         AXIS_Z,
         VELOCITY,
+        GROUP,
     ],
     foreign: &[],
 };

@@ -1,6 +1,6 @@
 //! Lights: `light NAME: sphere { ... }`.
 
-use super::instance::VELOCITY;
+use super::instance::{GROUP, VELOCITY};
 use super::{ANY, Bounds, Default, Field, FieldType, Kind, TypeSchema, WHITE, Word};
 use crate::units::Dim;
 
@@ -174,6 +174,7 @@ const SPHERE: TypeSchema = TypeSchema {
             "Where the tinted light comes from.",
         ),
         VELOCITY,
+        GROUP,
     ],
     foreign: &[("spherical", "LuxCore")],
 };
@@ -198,6 +199,7 @@ const POINT: TypeSchema = TypeSchema {
         POINT_INTENSITY,
         POINT_POWER,
         VELOCITY,
+        GROUP,
     ],
     foreign: &[("omni", "common use"), ("bulb", "common use")],
 };
@@ -281,6 +283,7 @@ const SPOT: TypeSchema = TypeSchema {
             ..POINT_POWER
         },
         VELOCITY,
+        GROUP,
     ],
     foreign: &[("spotlight", "common use")],
 };
@@ -319,6 +322,7 @@ const RECTANGLE: TypeSchema = TypeSchema {
         STRENGTH,
         POWER,
         VELOCITY,
+        GROUP,
     ],
     foreign: &[
         ("area", "Mitsuba and Blender"),

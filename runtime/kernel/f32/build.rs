@@ -1,4 +1,4 @@
-//! Links the full kernel with its AOVs and translates it to Rust in single precision.
+//! Links the full kernel with what layers need and translates it to Rust in single precision.
 
 use std::error::Error;
 use std::path::Path;
@@ -7,12 +7,13 @@ use std::{env, fs};
 fn main() -> Result<(), Box<dyn Error>> {
     // The modules themselves are compiled into `shaders`: cargo runs this again when they change.
     println!("cargo::rerun-if-changed=build.rs");
-    let kernel = shaders::link_with_aov(&shaders::FeatureSet::full())?;
+    let kernel =
+        shaders::link_with(&shaders::FeatureSet::full(), &[shaders::AOV, shaders::LIGHTS])?;
     let walk = native::Seam { function: "trace", path: "crate::walk::trace" };
     let by_hand = native::ByHand {
         seams: &[walk],
         companion: Some("crate::walk::Companion<'a>"),
-        entrances: &["path_begin", "path_advance", "trace", "aov_advance"],
+        entrances: &["path_begin", "path_advance", "trace", "aov_advance", "lights_advance"],
     };
     let text = native::generate_with(&kernel.text, native::Precision::F32, by_hand);
     // An error names the place in our modules, not in the linked text.

@@ -7,8 +7,8 @@ use std::{env, fs};
 fn main() -> Result<(), Box<dyn Error>> {
     // The modules themselves are compiled into `shaders`: cargo runs this again when they change.
     println!("cargo::rerun-if-changed=build.rs");
-    let kernel = shaders::link(&shaders::FeatureSet::full())?;
-    let entrances = &["path_begin", "path_advance", "trace"];
+    let kernel = shaders::link_with(&shaders::FeatureSet::full(), &[shaders::LIGHTS])?;
+    let entrances = &["path_begin", "path_advance", "trace", "lights_advance"];
     let by_hand = native::ByHand { entrances, ..native::ByHand::default() };
     let text = native::generate_with(&kernel.text, native::Precision::F64, by_hand);
     // An error names the place in our modules, not in the linked text.

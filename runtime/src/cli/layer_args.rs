@@ -33,7 +33,9 @@ impl LayerArgs {
         let mut layers: BTreeSet<Layer> = self.layers.iter().copied().collect();
         if layers.is_empty() {
             let manifest = scene.pack().manifest().unwrap_or_default();
+            let adaptive = job.measure.as_ref().is_some_and(|measure| measure.adaptive);
             let can_be = |layer: &Layer| match layer {
+                Layer::Lights if adaptive => false,
                 Layer::Variance => job.measure.is_some() && formats.contains(&Format::Exr),
                 Layer::Alpha => true,
                 _ => formats.contains(&Format::Exr),

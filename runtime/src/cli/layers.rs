@@ -25,6 +25,13 @@ pub(super) fn check(
         );
         return Err(Exit::Usage);
     }
+    let adaptive = job.measure.as_ref().is_some_and(|measure| measure.adaptive);
+    if has(Layer::Lights) && adaptive {
+        console.warn(
+            "error: the layer `lights` needs the same samples in every pixel: leave out --adaptive, or `lights`",
+        );
+        return Err(Exit::Usage);
+    }
     let is_of_exr = |layer: &&Layer| **layer != Layer::Alpha && !denoise.needs(**layer);
     let of_exr = wanted.layers.iter().find(is_of_exr);
     if let Some(layer) = of_exr.filter(|_| !formats.contains(&Format::Exr)) {
@@ -33,6 +40,12 @@ pub(super) fn check(
             "error: a PNG has no layer `{name}`: write an EXR as well, with -o NAME.exr"
         ));
         return Err(Exit::Usage);
+    }
+    let manifest = || scene.pack().manifest().unwrap_or_default();
+    if has(Layer::Lights) && manifest().groups.is_empty() {
+        console.note(
+            "the scene names no light groups: write group = \"key\" in a light, an instance or a sky",
+        );
     }
     if has(Layer::Alpha) && !wanted.transparent && scene.pack().sky().is_some() {
         console.note("the sky is part of the picture, so alpha is 1; --transparent leaves it out");

@@ -6,10 +6,11 @@
 //! `variance.Y` is the variance of the mean luminance, in pictures that are the mean of replicates.
 //! `samples` is there where pixels have different numbers of samples.
 
+use super::channel::{Source, combined, noisy};
 use super::picture::{
     Meta, OutputError, Picture, clamp_text, parse_clamp, parse_ranges, ranges_text,
 };
-use super::planes::{self, COLOURS, combined, noisy};
+use super::planes::{self, COLOURS};
 use crate::film::{BadSample, Counters, Film};
 use crate::layers::{LayerNames, Layers};
 use crate::region::{Rect, SampleRange};
@@ -59,7 +60,7 @@ pub fn encode_exr(picture: &Picture, residual: bool) -> Result<Vec<u8>, OutputEr
         channels.push(channel(VARIANCE, film.variance.iter().map(|v| round(*v)).collect()));
     }
     if let Some(layers) = layers {
-        channels.extend(planes::channels(layers, residual, &film.counts));
+        channels.extend(planes::channels(layers, residual, film));
     }
     if !film.is_even() || layers.is_some_and(planes::counts_samples) {
         channels.push(AnyChannel::new(SAMPLES, FlatSamples::U32(film.counts.clone())));
@@ -246,7 +247,7 @@ struct Read<'a> {
     fields: &'a Fields<'a>,
 }
 
-impl planes::Source for Read<'_> {
+impl Source for Read<'_> {
     fn floats(&self, channel: &str) -> Option<&[f32]> {
         let list = &self.image.layer_data.channel_data.list;
         match list.iter().find(|c| c.name.eq(channel)).map(|c| &c.sample_data) {

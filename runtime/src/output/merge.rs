@@ -133,7 +133,10 @@ fn layers_text(picture: &Picture) -> String {
     let Some(layers) = &picture.layers else { return "none".to_owned() };
     let Wanted { transparent, names, .. } = &layers.wanted;
     let sky = if *transparent { ", transparent" } else { "" };
-    format!("{} ({}{sky})", layers.wanted.text(), names.name())
+    let groups: Vec<&str> = layers.lights.iter().map(|group| group.name.as_str()).collect();
+    let groups =
+        if groups.is_empty() { String::new() } else { format!(", groups {}", groups.join(" ")) };
+    format!("{} ({}{sky}{groups})", layers.wanted.text(), names.name())
 }
 
 /// What parts of one picture share, and what a run that goes on shares with the one before.

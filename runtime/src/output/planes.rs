@@ -2,10 +2,14 @@
 //!
 //! Everything is 32-bit: positions, depths and numbers need it, and readers take numbers of Cryptomatte as bits.
 
+use super::channel::{
+    Channel, Source, channel, channel_name, combined, plane, residual_name, round,
+};
+use super::groups;
+use crate::film::Film;
 use crate::layers::{
     Layer, LayerNames, Layers, Matte, MatteKind, Nearest, Wanted, id_of, manifest_text,
 };
-use ::exr::prelude::{AnyChannel, FlatSamples};
 use std::collections::BTreeMap;
 
 /// Each layer's name in Blender, and of each of its channels the ending there and the plain name. Layers that are not
@@ -30,31 +34,6 @@ const FAR: f32 = 1e10;
 /// Pairs of names that a finished picture keeps, as others do.
 const LEVELS: usize = 3;
 
-pub(super) type Channel = AnyChannel<FlatSamples>;
-
-/// The name of a channel of the picture itself.
-pub(super) fn combined(names: LayerNames, component: &str) -> String {
-    match names {
-        LayerNames::Blender => format!("ViewLayer.Combined.{component}"),
-        LayerNames::Plain => component.to_owned(),
-    }
-}
-
-/// The name of a channel of the picture before it was denoised.
-pub(super) fn noisy(names: LayerNames, component: &str) -> String {
-    match names {
-        LayerNames::Blender => format!("ViewLayer.Noisy Image.{component}"),
-        LayerNames::Plain => format!("noisy.{component}"),
-    }
-}
-
-fn channel_name(names: LayerNames, layer: &str, (ending, plain): (&str, &str)) -> String {
-    match names {
-        LayerNames::Blender => format!("ViewLayer.{layer}.{ending}"),
-        LayerNames::Plain => plain.to_owned(),
-    }
-}
-
 /// `ViewLayer.CryptoObject`.
 fn matte_name(names: LayerNames, kind: MatteKind) -> String {
     match names {
@@ -63,23 +42,14 @@ fn matte_name(names: LayerNames, kind: MatteKind) -> String {
     }
 }
 
-fn residual_name(plain: &str) -> String {
-    format!("residual.{plain}")
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "rounding is the purpose")]
-fn round(x: f64) -> f32 {
-    x as f32
-}
-
 /// Whether the layers want the channel that says where samples differ, which is a plain name.
 pub(super) fn counts_samples(layers: &Layers) -> bool {
     layers.has(Layer::Samples) && layers.wanted.names == LayerNames::Plain
 }
 
-/// The channels of all layers. `residual`: those that are means also hold what rounding them left over, and mattes every
-/// name, so that parts can be added without loss. `counts`: samples of each pixel of the picture.
-pub(super) fn channels(layers: &Layers, residual: bool, counts: &[u32]) -> Vec<Channel> {
+/// The channels of all layers of the picture `film`. `residual`: those that are means also hold what rounding them left
+/// over, and mattes every name, so that parts can be added without loss.
+pub(super) fn channels(layers: &Layers, residual: bool, film: &Film) -> Vec<Channel> {
     let names = layers.wanted.names;
     let mut channels = Vec::new();
     for (layer, stem, components) in ROWS.into_iter().filter(|row| layers.has(row.0)) {
@@ -102,18 +72,15 @@ pub(super) fn channels(layers: &Layers, residual: bool, counts: &[u32]) -> Vec<C
         channels.push(channel(&combined(names, ALPHA), alpha));
     }
     if layers.has(Layer::Samples) && names == LayerNames::Blender {
-        let counts = counts.iter().map(|n| round(f64::from(*n))).collect();
+        let counts = film.counts.iter().map(|n| round(f64::from(*n))).collect();
         channels.push(channel("ViewLayer.Debug Sample Count.X", counts));
     }
+    channels.extend(groups::channels(layers, residual, film));
     for matte in &layers.mattes {
         let levels = if residual { matte.most().div_ceil(2).max(LEVELS) } else { LEVELS };
         channels.extend(matte_channels(matte, levels, names, layers.samples));
     }
     channels
-}
-
-fn channel(name: &str, values: Vec<f32>) -> Channel {
-    AnyChannel::new(name, FlatSamples::F32(values))
 }
 
 /// Channel `c` of a layer, pixel by pixel.
@@ -135,7 +102,9 @@ fn values(layers: &Layers, layer: Layer, c: usize) -> Vec<f64> {
         Layer::Object => number(0),
         Layer::Instance => number(1),
         Layer::Material => number(2),
-        Layer::Crypto | Layer::Variance | Layer::Samples | Layer::Alpha => Vec::new(),
+        Layer::Crypto | Layer::Variance | Layer::Samples | Layer::Lights | Layer::Alpha => {
+            Vec::new()
+        }
     }
 }
 
@@ -164,6 +133,7 @@ pub(super) fn attributes(layers: &Layers) -> Vec<(String, String)> {
     if layers.wanted.transparent {
         list.push(("transparent".to_owned(), "1".to_owned()));
     }
+    list.extend(groups::attribute(layers));
     for matte in &layers.mattes {
         let name = matte_name(names, matte.kind);
         let of = |what: &str| matte_attribute(&name, what);
@@ -180,14 +150,6 @@ pub(super) fn attributes(layers: &Layers) -> Vec<(String, String)> {
 fn matte_attribute(name: &str, what: &str) -> String {
     let key = format!("{:08x}", id_of(name));
     format!("cryptomatte/{}/{what}", &key[..7])
-}
-
-/// A file that was read: its channels and text attributes by name.
-pub(super) trait Source {
-    /// The values of a channel of 32-bit floats.
-    fn floats(&self, channel: &str) -> Option<&[f32]>;
-    /// An attribute.
-    fn text(&self, attribute: &str) -> Option<String>;
 }
 
 /// The style of a file's names, if it has layers.
@@ -215,6 +177,9 @@ pub(super) fn parse(source: &dyn Source, n: usize) -> Result<Option<Layers>, Str
     if layers.has(Layer::Normal) {
         layers.normal = sums(source, &layers, Layer::Normal, n)?;
     }
+    if layers.has(Layer::Lights) {
+        layers.lights = groups::parse(source, &layers, n)?;
+    }
     if layers.has(Layer::Alpha) {
         let alpha = plane(source, &combined(layers.wanted.names, ALPHA), n)?;
         layers.covered = alpha.iter().map(|share| samples_of(*share, samples)).collect();
@@ -227,11 +192,6 @@ pub(super) fn parse(source: &dyn Source, n: usize) -> Result<Option<Layers>, Str
         layers.mattes = mattes.collect::<Result<_, _>>()?;
     }
     Ok(Some(layers))
-}
-
-fn plane<'s>(source: &'s dyn Source, name: &str, n: usize) -> Result<&'s [f32], String> {
-    let values = source.floats(name).filter(|values| values.len() == n);
-    values.ok_or_else(|| format!("channel `{name}` of 32-bit floats is missing"))
 }
 
 /// How many samples a share of them is.

@@ -27,8 +27,9 @@ pub(super) enum Kind {
 
 impl Kind {
     pub(super) fn of_name(name: &str) -> Option<Self> {
-        let shown =
-            |layer: &Layer| !matches!(layer, Layer::Crypto | Layer::Variance | Layer::Samples);
+        let shown = |layer: &Layer| {
+            !matches!(layer, Layer::Crypto | Layer::Variance | Layer::Samples | Layer::Lights)
+        };
         match name {
             ERROR => Some(Self::Error),
             name => Layer::of_name(name).filter(shown).map(Self::Layer),
@@ -122,7 +123,7 @@ fn values(layers: &Layers, layer: Layer) -> (u32, Vec<f32>) {
         Layer::Instance => one(&|nearest| nearest.numbers[1] as f32),
         Layer::Material => one(&|nearest| nearest.numbers[2] as f32),
         Layer::Alpha => (1, (0..layers.covered.len()).map(|i| single(layers.alpha(i))).collect()),
-        Layer::Crypto | Layer::Variance | Layer::Samples => (0, Vec::new()),
+        Layer::Crypto | Layer::Variance | Layer::Samples | Layer::Lights => (0, Vec::new()),
     }
 }
 
@@ -139,7 +140,8 @@ mod tests {
     fn what_has_no_plane_has_no_name() {
         assert_eq!(Kind::of_name("error"), Some(Kind::Error));
         assert_eq!(Kind::of_name("depth"), Some(Kind::Layer(Layer::Depth)));
-        for name in ["", "crypto", "variance", "samples", "Depth", "picture", "../depth"] {
+        for name in ["", "crypto", "variance", "samples", "lights", "Depth", "picture", "../depth"]
+        {
             assert_eq!(Kind::of_name(name), None, "{name}");
         }
     }

@@ -42,6 +42,9 @@ pub struct Manifest {
     /// Lights as the scene declares them; one may stand for many emitters.
     #[serde(deserialize_with = "list")]
     pub lights: Vec<Named>,
+    /// Light groups that the scene names, by name; what is in none of them has that of `REST` or `SKY`.
+    #[serde(deserialize_with = "list")]
+    pub groups: Vec<Group>,
     /// Cameras; the first is the one in the pack.
     #[serde(deserialize_with = "list")]
     pub cameras: Vec<Named>,
@@ -70,6 +73,23 @@ pub struct Named {
     pub file: u32,
     /// Line there, from 1; 0 when it has none.
     pub line: u32,
+}
+
+/// Light group of what is in no other.
+pub const REST: &str = "rest";
+/// Light group of a sky that names none.
+pub const SKY: &str = "sky";
+
+/// A light group.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Group {
+    /// Its name.
+    pub name: String,
+    /// Whether the sky is in it.
+    pub sky: bool,
+    /// Objects of the pack that are in it, whether they emit or not: first and count of each run, ascending.
+    #[serde(deserialize_with = "list")]
+    pub objects: Vec<(u32, u32)>,
 }
 
 /// What an instance shows.
@@ -181,6 +201,8 @@ impl Manifest {
             + cut(&mut self.shown, MAX_LIST)
             + cut(&mut self.textures, MAX_LIST)
             + cut(&mut self.lights, MAX_LIST)
+            + cut(&mut self.groups, MAX_LIST)
+            + self.groups.iter_mut().map(|group| cut(&mut group.objects, MAX_LIST)).sum::<usize>()
             + cut(&mut self.cameras, MAX_LIST)
             + cut(&mut self.features_kept, MAX_LIST)
             + cut(&mut self.features_left_out, MAX_LIST)
@@ -234,6 +256,7 @@ mod tests {
             scene: "bunny".to_owned(),
             layers: vec!["depth".to_owned()],
             output: Some("bunny.exr".to_owned()),
+            groups: vec![Group { name: "key".to_owned(), sky: true, objects: vec![(3, 2)] }],
             files: vec!["bunny.rts".to_owned()],
             materials: vec![Named { name: "clay".to_owned(), file: 0, line: 7 }],
             features_kept: vec![Feature {

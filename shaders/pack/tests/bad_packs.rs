@@ -103,11 +103,11 @@ fn header_cases() -> Vec<Case> {
         (Raw(|b| b[63] = 1), "header: reserved field 1 is 16777216, expected 0"),
         (
             Raw(|b| put64(b, 40, 1000)),
-            "header: the header says 1000 bytes, the file has 65594: bytes follow the pack",
+            "header: the header says 1000 bytes, the file has 65595: bytes follow the pack",
         ),
         (
             Raw(|b| b.truncate(8192)),
-            "header: the header says 65594 bytes, the file has 8192: truncated",
+            "header: the header says 65595 bytes, the file has 8192: truncated",
         ),
         (Raw(|b| put32(b, 32, 0)), "header: 0 sections, expected 1 to 256"),
         (Raw(|b| put32(b, 32, u32::MAX)), "header: 4294967295 sections, expected 1 to 256"),
@@ -124,7 +124,7 @@ fn header_cases() -> Vec<Case> {
                 let len = b.len() as u64;
                 put64(b, 40, len);
             }),
-            "header: the last section ends at byte 0x1003a, the file at byte 0x1003b",
+            "header: the last section ends at byte 0x1003b, the file at byte 0x1003c",
         ),
         (Raw(|b| b[64] ^= 1), "header: render_id does not match the section table"),
         (Raw(|b| b[entry(NODE) + 48] ^= 1), "header: render_id does not match the section table"),
@@ -255,7 +255,7 @@ fn range_cases() -> Vec<Case> {
                 put64(b, entry(NODE) + 40, 1 << 20);
             }),
             "section NODE (entry 3): 67108864 bytes at 0x4000 reach beyond the end of the file at \
-             0x1003a",
+             0x1003b",
         ),
         (Table(|b| b[1152] = 7), "byte 0x480: padding must be zero, found 0x07"),
         (Table(|b| b[0xdfff] = 255), "byte 0xdfff: padding must be zero, found 0xff"),

@@ -71,20 +71,20 @@ const CASES: &[Case] = &[
     (
         "truncated",
         |path| set_len(path, 0),
-        Some("it has 0 bytes, it had 65594"),
-        Some("it has 0 bytes, it had 65594"),
+        Some("it has 0 bytes, it had 65595"),
+        Some("it has 0 bytes, it had 65595"),
     ),
     (
         "a byte less",
-        |path| set_len(path, 65593),
-        Some("it has 65593 bytes, it had 65594"),
-        Some("it has 65593 bytes, it had 65594"),
+        |path| set_len(path, 65594),
+        Some("it has 65594 bytes, it had 65595"),
+        Some("it has 65594 bytes, it had 65595"),
     ),
     (
         "copied over, with cp",
         |path| fs::write(path, [7; 12360]).unwrap(),
-        Some("it has 12360 bytes, it had 65594"),
-        Some("it has 12360 bytes, it had 65594"),
+        Some("it has 12360 bytes, it had 65595"),
+        Some("it has 12360 bytes, it had 65595"),
     ),
     ("written in place", overwrite, Some("it was written to"), Some("it was written to")),
     (
@@ -274,15 +274,15 @@ fn packs_come_from_streams() {
         (&[], "not a render pack: the first bytes are none, the file is empty"),
         (b"rts 1\n", "is this a scene source? compile it first: rtc X -o X.pack"),
         (&bytes[..100], "header: the file ends after 100 bytes, a pack has at least 128"),
-        (&bytes[..9000], "header: the header says 65594 bytes, the file has 9000: truncated"),
-        (&longer, "header: the header says 65594 bytes, the file has 65595: bytes follow the pack"),
-        (&huge, "the pack has 1152921504606846976 bytes, and 65594 fit into memory"),
+        (&bytes[..9000], "header: the header says 65595 bytes, the file has 9000: truncated"),
+        (&longer, "header: the header says 65595 bytes, the file has 65596: bytes follow the pack"),
+        (&huge, "the pack has 1152921504606846976 bytes, and 65595 fit into memory"),
     ];
     for (bytes, expected) in cases {
         assert_eq!(Pack::receive(bytes, len).unwrap_err().to_string(), expected);
     }
     let text = Pack::receive(&bytes[..], len - 1).unwrap_err().to_string();
-    assert_eq!(text, "the pack has 65594 bytes, and 65593 fit into memory");
+    assert_eq!(text, "the pack has 65595 bytes, and 65594 fit into memory");
 }
 
 /// A pack that is made of another one is not written once that has changed, whatever fails because of it.

@@ -18,14 +18,22 @@ fn indirect_scattered(path: ptr<function, Path>) {
 // Radiance of a path that has ended, its indirect light scaled so that no channel exceeds what the frame says: 0
 // leaves it alone, to the bit. What is not finite stays so.
 fn indirect_clamped(path: ptr<function, Path>) -> vec3f {
+    let scale = indirect_scale(path);
+    if (scale < 0.0) {
+        return (*path).radiance;
+    }
+    return (*path).direct + ((*path).radiance - (*path).direct) * scale;
+}
+
+// The factor on the path's indirect light; negative: it is left alone.
+fn indirect_scale(path: ptr<function, Path>) -> f32 {
     let most = load_frame_clamp_indirect();
     if (most <= 0.0 || (*path).scattered < 2u) {
-        return (*path).radiance;
+        return -1.0;
     }
-    let indirect = (*path).radiance - (*path).direct;
-    let largest = vector_max(indirect);
+    let largest = vector_max((*path).radiance - (*path).direct);
     if (largest <= most) {
-        return (*path).radiance;
+        return -1.0;
     }
-    return (*path).direct + indirect * (most / largest);
+    return most / largest;
 }
