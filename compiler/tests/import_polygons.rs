@@ -35,6 +35,11 @@ fn words<T: ToString>(values: &[T]) -> String {
     values.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
 }
 
+/// Each with its end.
+fn lines(texts: impl Iterator<Item = String>) -> String {
+    texts.map(|text| text + "\n").collect()
+}
+
 /// The mesh as a PLY file with these vertices: of each all numbers, by these names.
 fn ply(order: Order, names: &[&str], vertices: &[Vec<f32>], faces: &[&[u32]]) -> Vec<u8> {
     let format = match order {
@@ -42,7 +47,7 @@ fn ply(order: Order, names: &[&str], vertices: &[Vec<f32>], faces: &[&[u32]]) ->
         Order::Little => "binary_little_endian",
         Order::Big => "binary_big_endian",
     };
-    let properties: String = names.iter().map(|name| format!("property float {name}\n")).collect();
+    let properties = lines(names.iter().map(|name| format!("property float {name}")));
     let (n, m) = (vertices.len(), faces.len());
     let mut out = format!(
         "ply\nformat {format} 1.0\nelement vertex {n}\n{properties}element face {m}\n\
@@ -56,7 +61,7 @@ fn ply(order: Order, names: &[&str], vertices: &[Vec<f32>], faces: &[&[u32]]) ->
         match order {
             Order::Text => out.extend(format!("{}\n", words(vertex)).into_bytes()),
             Order::Little | Order::Big => {
-                out.extend(vertex.iter().flat_map(|x| number(x.to_le_bytes())))
+                out.extend(vertex.iter().flat_map(|x| number(x.to_le_bytes())));
             }
         }
     }
@@ -78,11 +83,10 @@ fn plain(order: Order) -> Vec<u8> {
 }
 
 fn obj() -> MeshFile {
-    let mut text: String = POINTS.iter().map(|p| format!("v {}\n", words(p))).collect();
-    for face in FACES {
-        let corners: Vec<u32> = face.iter().map(|index| index + 1).collect();
-        text.push_str(&format!("f {}\n", words(&corners)));
-    }
+    let points = lines(POINTS.iter().map(|p| format!("v {}", words(p))));
+    let from_one = |face: &&[u32]| face.iter().map(|index| index + 1).collect::<Vec<_>>();
+    let faces = lines(FACES.iter().map(|face| format!("f {}", words(&from_one(face)))));
+    let text = points + &faces;
     read_obj(text.as_bytes(), Path::new("a.obj"), 0.01, Axis::PlusZ, &Limits::default())
         .expect("good")
 }
@@ -101,8 +105,7 @@ fn stl(text: bool) -> Vec<u8> {
         FACES[..4].iter().map(|face| [0, 1, 2].map(|k| POINTS[face[k] as usize])).collect();
     if text {
         let facet = |corners: &[[f32; 3]; 3]| {
-            let vertices: String =
-                corners.iter().map(|p| format!("vertex {}\n", words(p))).collect();
+            let vertices = lines(corners.iter().map(|p| format!("vertex {}", words(p))));
             format!("facet normal 0 0 0\nouter loop\n{vertices}endloop\nendfacet\n")
         };
         let facets: String = triangles.iter().map(facet).collect();
@@ -272,6 +275,10 @@ fn every_kind_of_bad_ply_file_is_named() {
         let error = load_ply(&bytes).expect_err(expected);
         assert_eq!((error.to_string().as_str(), error.kind), (expected, kind));
     }
+}
+
+#[test]
+fn a_binary_ply_file_that_is_cut_off_says_where() {
     for order in [Order::Little, Order::Big] {
         let whole = plain(order);
         let error = load_ply(&whole[..whole.len() - 1]).expect_err("cut off").to_string();

@@ -148,7 +148,7 @@ fn a_long_batch_shows_in_the_picture_tile_by_tile() {
     drop(run);
     let film = &seen.film;
     assert_eq!((film.samples(), film.ranges.len()), ((0, 16), 0));
-    let lit = (0..film.sums.len()).filter(|i| film.mean(*i) != [0.0; 3]);
+    let lit = (0..film.sums.len()).filter(|i| film.mean(*i).iter().any(|x| *x > 0.0));
     assert!(lit.into_iter().all(|i| film.counts[i] == 16), "only what has samples has sums");
     assert_eq!(seen.meta.coarse_block, Some(11));
 }

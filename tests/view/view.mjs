@@ -35,8 +35,8 @@ function serve(args) {
   return { child, url };
 }
 
-async function open(browser, url) {
-  const page = await browser.newPage({ viewport: { width: 1280, height: 760 } });
+async function open(browser, url, height = 760) {
+  const page = await browser.newPage({ viewport: { width: 1280, height } });
   page.on("pageerror", (error) => console.log(`page: ${error}`));
   page.on("console", (line) => line.type() === "error" && console.log(`page: ${line.text()}`));
   const answer = await page.goto(url);
@@ -308,7 +308,7 @@ async function survives(browser, page, url) {
 
 // The picture for the guide.
 async function picture(browser, url) {
-  const page = await open(browser, url);
+  const page = await open(browser, url, 960);
   await done(page);
   const [w, h] = await inPage(page, () => state.size);
   await clickPixel(page, Math.round(0.5 * w), Math.round(0.62 * h));

@@ -65,7 +65,10 @@ mod tests {
                     let y = (1.0 - f64::from(v)) * height - 0.5;
                     assert!((x - x.round()).abs() < 1e-3 && (y - y.round()).abs() < 1e-3);
                     assert!(x > -0.5 && x < width - 0.5 && y > -0.5 && y < height - 0.5);
-                    assert!(seen.insert((x.round() as i64, y.round() as i64)), "{n} {tri_idx}");
+                    assert!(
+                        seen.insert((x.round().to_bits(), y.round().to_bits())),
+                        "{n} {tri_idx}"
+                    );
                 }
             }
         }
