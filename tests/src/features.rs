@@ -219,6 +219,7 @@ pub const CASES: &[Case] = &[
 const ALL: &[&str] = &[
     GRADIENT,
     TINTED,
+    SPOT,
     LAMP,
     MOVING_PANEL,
     MANY_LAMPS,

@@ -133,25 +133,27 @@ impl Names {
     }
 }
 
+/// The least share of a cone over which its light falls off: the language knows no sharper edge.
+const NARROW: f64 = 1e-3;
+
 fn light_text(light: &FileLight, name: &str, size: f64) -> String {
     let color = light.color.map(|c| show_number(rounded(c, 1.0))).join(", ");
     let at = vector(light.at, size);
     let watts = light.intensity / LUMENS_PER_WATT;
     let number = |x: f64| show_number(rounded(x, x));
-    let lamp = || {
-        let power = number(4.0 * PI * watts);
-        let radius = number(100.0 * POINT);
-        format!(
-            "light {name}: sphere {{ center = {at}m, radius = {radius}cm, color = linear({color}), power = {power} }}"
-        )
-    };
+    let radius = number(100.0 * POINT);
+    let lamp = format!(
+        "at = {at}m, radius = {radius}cm, color = linear({color}), intensity = {}W/sr",
+        number(watts)
+    );
     match light.kind {
-        LightKind::Point => lamp(),
-        LightKind::Spot { outer, .. } => {
-            let (angle, along) = (number(2.0 * outer.to_degrees()), vector(light.along, 1.0));
+        LightKind::Point => format!("light {name}: point {{ {lamp} }}"),
+        LightKind::Spot { inner, outer } => {
+            let along = vector(light.along, 1.0);
+            let (cone, edge) = (outer.to_degrees(), (outer - inner).to_degrees());
+            let [cone, edge] = [cone, edge.max(NARROW * cone)].map(number);
             format!(
-                "// It shines along {along} into a cone of {angle}deg; this ball does into all directions.\n    {}",
-                lamp()
+                "light {name}: spot {{ {lamp}, direction = {along}, cone = {cone}deg, edge = {edge}deg }}"
             )
         }
         LightKind::Directional => {
@@ -209,12 +211,17 @@ mod tests {
     }
 
     #[test]
-    fn lights_become_balls_that_give_off_as_much() {
-        let point = "light k: sphere { center = (2, 2, -2)m, radius = 2cm, color = linear(1, 0.5, 0.25), power = 12.566 }";
+    fn lights_give_off_as_much_as_in_the_file() {
+        let point = "light k: point { at = (2, 2, -2)m, radius = 2cm, color = linear(1, 0.5, 0.25), intensity = 1W/sr }";
         assert_eq!(light_text(&light(LightKind::Point), "k", 4.0), point);
-        let spot = LightKind::Spot { inner: 0.0, outer: PI / 8.0 };
-        let note = "// It shines along (0, -1, 0) into a cone of 45deg; this ball does into all directions.\n    ";
-        assert_eq!(light_text(&light(spot), "k", 4.0), format!("{note}{point}"));
+        let spot = LightKind::Spot { inner: PI / 16.0, outer: PI / 8.0 };
+        let expected = "light k: spot { at = (2, 2, -2)m, radius = 2cm, color = linear(1, 0.5, 0.25), \
+                        intensity = 1W/sr, direction = (0, -1, 0), cone = 22.5deg, edge = 11.25deg }";
+        assert_eq!(light_text(&light(spot), "k", 4.0), expected);
+        let sharp = LightKind::Spot { inner: PI / 8.0, outer: PI / 8.0 };
+        assert!(
+            light_text(&light(sharp), "k", 4.0).ends_with("cone = 22.5deg, edge = 0.0225deg }")
+        );
         // One W/m2 at a right angle: pi sin^2(0.265 deg) times the radiance.
         let sun = "light k: sphere { direction = (0, 1, 0), distance = 1km, angular_radius = 0.265deg, \
                    color = linear(1, 0.5, 0.25), strength = 14880 }";
