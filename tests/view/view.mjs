@@ -261,6 +261,7 @@ async function moves(page) {
   await page.mouse.down();
   for (let i = 1; i <= 10; i++) await page.mouse.move(x + 12 * i, y - 3 * i);
   await page.mouse.up();
+  await until(page, () => !sending && state.view.from.every((c, i) => Math.abs(c - view.from[i]) < 1e-3));
   await inPage(page, () => (movedAt = -Infinity));
   await done(page);
   const [from, own] = await inPage(page, () => [state.view.from, state.own_view.from]);
@@ -274,7 +275,7 @@ async function moves(page) {
 
 async function edits(page, camera) {
   const file = join(work, "room.rts");
-  const from = await inPage(page, () => String(state.view.from));
+  const [from, epoch] = await inPage(page, () => [String(state.view.from), state.epoch]);
   const before = await mean(page);
   writeFileSync(file, room.replace("material = clay", "material = clai"));
   await page.waitForSelector("#message:not([hidden])", { timeout: LIMIT });
@@ -283,6 +284,8 @@ async function edits(page, camera) {
   check((await mean(page)) === before, "which stays");
   writeFileSync(file, room.replace("linear(0.25)", "linear(1.5)"));
   await page.waitForSelector("#message", { state: "hidden", timeout: LIMIT });
+  // The message goes when the scene is compiled; the pack is read after that.
+  await until(page, (epoch) => state.epoch !== epoch, epoch);
   await done(page);
   check((await mean(page)) > before + 10, "an edit is rendered");
   check((await inPage(page, () => String(state.view.from))) === from, "from the same place");
