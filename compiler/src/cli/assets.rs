@@ -133,6 +133,9 @@ impl Names {
     }
 }
 
+/// Degrees: the language knows no narrower cone.
+const LEAST_CONE: f64 = 0.5;
+
 /// The least share of a cone over which its light falls off: the language knows no sharper edge.
 const NARROW: f64 = 1e-3;
 
@@ -150,7 +153,7 @@ fn light_text(light: &FileLight, name: &str, size: f64) -> String {
         LightKind::Point => format!("light {name}: point {{ {lamp} }}"),
         LightKind::Spot { inner, outer } => {
             let along = vector(light.along, 1.0);
-            let (cone, edge) = (outer.to_degrees(), (outer - inner).to_degrees());
+            let (cone, edge) = (outer.to_degrees().max(LEAST_CONE), (outer - inner).to_degrees());
             let [cone, edge] = [cone, edge.max(NARROW * cone)].map(number);
             format!(
                 "light {name}: spot {{ {lamp}, direction = {along}, cone = {cone}deg, edge = {edge}deg }}"

@@ -43,7 +43,7 @@ impl Budget {
 
     /// A loan of nothing yet.
     pub(super) fn nothing(&self) -> Loan {
-        Loan { budget: self.clone(), bytes: 0 }
+        Loan { budget: self.clone(), bytes: 0, due: 0 }
     }
 
     /// Takes `bytes` for what is at `place`.
@@ -59,9 +59,24 @@ impl Budget {
 pub(super) struct Loan {
     budget: Budget,
     bytes: u64,
+    /// Not asked for yet.
+    due: u64,
 }
 
+/// The budget is asked for so many small things at once.
+const CHARGE: u64 = 1 << 20;
+
 impl Loan {
+    /// Takes `bytes` more for one of many small things: the budget is asked for a megabyte of them at once.
+    pub(super) fn charge(&mut self, bytes: u64, place: &str) -> Result<(), ImportError> {
+        self.due += bytes;
+        if self.due < CHARGE {
+            return Ok(());
+        }
+        let due = std::mem::take(&mut self.due);
+        self.more(due, place)
+    }
+
     /// Takes `bytes` more.
     pub(super) fn more(&mut self, bytes: u64, place: &str) -> Result<(), ImportError> {
         let Some(purse) = &self.budget.0 else { return Ok(()) };

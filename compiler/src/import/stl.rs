@@ -30,8 +30,6 @@ const TRIANGLE: usize = 50;
 const TRIANGLE_BYTES: u64 = 3 * (CORNER_BYTES + VALUE_BYTES + 40);
 /// Bytes beside its letters of a name and of the entry by which it is found.
 const NAME_BYTES: u64 = 280;
-/// The budget is asked for so many bytes at once.
-const CHARGE: u64 = 1 << 20;
 
 /// Reads an STL file whose unit is `metres_per_unit` and whose `up` axis is to become +Y.
 pub fn load_stl(
@@ -111,8 +109,6 @@ struct Solids<'l> {
     limits: &'l Limits,
     geometry: Geometry,
     loan: Loan,
-    /// Bytes that are not asked for yet.
-    due: u64,
     vertices: BTreeMap<[u32; 3], u32>,
     names: Vec<PartName>,
     name_ids: BTreeMap<String, u32>,
@@ -127,7 +123,6 @@ impl<'l> Solids<'l> {
             limits,
             geometry: Geometry::default(),
             loan: limits.memory.nothing(),
-            due: 0,
             vertices: BTreeMap::new(),
             names: vec![PartName::default()],
             name_ids: BTreeMap::from([(String::new(), 0)]),
@@ -285,12 +280,7 @@ impl<'l> Solids<'l> {
 
     /// Asks for memory before it is taken.
     fn charge(&mut self, bytes: u64) -> Result<(), Failure> {
-        self.due += bytes;
-        if self.due < CHARGE {
-            return Ok(());
-        }
-        let due = std::mem::take(&mut self.due);
-        self.loan.more(due, "").map_err(|error| (error.kind, error.message))
+        self.loan.charge(bytes, "").map_err(|error| (error.kind, error.message))
     }
 }
 

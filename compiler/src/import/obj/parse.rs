@@ -19,8 +19,6 @@ use std::collections::BTreeMap;
 const RUN_BYTES: u64 = 80;
 /// Bytes beside its letters of a name and of the entry by which it is found.
 const NAME_BYTES: u64 = 200;
-/// The budget is asked for so many bytes at once.
-const CHARGE: u64 = 1 << 20;
 
 /// What an OBJ file says.
 #[derive(Debug, Default)]
@@ -89,7 +87,6 @@ struct Parser {
     max_faces: u64,
     /// What was taken, and what is not asked for yet.
     loan: Loan,
-    due: u64,
     name: PartName,
     state: State,
     name_ids: BTreeMap<PartName, u32>,
@@ -111,7 +108,6 @@ impl Parser {
             line: 0,
             max_faces: limits.triangles,
             loan: limits.memory.nothing(),
-            due: 0,
             name: PartName::default(),
             state,
             name_ids: BTreeMap::from([(PartName::default(), 0)]),
@@ -202,12 +198,7 @@ impl Parser {
 
     /// Asks for memory before it is taken.
     fn charge(&mut self, bytes: u64) -> Checked {
-        self.due += bytes;
-        if self.due < CHARGE {
-            return Ok(());
-        }
-        let due = std::mem::take(&mut self.due);
-        self.loan.more(due, "").map_err(|error| (error.kind, error.message))
+        self.loan.charge(bytes, "").map_err(|error| (error.kind, error.message))
     }
 
     fn face(&mut self, rest: &[u8]) -> Checked {

@@ -14,9 +14,6 @@ use super::super::geometry::{CORNER_BYTES, Face, Geometry, MAX_CORNERS, Run, Sta
 use super::super::mesh::NO_CORNER;
 use super::header::{Element, Failure, Header, Slot, Vertex};
 
-/// The budget is asked for so many bytes at once.
-const CHARGE: u64 = 1 << 20;
-
 /// What rows become.
 pub(super) struct Rows {
     pub(super) geometry: Geometry,
@@ -28,8 +25,6 @@ pub(super) struct Rows {
     /// See [`Header::color_scale`]; `None` without colours.
     color_scale: Option<f32>,
     loan: Loan,
-    /// Bytes that are not asked for yet.
-    due: u64,
     /// Number of the row at hand.
     row: u64,
     /// Why reading stopped, unless it is what `serde_ply` says.
@@ -58,7 +53,6 @@ impl Rows {
             has_uvs,
             color_scale,
             loan: limits.memory.take(u64::from(header.n_vertices) * n_kinds * VALUE_BYTES, file)?,
-            due: 0,
             row: 0,
             failure: None,
             corners: Vec::new(),
@@ -174,12 +168,7 @@ impl Rows {
 
     /// Asks for memory before it is taken.
     fn charge(&mut self, bytes: u64) -> Result<(), Failure> {
-        self.due += bytes;
-        if self.due < CHARGE {
-            return Ok(());
-        }
-        let due = std::mem::take(&mut self.due);
-        self.loan.more(due, "").map_err(|error| (error.kind, error.message))
+        self.loan.charge(bytes, "").map_err(|error| (error.kind, error.message))
     }
 
     /// The result of a check, as `serde` passes it on.
