@@ -5,7 +5,7 @@
 //! are walked one by one.
 
 use crate::kernel::{Hit, Kernel, Ray, v};
-use crate::packet_triangle::Seen;
+use crate::packet_triangle::Sheared;
 use kernel_f32::kernel as scalar;
 use kernel_f32::walk::{Block, FAR_END, Node, Step, Tree};
 use scalar::NONE;
@@ -28,7 +28,7 @@ struct Packet<'r> {
     ray: &'r Ray,
     inverse: v::V3<v::F>,
     t_min: v::F,
-    seen: Seen,
+    sheared: Sheared,
     /// The lanes of shadow rays.
     shadow: v::B,
     /// Nothing is cut out of a triangle.
@@ -61,7 +61,7 @@ impl<'r> Packet<'r> {
             inverse: kernel.box_inverse(mask, ray.dir),
             // As in `trace/bvh.wgsl`.
             t_min: v::mul_f(ray.t_min, v::f(0.9999)),
-            seen: Seen::new(ray, shear),
+            sheared: Sheared::new(ray, shear),
             shadow: v::and_b(mask, v::ne_u(ray.light, v::u(NONE))),
             uncut: tree.is_uncut(),
             skip,
@@ -158,7 +158,7 @@ impl<'r> Packet<'r> {
                 continue;
             };
             let first_id = rows[0].w;
-            if let Some((met, new)) = self.seen.intersect(rows, i, active) {
+            if let Some((met, new)) = self.sheared.intersect(rows, i, active) {
                 let counts = self.counts(kernel, first_id, met, &new, hit);
                 if v::any(counts) {
                     *hit = Hit::select(counts, &new, hit);

@@ -9,7 +9,7 @@ use glam::UVec4;
 use kernel_f32::kernel::NONE;
 
 /// Eight rays, and for each the frame in which it runs along z.
-pub(crate) struct Seen {
+pub(crate) struct Sheared {
     shear: TriangleShear,
     /// For each axis of that frame: which one of the world it is.
     axes: [v::U; 3],
@@ -25,7 +25,7 @@ struct Corner {
     plain: [v::F; 2],
 }
 
-impl Seen {
+impl Sheared {
     #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub(crate) fn new(ray: &Ray, shear: TriangleShear) -> Self {
         let z = shear.axis;
