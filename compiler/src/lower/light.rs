@@ -35,7 +35,9 @@ pub(super) fn tint(light: &scene::Light) -> Option<scene::Tint> {
 pub(super) fn facing(light: &scene::Light) -> [f32; 5] {
     if let Some(beam) = light.beam {
         let [x, y, z] = beam.direction.map(|c| -c as f32);
-        return [x, y, z, beam.outer as f32, beam.inner as f32];
+        let outer = beam.outer as f32;
+        // The kernel divides by the difference.
+        return [x, y, z, outer, (beam.inner as f32).max(outer.next_up())];
     }
     tint(light).map_or([0.0; 5], |tint| {
         let [x, y, z] = tint.direction.map(|c| c as f32);
@@ -192,6 +194,25 @@ mod tests {
     fn many_equal_lights_share_all_steps() {
         let shares = shares(&vec![2.0; 100_000]);
         assert_eq!(shares.iter().flatten().sum::<u64>(), STEPS);
+    }
+
+    #[test]
+    fn the_edge_of_a_beam_has_a_width_in_single_precision() {
+        let cosine = libm::cos(0.5_f64.to_radians());
+        let beam = scene::Beam { direction: [0.0, -1.0, 0.0], inner: cosine, outer: cosine };
+        let span = lang::source::Span { file: lang::source::FileId(0), start: 0, end: 0 };
+        let light = scene::Light {
+            name: scene::Name { text: "l".to_owned(), span },
+            center: [0.0; 3],
+            velocity: [0.0; 3],
+            radius: 0.01,
+            radiance: [1.0; 3],
+            tint: None,
+            beam: Some(beam),
+            group: None,
+        };
+        let [_, y, _, outer, inner] = facing(&light);
+        assert!(inner > outer && y.to_bits() == 1.0_f32.to_bits(), "{outer} {inner}");
     }
 
     #[test]

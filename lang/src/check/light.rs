@@ -34,9 +34,9 @@ pub(super) fn check_light(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
     brightness::check(ev, fields);
     match LightType::of(fields.schema) {
         LightType::Sphere => check_sphere(ev, id, fields),
-        LightType::Point => check_point(ev, id, fields),
+        LightType::Point => check_brightness(ev, id, fields),
         LightType::Spot => {
-            check_point(ev, id, fields);
+            check_brightness(ev, id, fields);
             check_facing(ev, fields);
             check_edge(ev, fields);
         }
@@ -44,7 +44,7 @@ pub(super) fn check_light(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
     }
 }
 
-fn check_point(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
+fn check_brightness(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
     if fields.span("intensity").or(fields.span("power")).is_none() {
         let text = format!("`{}` is missing `power` or `intensity`", ev.program.name(id));
         let error = Diagnostic::error(Code("E0207"), text)

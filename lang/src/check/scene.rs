@@ -84,7 +84,7 @@ impl Checker {
         Some(scene)
     }
 
-    /// The lights of the world, each sort by name.
+    /// Lamps and panels of the world, both sorted by name.
     fn lights(&self, ev: &mut Evaluator<'_>) -> (Vec<Light>, Vec<Panel>) {
         let (mut lights, mut panels) = (Vec::new(), Vec::new());
         for id in ids_of(ev.program, Kind::Light) {
@@ -121,15 +121,11 @@ impl Checker {
     }
 }
 
-/// Adds a flat light as an instance, after those that are declared.
+/// Adds a flat light as an instance and a material of its name, after those that are declared.
 fn add_panel(scene: &mut Scene, panel: Panel) {
-    let mut text = format!("{}_light", panel.name.text);
-    while scene.materials.iter().any(|material| material.name.text == text) {
-        text.push('_');
-    }
     let span = panel.name.span;
     scene.instances.push(Instance {
-        name: panel.name,
+        name: panel.name.clone(),
         object: None,
         shape: panel.shape,
         shape_span: span,
@@ -140,8 +136,7 @@ fn add_panel(scene: &mut Scene, panel: Panel) {
         velocity: panel.pose.velocity,
         group: panel.group,
     });
-    let name = Name { text, span };
-    scene.materials.push(Material { name, model: panel.material, normal: None });
+    scene.materials.push(Material { name: panel.name, model: panel.material, normal: None });
 }
 
 fn textures(ev: &Evaluator<'_>, order: &[(Name, ItemId)]) -> Option<Vec<Texture>> {

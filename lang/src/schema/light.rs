@@ -9,6 +9,9 @@ types!(LightType { Sphere = SPHERE, Point = POINT, Spot = SPOT, Rectangle = RECT
 /// 80 degrees: at 90 the origin of the world would touch the light.
 const MAX_ANGULAR_RADIUS: f64 = 80.0 * std::f64::consts::PI / 180.0;
 
+/// Half a degree: cosines in single precision tell narrower cones apart badly.
+const LEAST_CONE: f64 = 0.5 * std::f64::consts::PI / 180.0;
+
 /// Which sides of a flat light shine.
 const SIDES: &[Word] =
     &[("front", "the one that faces `direction`"), ("both", "both, each with half of `power`")];
@@ -77,6 +80,15 @@ const INTENSITY: Field = Field::new(
 /// A point has no surface to ask for its radiance.
 const POINT_INTENSITY: Field = Field { default: Default::Absent("`power` decides"), ..INTENSITY };
 const POINT_POWER: Field = Field { default: Default::Absent("`intensity` decides"), ..POWER };
+
+/// Of lamps that are small.
+const RADIUS: Field = Field::new(
+    "radius",
+    LENGTH,
+    Default::Number(0.01),
+    "Distance from the middle to the surface; larger means softer shadows.",
+)
+.foreign(&[("shadow_soft_size", "Blender"), ("size", "common use")]);
 
 const AT: Field = Field::new(
     "at",
@@ -185,22 +197,7 @@ const POINT: TypeSchema = TypeSchema {
     doc: "A bulb: a small sphere, because nothing that shines is a point. It is seen by the camera, and its shadows \
           are as sharp as `radius` is small.",
     example: "light bulb: point { at = (0, 2.1, 0)m, temperature = 2800K, power = 800lm }",
-    fields: &[
-        AT,
-        Field::new(
-            "radius",
-            LENGTH,
-            Default::Number(0.01),
-            "Distance from the middle to the surface.",
-        )
-        .foreign(&[("shadow_soft_size", "Blender"), ("size", "common use")]),
-        COLOR,
-        TEMPERATURE,
-        POINT_INTENSITY,
-        POINT_POWER,
-        VELOCITY,
-        GROUP,
-    ],
+    fields: &[AT, RADIUS, COLOR, TEMPERATURE, POINT_INTENSITY, POINT_POWER, VELOCITY, GROUP],
     foreign: &[("omni", "common use"), ("bulb", "common use")],
 };
 
@@ -235,8 +232,8 @@ const SPOT: TypeSchema = TypeSchema {
             FieldType::Number(Bounds {
                 dim: Dim::ANGLE,
                 unit: "deg",
-                min: 0.0,
-                above_min: true,
+                min: LEAST_CONE,
+                above_min: false,
                 max: std::f64::consts::FRAC_PI_2,
             }),
             Default::Number(std::f64::consts::FRAC_PI_4),
@@ -265,13 +262,7 @@ const SPOT: TypeSchema = TypeSchema {
             ("spot_blend", "Blender"),
             ("falloff", "common use"),
         ]),
-        Field::new(
-            "radius",
-            LENGTH,
-            Default::Number(0.01),
-            "Radius of the lamp; larger means softer shadows.",
-        )
-        .foreign(&[("shadow_soft_size", "Blender"), ("size", "common use")]),
+        RADIUS,
         COLOR,
         TEMPERATURE,
         Field {
@@ -293,7 +284,7 @@ const RECTANGLE: TypeSchema = TypeSchema {
     name: "rectangle",
     doc: "A panel or a window: a flat rectangle that shines evenly, seen by the camera too. It faces down unless \
           `to` or `direction` says otherwise. It is an instance with an `emissive` material.",
-    example: "light key: rectangle { at = (2, 3, 2)m, to = (0, 1, 0)m, size = (1, 0.5)m, power = 60W }",
+    example: "light key: rectangle { at = (2, 3, 2)m, to = (0, 1, 0)m, size = (1, 0.5)m, power = 2klm }",
     fields: &[
         AT,
         Field::new(
