@@ -59,15 +59,15 @@ impl Budget {
 pub(super) struct Loan {
     budget: Budget,
     bytes: u64,
-    /// Not asked for yet.
+    /// Bytes that are not asked for yet.
     due: u64,
 }
 
-/// The budget is asked for so many small things at once.
+/// Bytes of small things for which the budget is asked at once.
 const CHARGE: u64 = 1 << 20;
 
 impl Loan {
-    /// Takes `bytes` more for one of many small things: the budget is asked for a megabyte of them at once.
+    /// Takes `bytes` more for one of many small things. The budget is asked each time that [`CHARGE`] bytes are due.
     pub(super) fn charge(&mut self, bytes: u64, place: &str) -> Result<(), ImportError> {
         self.due += bytes;
         if self.due < CHARGE {
