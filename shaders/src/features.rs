@@ -211,8 +211,9 @@ impl FeatureSet {
     pub fn bindings(&self) -> Result<Vec<Binding>, ShaderError> {
         let windows = &self.windows;
         let geometry = self.geometry();
-        let seen = geometry || self.skies.contains(&SkyKind::Image);
-        let textures = seen && !self.textures.is_empty();
+        let images = self.textures.iter().any(|format| *format != TextureFormat::Expression);
+        let sky = self.skies.contains(&SkyKind::Image) && images;
+        let textures = sky || (geometry && !self.textures.is_empty());
         let sections = [
             (0, "frame_words", true, 1),
             (1, "film_words", true, 1),

@@ -66,6 +66,7 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/shadow.wgsl", media::shadow(features)),
         ("scene/start.wgsl", start::start(features)),
         ("scene/straight.wgsl", bsdf::straight(features)),
+        ("scene/lookup.wgsl", texture::lookup(features)),
         ("scene/texel.wgsl", texture::texel(features)),
         ("scene/texture.wgsl", texture::texture(features)),
         ("scene/through.wgsl", media::through(features)),

@@ -24,6 +24,7 @@ mod render;
 mod sky;
 mod tag;
 mod texture;
+mod texture_op;
 
 pub use albedo::{AlbedoTable, albedo_tables, albedo_words};
 pub use aov::AovSample;
@@ -44,6 +45,7 @@ pub use object::Object;
 pub use render::{RenderSettings, SamplerKind, ToneMap, f64_bits, f64_from_bits};
 pub use sky::{Sky, SkyKind, sky_table_values};
 pub use texture::{Texture, TextureFormat, Wrap};
+pub use texture_op::{MAX_TEXTURE_OPS, MAX_TEXTURE_STACK, TextureOp, TextureOpKind};
 
 /// "No such element" wherever an index is optional: texture ids, light ids.
 pub const NONE: u32 = u32::MAX;
@@ -77,6 +79,7 @@ pub fn records() -> Vec<Record> {
         Record::of::<Light>(),
         Record::of::<LightNode>(),
         Record::of::<Texture>(),
+        Record::of::<TextureOp>(),
         Record::of::<FilmPixel>(),
         Record::of::<AovSample>(),
     ]

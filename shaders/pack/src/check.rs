@@ -7,6 +7,7 @@
 
 mod albedo;
 mod broken;
+mod expression;
 mod light_tree;
 mod motion;
 mod rule;
@@ -103,6 +104,7 @@ fn records(contents: &Contents<'_>) -> Result<(), PackError> {
     albedo::check(contents)?;
     each(contents.textures, contents)?;
     texture::check(contents)?;
+    expression::check(contents)?;
     motion::check(contents)
 }
 

@@ -296,6 +296,34 @@ pub enum ElementFault {
         /// Of the section.
         count: usize,
     },
+    /// An operation of a texture expression without enough values to work on.
+    #[error("takes {needs} values, but there are {found}")]
+    FewValues {
+        /// How many it takes.
+        needs: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// An operation of a texture expression that the stack has no room for.
+    #[error("is one value too many on the stack, which holds {limit}")]
+    ManyValues {
+        /// What it holds.
+        limit: usize,
+    },
+    /// A texture expression with more than one result.
+    #[error("leaves {0} values, expected 1")]
+    ValuesLeft(usize),
+    /// A texture that must be an image.
+    #[error("is {0}, which is a texture expression, expected an image")]
+    NoImage(u32),
+    /// A place that must be a multiple of something.
+    #[error("is {found}, expected a multiple of {unit}")]
+    NotAligned {
+        /// In the file.
+        found: u32,
+        /// What it must be a multiple of.
+        unit: u32,
+    },
     /// Bit 31 of a primitive whose object stands still.
     #[error("is marked as moving, but object {object} is not")]
     Marked {

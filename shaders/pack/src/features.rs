@@ -78,6 +78,8 @@ pub const TEXTURE_RGBA8_SRGB: u64 = TextureFormat::Rgba8Srgb.feature();
 pub const TEXTURE_RGBA8_LINEAR: u64 = TextureFormat::Rgba8Linear.feature();
 /// Has a texture in half floats.
 pub const TEXTURE_RGBA16_FLOAT: u64 = TextureFormat::Rgba16Float.feature();
+/// Has a texture that is computed.
+pub const TEXTURE_EXPRESSION: u64 = TextureFormat::Expression.feature();
 /// Has a principled material.
 pub const MATERIAL_PRINCIPLED: u64 = MaterialKind::Principled.feature();
 /// Independent random numbers, instead of Sobol's.

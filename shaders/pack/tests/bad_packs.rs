@@ -130,11 +130,11 @@ fn header_cases() -> Vec<Case> {
         (Raw(|b| b[entry(NODE) + 48] ^= 1), "header: render_id does not match the section table"),
         (
             Table(|b| b[48] ^= 1),
-            "header: features are 0x02003fe0ff2fffde, but the contents have 0x02003fe0ff2fffdf",
+            "header: features are 0x02007fe0ff2fffde, but the contents have 0x02007fe0ff2fffdf",
         ),
         (
             Parts(|d| put64(&mut d.header, 48, 0)),
-            "header: features are 0x0000000000000000, but the contents have 0x02003fe0ff2fffdf",
+            "header: features are 0x0000000000000000, but the contents have 0x02007fe0ff2fffdf",
         ),
     ]
 }
@@ -315,6 +315,21 @@ fn unknown_sections_are_skipped_only_when_they_add_up() {
 /// What several sections together have wrong.
 fn relation_cases() -> Vec<Case> {
     vec![
+        (
+            // Words of zeros are constants.
+            Parts(|d| {
+                d.section(Kind::TEXEL).extend([0; 6 * 48]);
+                put32(d.section(Kind::TEXTURE), 0x60, 9);
+            }),
+            "TEXEL[30] at byte 0x1e0: kind is one value too many on the stack, which holds 6",
+        ),
+        (
+            Parts(|d| {
+                d.section(Kind::TEXEL).extend([0; 62 * 48]);
+                put32(d.section(Kind::TEXTURE), 0x60, 65);
+            }),
+            "TEXTURE[3] at byte 0x60: width is 65, expected 1 to 64",
+        ),
         (Parts(|d| d.remove(Kind::RENDER)), "section RENDER is missing"),
         (Parts(|d| d.remove(Kind::CAMERA)), "section CAMERA is missing"),
         (Parts(|d| d.remove(Kind::KERNEL)), "section KERNEL is missing"),

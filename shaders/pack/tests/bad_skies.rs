@@ -46,12 +46,18 @@ fn a_sky_can_be_a_light() {
 #[test]
 fn the_record_names_its_light_and_image() {
     check(&[
-        (Kind::SKY, 0x70, 3, "SKY[0] at byte 0x70: texture is 3, but TEXTURE has 3 elements"),
+        (Kind::SKY, 0x70, 4, "SKY[0] at byte 0x70: texture is 4, but TEXTURE has 4 elements"),
+        (
+            Kind::SKY,
+            0x70,
+            3,
+            "SKY[0] at byte 0x70: texture is 3, which is a texture expression, expected an image",
+        ),
         (
             Kind::SKY,
             0x70,
             NONE,
-            "SKY[0] at byte 0x70: texture is 4294967295, but TEXTURE has 3 elements",
+            "SKY[0] at byte 0x70: texture is 4294967295, but TEXTURE has 4 elements",
         ),
         (Kind::SKY, 0x74, 4, "SKY[0] at byte 0x74: light is 4, but LIGHT has 4 elements"),
         (Kind::SKY, 0x74, 1, "LIGHT[3] at byte 0xcc: kind is sky, but the light of SKY is 1"),

@@ -51,6 +51,7 @@ const TABLES: &[Table] = &[
     heap("Light", "light", "abi/light.wgsl", "light_at"),
     heap("LightNode", "light_node", "abi/light_node.wgsl", "light_tree_at"),
     heap("Texture", "texture", "abi/texture.wgsl", "texture_at"),
+    section("TextureOp", "texture_op", "texel_word", "abi/texture_op.wgsl"),
 ];
 
 /// Records that the kernel writes: name, beginning of the function's name, module; the others are in [`TABLES`].

@@ -1,4 +1,4 @@
-//! `scene/texture.wgsl` and `scene/texel.wgsl`: from the format of a texture to its texels.
+//! `scene/texture.wgsl`, `scene/lookup.wgsl` and `scene/texel.wgsl`: from the format of a texture to its texels.
 
 use super::wgsl::{imports, switch, tag};
 use crate::FeatureSet;
@@ -11,9 +11,14 @@ pub(crate) fn texture(features: &FeatureSet) -> String {
     let (body, at) = if features.textures.is_empty() {
         ("    return vec4f(1.0);\n", "    return vec4f(1.0);\n")
     } else {
-        text += &imports(["scene/constants.wgsl", "scene/records.wgsl", "texture/bilinear.wgsl"]);
+        text += &imports([
+            "scene/constants.wgsl",
+            "scene/lookup.wgsl",
+            "scene/records.wgsl",
+            "texture/bilinear.wgsl",
+        ]);
         (
-            "    if (i == NONE) {\n        return vec4f(1.0);\n    }\n    return bilinear_fetch(i, uv);\n",
+            "    if (i == NONE) {\n        return vec4f(1.0);\n    }\n    return texture_lookup(i, uv);\n",
             "    return bilinear_at(load_texture(i), place);\n",
         )
     };
@@ -21,8 +26,26 @@ pub(crate) fn texture(features: &FeatureSet) -> String {
         text,
         "\n// Texture `i` at `uv`, linear; 1 in every channel where `i` is `NONE`.\n\
          fn texture_fetch(i: u32, uv: vec2f) -> vec4f {{\n{body}}}\n\
-         \n// Texture `i` at `place`, 0 ..= 1 from its top left corner, linear.\n\
+         \n// Texture `i`, an image, at `place`, 0 ..= 1 from its top left corner, linear.\n\
          fn texture_fetch_at(i: u32, place: vec2f) -> vec4f {{\n{at}}}\n"
+    );
+    text
+}
+
+/// An image or an expression.
+pub(crate) fn lookup(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: whether textures of this scene are computed.\n\n");
+    text += &imports(["texture/bilinear.wgsl"]);
+    let mut body = String::new();
+    if features.textures.contains(&TextureFormat::Expression) {
+        text += &imports(["scene/constants.wgsl", "scene/records.wgsl", "texture/expression.wgsl"]);
+        body += "    if (load_texture_format(i) == TEXTURE_EXPRESSION) {\n        \
+                 return expression_fetch(load_texture(i), uv);\n    }\n";
+    }
+    let _ = write!(
+        text,
+        "\n// Texture `i` at `uv`, linear.\n\
+         fn texture_lookup(i: u32, uv: vec2f) -> vec4f {{\n{body}    return bilinear_fetch(i, uv);\n}}\n"
     );
     text
 }
@@ -32,10 +55,11 @@ pub(crate) fn texel(features: &FeatureSet) -> String {
     let rows: Vec<(&TextureFormat, &str, &str)> = features
         .textures
         .iter()
-        .map(|format| match format {
-            TextureFormat::Rgba8Srgb => (format, "rgba8", "rgba8_srgb"),
-            TextureFormat::Rgba8Linear => (format, "rgba8", "rgba8_linear"),
-            TextureFormat::Rgba16Float => (format, "rgba16", "rgba16_linear"),
+        .filter_map(|format| match format {
+            TextureFormat::Rgba8Srgb => Some((format, "rgba8", "rgba8_srgb")),
+            TextureFormat::Rgba8Linear => Some((format, "rgba8", "rgba8_linear")),
+            TextureFormat::Rgba16Float => Some((format, "rgba16", "rgba16_linear")),
+            TextureFormat::Expression => None,
         })
         .collect();
     let mut files: Vec<String> = rows.iter().map(|row| format!("texture/{}.wgsl", row.1)).collect();

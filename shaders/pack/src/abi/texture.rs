@@ -12,16 +12,19 @@ tags! {
         Rgba8Linear = 1 as 8 "linear 8-bit textures",
         /// Two `u32` a texel: half floats red, green, then blue, alpha; linear.
         Rgba16Float = 2 as 9 "half-float textures",
+        /// No texels, but `TextureOp`s: the texture is computed.
+        Expression = 3 as 46 "texture expressions",
     }
 }
 
 impl TextureFormat {
-    /// Bytes of one texel.
+    /// Bytes of one texel, or of one operation.
     #[must_use]
     pub fn texel_bytes(self) -> u64 {
         match self {
             Self::Rgba8Srgb | Self::Rgba8Linear => 4,
             Self::Rgba16Float => 8,
+            Self::Expression => 48,
         }
     }
 }
@@ -39,11 +42,12 @@ tags! {
 }
 
 abi_struct! {
-    /// An image, 32 bytes. Row 0 is the top of the image, v = 1; bilinear filtering, texel centres at half integers.
+    /// An image, or an expression, 32 bytes. Row 0 is the top of an image, v = 1; bilinear filtering, texel centres at
+    /// half integers.
     pub struct Texture {
-        /// Width in texels, >= 1.
+        /// Width in texels, >= 1; operations of an expression.
         pub width: u32,
-        /// Height in texels, >= 1.
+        /// Height in texels, >= 1; 1 for an expression.
         pub height: u32,
         /// `TextureFormat`.
         pub format: u32,

@@ -327,7 +327,11 @@ fn sky(record: &Sky, pack: &Contents<'_>) -> Option<Broken> {
     if record.kind != SkyKind::Image as u32 {
         return None;
     }
-    index(record.texture, table(pack, Kind::TEXTURE)).map(|fault| ("texture", fault))
+    let image = index(record.texture, table(pack, Kind::TEXTURE)).or_else(|| {
+        let image = &pack.textures[record.texture as usize];
+        image.is_expression().then_some(ElementFault::NoImage(record.texture))
+    });
+    image.map(|fault| ("texture", fault))
 }
 
 /// What `primitive`, `edge1` and `area` mean depends on the kind.

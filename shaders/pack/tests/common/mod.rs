@@ -10,8 +10,8 @@ pub(crate) mod sound;
 use pack::abi::{
     AlbedoTable, Camera, ChildRef, Instance, LIGHT_LEAF, Light, LightKind, LightNode, MOVES,
     Material, MaterialKind, Medium, NONE, Node, OBJECT_OF_INSTANCE, Object, RenderSettings, Sky,
-    SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap, TriShade, Triangle, WideNode,
-    Wrap, f64_bits, material_flag,
+    SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, TextureOp, TextureOpKind, ToneMap,
+    TriShade, Triangle, WideNode, Wrap, f64_bits, material_flag,
 };
 use pack::manifest::Named;
 use pack::{Kind, Manifest, PackWriter};
@@ -123,6 +123,17 @@ fn material(kind: MaterialKind) -> Material {
         transmission_texture: NONE,
         ..Material::default()
     }
+}
+
+/// Those of three images, and an expression: red of the first image, times a colour.
+fn texels() -> Vec<[u32; 4]> {
+    let op =
+        |kind: TextureOpKind, arg| TextureOp { kind: kind as u32, arg, ..TextureOp::default() };
+    let place = TextureOp { p: [1.0, 0.0, 0.0, 1.0], ..op(TextureOpKind::Image, 0) };
+    let color = TextureOp { p: [0.5, 0.25, 0.125, 1.0], ..op(TextureOpKind::Constant, 0) };
+    let ops = [place, color, op(TextureOpKind::Multiply, 0)];
+    let images = [[0x3c00_3800; 4]; 5];
+    images.into_iter().chain([[0; 4]]).chain(ops.iter().flat_map(TextureOp::words)).collect()
 }
 
 fn texture(format: TextureFormat, size: [u32; 2], offset: u32) -> Texture {
@@ -305,8 +316,9 @@ impl Scene {
                 texture(TextureFormat::Rgba8Srgb, [4, 2], 0),
                 texture(TextureFormat::Rgba8Linear, [3, 1], 2),
                 texture(TextureFormat::Rgba16Float, [2, 2], 3),
+                Texture::expression(3, 6),
             ],
-            texels: vec![[0x3c00_3800; 4]; 5],
+            texels: texels(),
             srgb: Some(srgb()),
             sky_table: Vec::new(),
             albedo: Vec::new(),

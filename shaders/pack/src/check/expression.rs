@@ -1,0 +1,97 @@
+//! Texture expressions: every operation is known, finds its operands, reads images that are no expressions
+//! themselves, and one value is left. So a kernel evaluates them without checks of its own, in bounded time.
+
+use crate::abi::{MAX_TEXTURE_OPS, MAX_TEXTURE_STACK, Texture, TextureOp, TextureOpKind};
+use crate::contents::Contents;
+use crate::error::{PackError, Place};
+use crate::fault::ElementFault;
+use crate::kind::Kind;
+
+use super::broken::element;
+use super::rule::{count, index, unused};
+
+/// Octaves of noise, at most.
+const MAX_OCTAVES: u32 = 16;
+
+/// All expressions; every range is inside TEXEL already.
+pub(super) fn check(contents: &Contents<'_>) -> Result<(), PackError> {
+    for (at, texture) in contents.textures.iter().enumerate() {
+        if texture.is_expression() {
+            let broken = |field, fault| element::<Texture>(at, (field, fault));
+            frame(texture).map_or(Ok(()), |(field, fault)| Err(broken(field, fault)))?;
+            let left = operations(texture, contents)?;
+            if left != 1 {
+                return Err(broken("width", ElementFault::ValuesLeft(left)));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Numbers of the record itself.
+fn frame(texture: &Texture) -> Option<(&'static str, ElementFault)> {
+    let width = count([texture.width], 1, MAX_TEXTURE_OPS).map(|fault| ("width", fault));
+    let height = || count([texture.height], 1, 1).map(|fault| ("height", fault));
+    let found = texture.offset;
+    let aligned = found.is_multiple_of(TextureOp::WORDS);
+    let offset = || (!aligned).then_some(("offset", ElementFault::NotAligned { found, unit: 3 }));
+    width.or_else(height).or_else(offset)
+}
+
+/// Checks the operations; how many values they leave.
+fn operations(texture: &Texture, contents: &Contents<'_>) -> Result<usize, PackError> {
+    let mut values = 0;
+    for k in 0..texture.width {
+        let word = (texture.offset + TextureOp::WORDS * k) as usize;
+        let fault = |field, fault| {
+            let at = Place { kind: Kind::TEXEL, index: word, offset: word * 16 };
+            Err(PackError::Element { at, field, fault })
+        };
+        let [[tag, arg, pad0, pad1], p, q] = contents.texels[word..word + 3] else { return Ok(0) };
+        let Some(kind) = TextureOpKind::from_tag(tag) else {
+            let last = TextureOpKind::ALL.len() as u32 - 1;
+            return fault("kind", ElementFault::Tag { found: tag, last });
+        };
+        if let Some(wrong) = unused(pad0 | pad1) {
+            return fault("_pad0", wrong);
+        }
+        if let Some(wrong) = argument(kind, arg, contents.textures) {
+            return fault("arg", wrong);
+        }
+        for (field, words) in [("p", p), ("q", q)] {
+            let wrong = words.map(f32::from_bits).into_iter().find(|x| !x.is_finite());
+            if let Some(found) = wrong {
+                return fault(field, ElementFault::NotFinite(found));
+            }
+        }
+        let needs = kind.operands();
+        if values < needs {
+            return fault("kind", ElementFault::FewValues { needs, found: values });
+        }
+        values = values - needs + 1;
+        if values > MAX_TEXTURE_STACK {
+            return fault("kind", ElementFault::ManyValues { limit: MAX_TEXTURE_STACK });
+        }
+    }
+    Ok(values)
+}
+
+fn argument(kind: TextureOpKind, arg: u32, textures: &[Texture]) -> Option<ElementFault> {
+    match kind {
+        TextureOpKind::Image => index(arg, (Kind::TEXTURE, textures.len())).or_else(|| {
+            textures[arg as usize].is_expression().then_some(ElementFault::NoImage(arg))
+        }),
+        TextureOpKind::Channel | TextureOpKind::Insert => count([arg], 0, 3),
+        TextureOpKind::Noise => count([arg], 1, MAX_OCTAVES),
+        TextureOpKind::Constant
+        | TextureOpKind::Multiply
+        | TextureOpKind::Add
+        | TextureOpKind::Mix
+        | TextureOpKind::Clamp
+        | TextureOpKind::Tilt
+        | TextureOpKind::Checker
+        | TextureOpKind::Bricks
+        | TextureOpKind::Gradient
+        | TextureOpKind::Wave => unused(arg),
+    }
+}
