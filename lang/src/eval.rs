@@ -23,6 +23,7 @@ pub(crate) mod function;
 mod literal;
 mod operator;
 mod path;
+pub(crate) mod textured;
 pub(crate) mod value;
 
 pub(crate) use advice::with_unit_fix;

@@ -29,6 +29,7 @@ pub mod stack;
 mod standard;
 pub mod suggest;
 pub mod syntax;
+mod texture;
 pub mod units;
 
 pub use check::{Analysis, Options, ParamInfo, analyze};

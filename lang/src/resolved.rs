@@ -43,11 +43,12 @@ fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
         let [u, v] = texture.wrap.map(Wrap::word);
         writeln!(
             out,
-            "texture {name} = image(\"{path}\", space: {space}, wrap_u: {u}, wrap_v: {v})"
+            "texture {name} = image(\"{path}\", space: {space}, wrap_u: {u}, wrap_v: {v}{})",
+            texture.placement.fields()
         )?;
     }
     for material in &scene.materials {
-        let mut shown = Shown::new(&scene.textures, &scene.media);
+        let mut shown = Shown::new(scene);
         let kind = material.model.show(&mut shown);
         let mut fields = shown.lines;
         if let Some(map) = &material.normal {
@@ -188,7 +189,7 @@ fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {
         ("camera", camera.name.text.clone()),
         ("film", film.name.text.clone()),
         ("sky", sky.to_owned()),
-        ("atmosphere", Shown::new(&scene.textures, &scene.media).medium(render.atmosphere)),
+        ("atmosphere", Shown::new(scene).medium(render.atmosphere)),
         ("samples", render.samples.to_string()),
         ("depth", render.max_depth.to_string()),
         ("roulette", render.roulette_depth.to_string()),

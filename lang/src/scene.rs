@@ -26,6 +26,7 @@ pub use crate::material::{
 pub use crate::medium::{Medium, MediumModel};
 pub use crate::shape::{EditOf, MeshEdit, Parts, Shape};
 pub use crate::sky::{Sky, SkyModel};
+pub use crate::texture::{Placement, TextureExpression, TexturePattern};
 
 /// A whole checked scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +35,8 @@ pub struct Scene {
     pub assets: Vec<Asset>,
     /// Images, sorted by name.
     pub textures: Vec<Texture>,
+    /// What materials compute from textures, in their order.
+    pub expressions: Vec<TextureExpression<usize>>,
     /// Materials, sorted by name.
     pub materials: Vec<Material>,
     /// Media of materials and of the atmosphere, sorted by name.

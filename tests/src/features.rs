@@ -136,6 +136,12 @@ pub const CASES: &[Case] = &[
     case("half-float texture, clamped", &[SKY, GLOW, NEON, BALL, QUILT]),
     case("mixed wraps, without spheres", &[SKY, MIXED, PAINTED, QUILT]),
     case("all formats", &[GRADIENT, PAINT, WEAR, GLOW, BUMPS, MANY, BALL, QUILT, FLOOR]),
+    // Textures that are computed: with images and without, every operation; placed, as colours and as normals.
+    case("texture expressions", &[SKY, SPHERE_LIGHT, PAINT, WEAR, WOVEN, BALL, QUILT]),
+    case("patterns alone", &[SKY, TILED, BALL, FLOOR]),
+    case("computed holes", &[SKY, WEAR, GRATE, TENT, FLOOR]),
+    case("computed glow", &[PAINT, GLOWING_TILES, PANEL, CLAY, BALL, FLOOR]),
+    case("placed textures", &[GRADIENT, SPHERE_LIGHT, PLACED, BALL, TENT, QUILT]),
     // Cut out, mirrored, interpolated.
     case("alpha on spheres", &[SKY, WEAR, LACE, BALL, FLOOR]),
     case("alpha on triangles", &[GRADIENT, SPHERE_LIGHT, WEAR, LACE, TENT, FLOOR]),
@@ -461,6 +467,31 @@ const MIXED: &str =
 const WEAR: &str = "texture wear = image(\"wear.png\", space: data, wrap: mirror)\n";
 const GLOW: &str = "texture glow = image(\"glow.exr\", space: linear, wrap: clamp)\n";
 const PAINTED: &str = "material m: diffuse { color = paint.rgb }\n";
+const WOVEN: &str = "let tiles = bricks(4, 8, 0.1)
+material m: principled {
+  color = mix(linear(0.2, 0.5, 0.1), 0.9 * paint.rgb * linear(0.9, 0.6, 0.3) + linear(0.05), tiles)
+  roughness = clamp(noise(6, 3) * 2 - 0.5, 0, 1)
+  metallic = checker(5, 3) * wear.r
+  specular = 1 - wear.g
+  specular.color = paint.rgb * 0.5 + linear(0.5)
+  coat.weight = gradient(30deg)
+  coat.roughness = wave(7, 20deg)
+}\n";
+const TILED: &str = "material m: diffuse { color = mix(linear(0.8, 0.1, 0.1), linear(0.9), checker(8) * noise(3)) }\n";
+const GRATE: &str =
+    "material m: principled { alpha = mix(wear.a, 1, bricks(2, 3, 0.2)), alpha.clip = 40% }\n";
+const GLOWING_TILES: &str =
+    "material lamp: emissive { color = paint.rgb * checker(3), strength = 4 }\n";
+const PLACED: &str =
+    "texture paint = image(\"paint.png\", space: srgb, scale: 3, rotate: 30deg, offset_u: 0.2)
+texture bumps = image(\"bumps.png\", space: data, scale_u: -2, scale_v: 1.5, rotate: -70deg)
+texture wear = image(\"wear.png\", space: data, scale: 0.5)
+material m: principled {
+  color = paint.rgb
+  normal = bumps.rgb
+  roughness = wear.g
+  specular.color = paint.rgb
+}\n";
 const WORN: &str = "material m: principled { roughness = wear.g, metallic = wear.b }\n";
 const NEON: &str = "material m: emissive { color = glow.rgb, strength = 2 }\n";
 const LACE: &str =

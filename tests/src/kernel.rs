@@ -25,6 +25,7 @@ pub struct Bench {
     triangles: Vec<UVec4>,
     shades: Vec<UVec4>,
     spheres: Vec<UVec4>,
+    texels: Vec<UVec4>,
 }
 
 /// A ray of the world for the kernel in single precision: to the nearest hit, from no surface, when the shutter opens.
@@ -106,6 +107,7 @@ impl Bench {
             triangles: none(),
             shades: none(),
             spheres: none(),
+            texels: none(),
         };
         bench.albedo()
     }
@@ -203,6 +205,17 @@ impl Bench {
         bench.framed()
     }
 
+    /// With the textures of a compiled scene.
+    #[must_use]
+    pub fn textures(mut self, lowered: &Lowered) -> Self {
+        self.frame.texture_at = self.heap_end();
+        self.heap.extend(words(&lowered.textures));
+        self.frame.srgb_at = self.heap_end();
+        self.heap.extend(words(&compiler::lower::srgb_table()));
+        self.texels = words(&lowered.texels);
+        self.framed()
+    }
+
     /// With a camera for an image of `size` pixels.
     #[must_use]
     pub fn camera(mut self, camera: Camera, size: [u32; 2]) -> Self {
@@ -263,7 +276,7 @@ impl Bench {
             tri_words: &self.triangles,
             shade_words: &self.shades,
             sphere_words: &self.spheres,
-            texel_words: &[],
+            texel_words: &self.texels,
         })
     }
 
@@ -278,7 +291,7 @@ impl Bench {
             tri_words: &self.triangles,
             shade_words: &self.shades,
             sphere_words: &self.spheres,
-            texel_words: &[],
+            texel_words: &self.texels,
         })
     }
 }

@@ -26,13 +26,14 @@ fn square(uvs: [[f64; 2]; 4]) -> String {
     format!("{corners}{a}{b}{c}{d}f 1/1 2/2 3/3 4/4\n")
 }
 
-/// What is lit: texture coordinates, texel of the map, its strength, how the square is turned (degrees, about x
-/// then y), and whether it is mirrored along x.
+/// What is lit: texture coordinates, texel of the map, its strength, how the map is placed (scale and turn in degrees),
+/// how the square is turned (degrees, about x then y), and whether it is mirrored along x.
 #[derive(Clone, Copy, Debug)]
 struct Case {
     uvs: [[f64; 2]; 4],
     texel: [u8; 3],
     strength: f64,
+    placed: [f64; 2],
     rotate: [f64; 2],
     mirrored: bool,
 }
@@ -46,8 +47,14 @@ const UPSIDE_DOWN: [[f64; 2]; 4] = [[0.0, 3.0], [1.0, 3.0], [1.0, 0.0], [0.0, 0.
 /// u along +y, v along -x.
 const TURNED: [[f64; 2]; 4] = [[0.0, 1.0], [0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
 
-const TILTED: Case =
-    Case { uvs: PLAIN, texel: [181, 99, 230], strength: 1.0, rotate: [0.0, 0.0], mirrored: false };
+const TILTED: Case = Case {
+    uvs: PLAIN,
+    texel: [181, 99, 230],
+    strength: 1.0,
+    placed: [1.0, 0.0],
+    rotate: [0.0, 0.0],
+    mirrored: false,
+};
 
 fn value(byte: u8) -> f64 {
     f64::from(byte) / 127.5 - 1.0
@@ -62,7 +69,10 @@ fn placed(case: &Case) -> DMat3 {
 
 /// The normal that a map means, in the world: along where u and v grow, and out of the front.
 fn meant(case: &Case) -> DVec3 {
-    let [a, b, _, d] = case.uvs;
+    let [scale, turn] = case.placed;
+    let (sin, cos) = turn.to_radians().sin_cos();
+    let [a, b, _, d] =
+        case.uvs.map(|[u, v]| [scale * (cos * u - sin * v), scale * (sin * u + cos * v)]);
     // The square has side 2 along x and y: rows of the inverse of d(u, v) / d(x, y).
     let du = [(b[0] - a[0]) / 2.0, (d[0] - a[0]) / 2.0];
     let dv = [(b[1] - a[1]) / 2.0, (d[1] - a[1]) / 2.0];
@@ -89,9 +99,10 @@ fn lit(case: &Case, eye: DVec3, light: DVec3, with_map: bool) -> Estimate {
     };
     let scale = if case.mirrored { "(-1, 1, 1)" } else { "(1, 1, 1)" };
     let [x, y] = case.rotate;
+    let [size, turn] = case.placed;
     let text = format!(
         "rts 1
-texture map = image(\"map.png\", space: data)
+texture map = image(\"map.png\", space: data, scale: {size}, rotate: {turn}deg)
 asset square = obj(\"square.obj\", unit: m, up: +y)
 material m: diffuse {{ color = linear(1){map} }}
 instance s {{ shape = square, material = m, rotate = ({x}, {y}, 0)deg, scale = {scale} }}
@@ -148,6 +159,13 @@ fn tilts_follow_the_texture_coordinates() {
     for uvs in [MIRRORED, UPSIDE_DOWN, TURNED] {
         check(&Case { uvs, ..TILTED });
     }
+}
+
+#[test]
+fn tilts_follow_placed_maps() {
+    check(&Case { placed: [1.0, 90.0], ..TILTED });
+    check(&Case { placed: [-3.0, 0.0], ..TILTED });
+    check(&Case { placed: [0.4, -25.0], uvs: TURNED, ..TILTED });
 }
 
 #[test]

@@ -5,10 +5,13 @@
 //! metallic from green and blue of one texture, and coverage from a fourth channel. No image is looked at before
 //! somebody asks what is in it, or texels must be made.
 
+pub(super) mod expression;
 mod texels;
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use lang::scene::{ColorSpace, Wrap};
-use pack::abi;
+use pack::abi::{self, TextureOp};
 use pack::{Kind, Pack};
 use rayon::prelude::*;
 
@@ -27,8 +30,18 @@ pub(super) type Channel = (ImageRef, u8);
 /// How a texture is made; equal recipes are stored once.
 #[derive(Clone, Debug, PartialEq)]
 enum Recipe {
-    Whole { image: ImageRef, space: ColorSpace, wrap: [Wrap; 2] },
-    Gathered { channels: [Option<Channel>; 4], space: ColorSpace, wrap: [Wrap; 2] },
+    Whole {
+        image: ImageRef,
+        space: ColorSpace,
+        wrap: [Wrap; 2],
+    },
+    Gathered {
+        channels: [Option<Channel>; 4],
+        space: ColorSpace,
+        wrap: [Wrap; 2],
+    },
+    /// Computed from textures of this table.
+    Expression(Vec<TextureOp>),
 }
 
 /// Textures in the order in which materials asked for them.
@@ -74,6 +87,11 @@ impl<'a> TextureTable<'a> {
         self.id(Recipe::Gathered { channels, space, wrap })
     }
 
+    /// The id of a texture that these operations compute; the images among them are ids.
+    pub(super) fn expression(&mut self, ops: Vec<TextureOp>) -> u32 {
+        self.id(Recipe::Expression(ops))
+    }
+
     fn id(&mut self, recipe: Recipe) -> u32 {
         let known = self.recipes.iter().position(|known| *known == recipe);
         let id = known.unwrap_or_else(|| {
@@ -91,9 +109,16 @@ impl<'a> TextureTable<'a> {
     /// Mean of red, green, blue, alpha over the texels of texture `id`, linear.
     pub(super) fn mean(&mut self, id: u32) -> [f64; 4] {
         let recipe = self.recipes[id as usize].clone();
+        if let Recipe::Expression(ops) = &recipe {
+            let images: BTreeSet<u32> = ops.iter().filter_map(expression::image_of).collect();
+            let means: BTreeMap<u32, [f64; 4]> =
+                images.into_iter().map(|image| (image, self.mean(image))).collect();
+            return expression::mean(ops, |image| means[&image]);
+        }
         let mut key = KeyOf::stage("mean of a texture");
         recipe.read(self.files, &mut key);
-        self.look(key.end(), recipe.images(), |images| recipe.make(images).mean)
+        let mean = |images: &Images| recipe.make(images).map_or([1.0; 4], |made| made.mean);
+        self.look(key.end(), recipe.images(), mean)
     }
 
     /// The least number in a channel of an image, see `texels::least`.
@@ -136,9 +161,17 @@ impl<'a> TextureTable<'a> {
             return Ok((Textures { records: pack.records().to_vec(), texels }, true));
         }
         let images = Images::load(self.files, self.recipes.iter().flat_map(Recipe::images))?;
-        let made: Vec<Made> = self.recipes.par_iter().map(|recipe| recipe.make(&images)).collect();
+        let made: Vec<Option<Made>> =
+            self.recipes.par_iter().map(|recipe| recipe.make(&images)).collect();
         let (mut records, mut texels) = (Vec::with_capacity(made.len()), Vec::new());
         for (recipe, made) in self.recipes.iter().zip(made) {
+            if let Recipe::Expression(ops) = recipe {
+                let unit = TextureOp::WORDS as usize;
+                texels.resize(texels.len().next_multiple_of(unit), [0; 4]);
+                records.push(abi::Texture::expression(ops.len() as u32, texels.len() as u32));
+                texels.extend(ops.iter().flat_map(TextureOp::words));
+            }
+            let Some(made) = made else { continue };
             records.push(record(recipe.wrap(), &made, texels.len()));
             let (whole, rest) = made.words.as_chunks::<4>();
             texels.extend(whole);
@@ -171,21 +204,26 @@ impl Recipe {
             Self::Gathered { channels, .. } => {
                 channels.iter().flatten().map(|(image, _)| *image).collect()
             }
+            Self::Expression(_) => Vec::new(),
         }
     }
 
-    fn make(&self, images: &Images) -> Made {
+    /// Its texels, if it has any.
+    fn make(&self, images: &Images) -> Option<Made> {
         match self {
-            Self::Whole { image, space, .. } => texels::whole(images.get(*image), *space),
+            Self::Whole { image, space, .. } => Some(texels::whole(images.get(*image), *space)),
             Self::Gathered { channels, space, .. } => {
-                texels::gather(channels.map(|of| of.map(|(i, k)| (images.get(i), k))), *space)
+                let channels = channels.map(|of| of.map(|(i, k)| (images.get(i), k)));
+                Some(texels::gather(channels, *space))
             }
+            Self::Expression(_) => None,
         }
     }
 
     fn wrap(&self) -> [Wrap; 2] {
         match self {
             Self::Whole { wrap, .. } | Self::Gathered { wrap, .. } => *wrap,
+            Self::Expression(_) => [Wrap::Repeat; 2],
         }
     }
 
@@ -206,6 +244,10 @@ impl Recipe {
                     };
                 }
                 space
+            }
+            Self::Expression(ops) => {
+                key.number(3_u32).bytes(bytemuck::cast_slice(ops));
+                return;
             }
         };
         key.number(match space {

@@ -270,7 +270,8 @@ impl Explain<'_> {
             textures.get(*texture as usize).is_some_and(|t| t.format == format as u32)
         };
         let count = textures.iter().filter(|texture| texture.format == format as u32).count();
-        let text = format!("{count} images, the first of");
+        let what = if format == TextureFormat::Expression { "expressions" } else { "images" };
+        let text = format!("{count} {what}, the first of");
         let reads = |material: &Material| material.textures().iter().any(of_format);
         let sky = self.scene.sky.as_ref().zip(self.lowered.sky.as_ref());
         let sky = sky.filter(|(_, record)| of_format(&record.texture));

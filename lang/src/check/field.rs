@@ -199,6 +199,10 @@ impl Evaluator<'_> {
                 Value::TextureColor(id) | Value::Item(Kind::Texture, id) => {
                     self.fit_texture(slot, id, Value::TextureColor(id), true)
                 }
+                Value::Textured(of) => {
+                    let bounds = Bounds { max, min: 0.0, ..any(Dim::NONE, "") };
+                    self.fit_textured(slot, &of, bounds, true)
+                }
                 other => self.fit_color(slot, other, max),
             },
             FieldType::ScalarSlot(bounds) => match value {
@@ -209,6 +213,7 @@ impl Evaluator<'_> {
                 Value::TextureColor(id) | Value::Item(Kind::Texture, id) => {
                     self.which_channel(slot, id)
                 }
+                Value::Textured(of) => self.fit_textured(slot, &of, bounds, false),
                 other => self.fit_number(slot, other, bounds),
             },
             FieldType::NormalSlot => match value {

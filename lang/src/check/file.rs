@@ -2,6 +2,7 @@
 
 use crate::scene::{AssetFormat, ColorSpace, Wrap};
 use crate::source::Span;
+use crate::texture::Placement;
 
 /// A sound `texture` declaration.
 #[derive(Clone, Debug)]
@@ -14,6 +15,7 @@ pub(crate) struct TextureInfo {
     /// `srgb`.
     pub(crate) space_value: Span,
     pub(crate) wrap: [Wrap; 2],
+    pub(crate) placement: Placement,
 }
 
 /// A sound `asset` declaration.

@@ -102,9 +102,10 @@ pub(super) fn textures(fields: &Fields) -> Vec<ItemId> {
         .schema
         .fields
         .iter()
-        .filter_map(|field| match fields.get(field.name) {
-            Some(Value::TextureColor(id) | Value::TextureChannel(id, _)) => Some(id),
-            _ => None,
+        .flat_map(|field| match fields.get(field.name) {
+            Some(Value::TextureColor(id) | Value::TextureChannel(id, _)) => vec![id],
+            Some(Value::Textured(of)) => of.images().into_iter().map(|(id, _)| *id).collect(),
+            _ => Vec::new(),
         })
         .collect()
 }

@@ -1,5 +1,6 @@
 //! Checked declarations become the scene: names turn into indices, lists are sorted by name.
 
+use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::instance::Placed;
@@ -13,6 +14,7 @@ use crate::material::Reader;
 use crate::resolve::ItemId;
 use crate::scene::{
     Asset, Instance, Light, Material, MaterialModel, Medium, Name, Scene, Shape, Texture,
+    TextureExpression,
 };
 use crate::schema::Kind;
 use crate::shape::{MeshEdit, Parts};
@@ -46,12 +48,21 @@ impl Checker {
         let medium_at = index(&medium_order);
         view.render.atmosphere = view.atmosphere.and_then(|id| medium_at.get(&id).copied());
         let texture_at = index(&texture_order);
+        let texture = |id: ItemId| texture_at.get(&id).copied().unwrap_or(0);
+        let expressions = RefCell::new(Vec::new());
+        let expression = |of: &TextureExpression<ItemId>| {
+            intern(&mut expressions.borrow_mut(), of.named(&|id| texture(*id)))
+        };
         let materials = material_order
             .iter()
             .map(|(name, id)| {
-                let texture = |id: ItemId| texture_at.get(&id).copied().unwrap_or(0);
                 let fields = self.sound(*id)?;
-                let from = Reader { fields, textures: &texture, media: &medium_at };
+                let from = Reader {
+                    fields,
+                    textures: &texture,
+                    expressions: &expression,
+                    media: &medium_at,
+                };
                 let model = MaterialModel::read(&from)?;
                 let normal = material::normal(fields, &texture);
                 Some(Material { name: name.clone(), model, normal })
@@ -63,6 +74,7 @@ impl Checker {
         let mut scene = Scene {
             assets: self.assets(&asset_order)?,
             textures: textures(ev, &texture_order)?,
+            expressions: expressions.into_inner(),
             materials,
             media: self.media(&medium_order)?,
             instances: instances(placed, &material_at, &index(&asset_order))?,
@@ -150,6 +162,7 @@ fn textures(ev: &Evaluator<'_>, order: &[(Name, ItemId)]) -> Option<Vec<Texture>
                 path_span: info.path_span,
                 space: info.space,
                 wrap: info.wrap,
+                placement: info.placement,
             })
         })
         .collect()
@@ -207,6 +220,14 @@ fn renamed(
     };
     let MeshEdit { of, pattern_span, material_span, .. } = *edit;
     Some(MeshEdit { of, pattern: edit.pattern.clone(), pattern_span, material, material_span })
+}
+
+/// The index of an expression, which is added if it is new.
+fn intern(known: &mut Vec<TextureExpression<usize>>, of: TextureExpression<usize>) -> usize {
+    known.iter().position(|known| *known == of).unwrap_or_else(|| {
+        known.push(of);
+        known.len() - 1
+    })
 }
 
 /// Items by the names they have in the scene.

@@ -6,6 +6,7 @@ use std::rc::Rc;
 use super::field::{Slot, any};
 use crate::diagnostic::{Code, Diagnostic, Edit, Fix};
 use crate::eval::Evaluator;
+use crate::eval::textured::Expression;
 use crate::eval::value::{ShapeValue, Value};
 use crate::resolve::ItemId;
 use crate::scene::ColorSpace;
@@ -40,7 +41,10 @@ impl Evaluator<'_> {
             Value::Hex(_) | Value::Number(_, Dim::NONE) | Value::Vector(_, Dim::NONE) => {
                 self.without_space(&slot.name(), &value, slot.span())
             }
-            Value::TextureColor(_) | Value::TextureChannel(..) | Value::Item(Kind::Texture, _) => {
+            Value::TextureColor(_)
+            | Value::TextureChannel(..)
+            | Value::Textured(_)
+            | Value::Item(Kind::Texture, _) => {
                 let wanted = match slot.field.ty {
                     FieldType::ColorSlot(_) => "a colour: of a texture that is `.rgb`",
                     _ => "one colour, which no texture is",
@@ -83,6 +87,38 @@ impl Evaluator<'_> {
             error = error.because(import, "imported from here");
         }
         self.fault(error)
+    }
+
+    /// An expression of textures: its kind, what its images hold, and the numbers that it can reach.
+    pub(super) fn fit_textured(
+        &mut self,
+        slot: Slot<'_>,
+        of: &Rc<Expression>,
+        bounds: Bounds,
+        wants_color: bool,
+    ) -> Value {
+        let value = Value::Textured(Rc::clone(of));
+        if of.is_color() != wants_color {
+            let wanted = if wants_color { "a colour" } else { "a number" };
+            return self.wrong_kind(slot, &value, wanted);
+        }
+        for (id, channel) in of.images() {
+            // Alpha is linear in every image.
+            if channel != Some(3)
+                && self.fit_texture(slot, *id, Value::Default, channel.is_none()) == Value::Poison
+            {
+                return Value::Poison;
+            }
+        }
+        let range = of.range();
+        let Some(wrong) = range.into_iter().find(|x| !bounds.contains(*x)) else { return value };
+        let wanted = bounds.described();
+        let wrong = units::show_number(wrong);
+        let text = format!("{} must be {wanted}, but this can be {wrong}", slot.name());
+        let error = Diagnostic::error(Code("E0401"), text).at(slot.span(), wanted);
+        let help =
+            if wants_color { "use other factors" } else { "write `clamp(..., 0, 1)` around it" };
+        self.number_fault(error.with_help(help))
     }
 
     pub(super) fn which_channel(&mut self, slot: Slot<'_>, id: ItemId) -> Value {

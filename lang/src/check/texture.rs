@@ -11,6 +11,7 @@ use crate::schema::asset::AssetType;
 use crate::schema::texture::TextureType;
 use crate::schema::{self, Kind};
 use crate::syntax::{Binding, Expr, ExprKind, Ident};
+use crate::texture::Placement;
 
 /// Checks an `asset`.
 pub(super) fn asset(ev: &mut Evaluator<'_>, id: ItemId, binding: &Binding) -> Option<AssetInfo> {
@@ -45,6 +46,25 @@ pub(super) fn texture(
         space_span: fields.span("space")?,
         space_value: fields.value_span("space")?,
         wrap: [wrap("wrap_u")?, wrap("wrap_v")?],
+        placement: placement(ev, &fields)?,
+    })
+}
+
+/// Where an image lies; reports a scale of 0.
+fn placement(ev: &mut Evaluator<'_>, fields: &Fields) -> Option<Placement> {
+    for name in ["scale", "scale_u", "scale_v"] {
+        if let (Some(0.0), Some(span)) = (fields.number(name), fields.value_span(name)) {
+            let text = format!("`{name}` is zero: the image would be one texel");
+            ev.number_fault(Diagnostic::error(Code("E0401"), text).at(span, "not zero"));
+            return None;
+        }
+    }
+    let scale = |name: &str| fields.number(name).or_else(|| fields.number("scale"));
+    let offset = [fields.number("offset_u")?, fields.number("offset_v")?];
+    Some(Placement {
+        scale: [scale("scale_u")?, scale("scale_v")?],
+        rotate: fields.number("rotate")?,
+        offset,
     })
 }
 

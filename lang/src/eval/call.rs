@@ -205,8 +205,10 @@ impl Evaluator<'_> {
         let wanted = match want {
             Want::Number(dim) => dim,
             Want::LikeFirst | Want::VectorLikeFirst => like,
-            Want::ColorParts => Dim::NONE,
-            Want::AnyNumber | Want::Vector | Want::Blend => value.dim().unwrap_or(Dim::NONE),
+            Want::ColorParts | Want::Share => Dim::NONE,
+            Want::AnyNumber | Want::Measure | Want::Vector | Want::Blend => {
+                value.dim().unwrap_or(Dim::NONE)
+            }
         };
         let vector = matches!(want, Want::Vector | Want::VectorLikeFirst);
         match &value {
@@ -225,6 +227,12 @@ impl Evaluator<'_> {
             }
             Value::Hex(_) if want == Want::ColorParts => return value,
             Value::Vector(..) | Value::Color(_) if want == Want::Blend => return value,
+            Value::TextureColor(_) if want == Want::Blend => return value,
+            Value::TextureChannel(..) | Value::Textured(_)
+                if matches!(want, Want::Blend | Want::Share | Want::Measure) =>
+            {
+                return value;
+            }
             _ => {}
         }
         self.wrong_argument(&what, (vector, wanted), &value, expr)

@@ -3,9 +3,11 @@
 //! Every transcendental function comes from `libm`, so that a scene means the same numbers on every
 //! machine.
 
-use super::color;
 use super::value::Value;
+use super::{color, textured};
+use crate::texture::{TextureExpression, TexturePattern};
 use crate::units::Dim;
+use std::rc::Rc;
 
 /// What an argument must be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +26,10 @@ pub(crate) enum Want {
     ColorParts,
     /// A number, a tuple or a colour; the same as the first argument.
     Blend,
+    /// A plain number, or a number of textures.
+    Share,
+    /// A number of any dimension, or a number of textures.
+    Measure,
 }
 
 /// A function.
@@ -131,12 +137,15 @@ pub(crate) const FUNCTIONS: &[Function] = &[
     )),
     function(
         "clamp",
-        &[("x", Want::AnyNumber), ("low", Want::LikeFirst), ("high", Want::LikeFirst)],
+        &[("x", Want::Measure), ("low", Want::LikeFirst), ("high", Want::LikeFirst)],
         "x, but not below low and not above high.",
         |a| {
             let (low, high) = (num(a, 1), num(a, 2));
             if low > high {
                 return Err("`low` is above `high`".to_owned());
+            }
+            if a[0].is_textured() {
+                return textured::clamp(&a[0], [low, high]);
             }
             Ok(map(a, |x| x.max(low).min(high)))
         },
@@ -164,10 +173,42 @@ pub(crate) const FUNCTIONS: &[Function] = &[
     ),
     function(
         "mix",
-        &[("a", Want::Blend), ("b", Want::Blend), ("t", PLAIN)],
+        &[("a", Want::Blend), ("b", Want::Blend), ("t", Want::Share)],
         "a where t is 0, b where t is 1, in proportion between.",
         mix,
     ),
+    one_or_all(function(
+        "checker",
+        &[("across", PLAIN), ("up", PLAIN)],
+        "A texture: 0 and 1 in squares, so many along u and along v.",
+        checker,
+    )),
+    function(
+        "bricks",
+        &[("across", PLAIN), ("up", PLAIN), ("mortar", PLAIN)],
+        "A texture: 1 in bricks, 0 in the mortar between them, whose width is a share of a brick's height. So many \
+         bricks along u, so many rows along v.",
+        bricks,
+    ),
+    function(
+        "gradient",
+        &[("angle", ANGLE)],
+        "A texture: from 0 to 1 along the direction at this angle from u.",
+        |a| pattern(TexturePattern::Gradient(num(a, 0))),
+    ),
+    function(
+        "wave",
+        &[("count", PLAIN), ("angle", ANGLE)],
+        "A texture: so many smooth waves between 0 and 1 along the direction at this angle from u.",
+        |a| pattern(TexturePattern::Wave { count: cells(a, 0)?, angle: num(a, 1) }),
+    ),
+    one_or_all(function(
+        "noise",
+        &[("count", PLAIN), ("octaves", PLAIN)],
+        "A texture: random numbers between 0 and 1 with so many bumps along u and v, smooth with one octave, rough with \
+         more (4 if not said).",
+        noise,
+    )),
     function(
         "distance",
         &[("a", Want::Vector), ("b", Want::VectorLikeFirst)],
@@ -300,7 +341,50 @@ fn pow(args: &[Value]) -> Outcome {
     Ok(Value::Number(libm::pow(x, y), dim))
 }
 
+/// Most cells of a pattern in a unit.
+const MAX_CELLS: f64 = 1e6;
+
+/// Argument `i` as a number of cells.
+fn cells(args: &[Value], i: usize) -> Result<f64, String> {
+    match num(args, i) {
+        count if count > 0.0 && count <= MAX_CELLS => Ok(count),
+        count => Err(format!("{count} is not above 0 and at most {MAX_CELLS}")),
+    }
+}
+
+#[expect(clippy::unnecessary_wraps, reason = "the table wants functions that may fail")]
+fn pattern(pattern: TexturePattern) -> Outcome {
+    Ok(Value::Textured(Rc::new(TextureExpression::Pattern(pattern))))
+}
+
+fn checker(args: &[Value]) -> Outcome {
+    let across = cells(args, 0)?;
+    let up = if args.len() > 1 { cells(args, 1)? } else { across };
+    pattern(TexturePattern::Checker([across, up]))
+}
+
+fn bricks(args: &[Value]) -> Outcome {
+    let mortar = num(args, 2);
+    if !(0.0..1.0).contains(&mortar) {
+        return Err(format!("`mortar` is {mortar}, not between 0 and 1"));
+    }
+    pattern(TexturePattern::Bricks { count: [cells(args, 0)?, cells(args, 1)?], mortar })
+}
+
+fn noise(args: &[Value]) -> Outcome {
+    let octaves = if args.len() > 1 { num(args, 1) } else { 4.0 };
+    if octaves.fract() != 0.0 || !(1.0..=16.0).contains(&octaves) {
+        return Err(format!("`octaves` is {octaves}, not a whole number between 1 and 16"));
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 16")]
+    let octaves = octaves as u32;
+    pattern(TexturePattern::Noise { count: cells(args, 0)?, octaves })
+}
+
 fn mix(args: &[Value]) -> Outcome {
+    if args.iter().any(Value::is_textured) {
+        return textured::mix([&args[0], &args[1], &args[2]]);
+    }
     let t = num(args, 2);
     let lerp = |x: f64, y: f64| x * (1.0 - t) + y * t;
     match (&args[0], &args[1]) {

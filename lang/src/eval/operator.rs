@@ -1,10 +1,12 @@
 //! Arithmetic and comparison. `+ - <` need equal dimensions, `* /` add and subtract exponents.
 
 use super::advice::{literal_unit, takes_unit, with_unit_fix};
+use super::textured::{self, Trouble};
 use super::value::Value;
 use super::{Evaluator, Scope};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::scene::Axis;
+use crate::schema::Kind;
 use crate::source::Span;
 use crate::syntax::{BinaryOp, CompareOp, Expr, ExprKind, ItemKind};
 use crate::units::{self, Dim};
@@ -17,6 +19,10 @@ impl Evaluator<'_> {
             Value::Vector(values, dim) => {
                 Value::Vector(values.into_iter().map(|v| -v).collect(), dim)
             }
+            value if value.is_textured() => match textured::negated(&value) {
+                Ok(value) => value,
+                Err(text) => self.fault(Diagnostic::error(Code("E0111"), text).at(inner.span, "")),
+            },
             other => {
                 let text = format!("cannot negate {}", other.described());
                 self.fault(Diagnostic::error(Code("E0305"), text).at(inner.span, other.described()))
@@ -36,6 +42,7 @@ impl Evaluator<'_> {
             return Value::Poison;
         }
         let result = match op {
+            _ if a.is_textured() || b.is_textured() => textured::binary(op, &a, &b),
             BinaryOp::Add => combine(&a, &b, |x, y| x + y),
             BinaryOp::Sub => combine(&a, &b, |x, y| x - y),
             BinaryOp::Mul => multiply(&a, &b),
@@ -54,6 +61,9 @@ impl Evaluator<'_> {
                 let error = Diagnostic::error(Code("E0402"), "division by zero")
                     .at(right.span, "this is zero");
                 self.number_fault(error)
+            }
+            Err(Trouble::Size(text)) => {
+                self.fault(Diagnostic::error(Code("E0111"), text).at(left.span.to(right.span), ""))
             }
             Err(Trouble::Exponent) => {
                 let text = "this unit has too high a power";
@@ -80,6 +90,9 @@ impl Evaluator<'_> {
                 let error = match (&a, &b) {
                     (Value::Vector(..), Value::Vector(..)) if op == BinaryOp::Mul => {
                         error.with_help("use `dot(a, b)` or `cross(a, b)`")
+                    }
+                    (Value::Item(Kind::Texture, _), _) | (_, Value::Item(Kind::Texture, _)) => {
+                        error.with_help("the colour of a texture is `.rgb`, one channel is `.r`")
                     }
                     _ => error,
                 };
@@ -128,13 +141,6 @@ impl Evaluator<'_> {
             }
         }
     }
-}
-
-enum Trouble {
-    Dimensions,
-    Kinds,
-    Zero,
-    Exponent,
 }
 
 /// `a + b`, `a - b`.

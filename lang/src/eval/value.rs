@@ -7,6 +7,7 @@ use crate::scene::{Axis, Rgb, Shape};
 use crate::schema::Kind;
 use crate::shape::MeshEdit;
 use crate::source::Span;
+use crate::texture::TextureExpression;
 use crate::units::{self, Dim};
 
 /// The value of an expression. `Poison` stands for a fault that has been reported; it fits
@@ -41,6 +42,8 @@ pub(crate) enum Value {
     TextureColor(ItemId),
     /// One channel of a texture, 0 red … 3 alpha.
     TextureChannel(ItemId, u8),
+    /// What is computed from textures.
+    Textured(Rc<TextureExpression<ItemId>>),
     /// Geometry.
     Shape(Rc<ShapeValue>),
     /// `[a, b]`, with the place of each entry.
@@ -87,11 +90,18 @@ impl Value {
             Self::Item(kind, _) => kind.with_article().to_owned(),
             Self::TextureColor(_) => "the colour of a texture".to_owned(),
             Self::TextureChannel(..) => "a channel of a texture".to_owned(),
+            Self::Textured(of) if of.is_color() => "a colour of textures".to_owned(),
+            Self::Textured(_) => "a number of textures".to_owned(),
             Self::Shape(_) => "a shape".to_owned(),
             Self::List(_) => "a list".to_owned(),
             Self::Default => "`default`".to_owned(),
             Self::None => "`none`".to_owned(),
         }
+    }
+
+    /// Whether it varies over a surface.
+    pub(crate) fn is_textured(&self) -> bool {
+        matches!(self, Self::TextureColor(_) | Self::TextureChannel(..) | Self::Textured(_))
     }
 
     /// The dimension of a number or a vector.
@@ -110,6 +120,7 @@ impl Value {
             Self::Vector(values, _) => values.iter().all(sound),
             Self::Color(rgb) => rgb.iter().all(sound),
             Self::Range(a, b, _) => sound(a) && sound(b),
+            Self::Textured(of) => of.range().iter().all(sound),
             _ => true,
         }
     }

@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use crate::check::Fields;
 use crate::eval::value::Value;
 use crate::resolve::ItemId;
-use crate::scene::{Medium, Rgb, Texture};
+use crate::scene::{Medium, Rgb, Scene, Texture};
 use crate::schema::{self, Field, FieldType, color_text};
 use crate::source::Span;
+use crate::texture::TextureExpression;
 use crate::units::{self, Dim};
 
 /// A colour that may come from an image.
@@ -17,6 +18,8 @@ pub enum Color {
     Constant(Rgb),
     /// `.rgb` of a texture, index into `Scene::textures`.
     Texture(usize),
+    /// Computed from textures, index into `Scene::expressions`.
+    Expression(usize),
 }
 
 /// A number that may come from one channel of an image.
@@ -31,6 +34,8 @@ pub enum Scalar {
         /// 0 red, 1 green, 2 blue, 3 alpha.
         channel: u8,
     },
+    /// Computed from textures, index into `Scene::expressions`.
+    Expression(usize),
 }
 
 /// An image of tangent-space normals, green up.
@@ -97,6 +102,8 @@ pub(crate) struct Reader<'a> {
     pub(crate) fields: &'a Fields,
     /// Index of a texture in the scene.
     pub(crate) textures: &'a dyn Fn(ItemId) -> usize,
+    /// Index of an expression of textures in the scene.
+    pub(crate) expressions: &'a dyn Fn(&TextureExpression<ItemId>) -> usize,
     /// Indices of media in the scene.
     pub(crate) media: &'a BTreeMap<ItemId, usize>,
 }
@@ -112,18 +119,25 @@ impl Reader<'_> {
 pub(crate) struct Shown<'a> {
     /// What they may refer to, by index.
     textures: &'a [Texture],
+    expressions: &'a [TextureExpression<usize>],
     media: &'a [Medium],
     /// Names and values.
     pub(crate) lines: Vec<(&'static str, String)>,
 }
 
 impl<'a> Shown<'a> {
-    pub(crate) fn new(textures: &'a [Texture], media: &'a [Medium]) -> Self {
-        Self { textures, media, lines: Vec::new() }
+    pub(crate) fn new(scene: &'a Scene) -> Self {
+        let Scene { textures, expressions, media, .. } = scene;
+        Self { textures, expressions, media, lines: Vec::new() }
     }
 
     fn push(&mut self, field: &Field, value: String) {
         self.lines.push((field.name, value));
+    }
+
+    fn expression(&self, expression: usize) -> String {
+        let named = |texture: &usize| self.texture(*texture).to_owned();
+        self.expressions.get(expression).map_or_else(String::new, |of| of.named(&named).to_string())
     }
 
     fn texture(&self, texture: usize) -> &str {
@@ -251,6 +265,7 @@ impl Param for Color {
         match from.fields.get(names[0]) {
             Some(Value::Color(rgb)) => Some(Self::Constant(rgb)),
             Some(Value::TextureColor(id)) => Some(Self::Texture((from.textures)(id))),
+            Some(Value::Textured(of)) => Some(Self::Expression((from.expressions)(&of))),
             _ => None,
         }
     }
@@ -259,6 +274,7 @@ impl Param for Color {
         let text = match self {
             Self::Constant(rgb) => color_text(*rgb),
             Self::Texture(texture) => format!("{}.rgb", shown.texture(*texture)),
+            Self::Expression(expression) => shown.expression(*expression),
         };
         shown.push(&fields[0], text);
     }
@@ -277,6 +293,7 @@ impl Param for Scalar {
             Some(Value::TextureChannel(id, channel)) => {
                 Some(Self::Texture { texture: (from.textures)(id), channel })
             }
+            Some(Value::Textured(of)) => Some(Self::Expression((from.expressions)(&of))),
             _ => None,
         }
     }
@@ -288,6 +305,7 @@ impl Param for Scalar {
                 let channel = ["r", "g", "b", "a"][usize::from(*channel).min(3)];
                 format!("{}.{channel}", shown.texture(*texture))
             }
+            Self::Expression(expression) => shown.expression(*expression),
         };
         shown.push(&fields[0], text);
     }

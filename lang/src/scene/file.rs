@@ -3,6 +3,7 @@
 use super::common::Name;
 use crate::schema::words;
 use crate::source::Span;
+use crate::texture::Placement;
 
 /// A mesh file.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,6 +70,8 @@ pub struct Texture {
     pub space: ColorSpace,
     /// Outside 0..1 along u and v.
     pub wrap: [Wrap; 2],
+    /// Where the image lies.
+    pub placement: Placement,
 }
 
 words! {

@@ -1,9 +1,16 @@
 //! Image files: `texture NAME = image(...)`.
 
-use super::{Default, Field, FieldType, Kind, TypeSchema};
+use super::{Bounds, Default, Field, FieldType, Kind, TypeSchema};
 use crate::scene::{ColorSpace, Wrap};
+use crate::units::Dim;
 
 types!(TextureType { Image = IMAGE });
+
+/// Factors on texture coordinates.
+const SCALE: Bounds = Bounds::number(-1e6, 1e6);
+
+/// Moves of texture coordinates.
+const OFFSET: Bounds = Bounds::number(-1e6, 1e6);
 
 const IMAGE: TypeSchema = TypeSchema {
     kind: Kind::Texture,
@@ -53,6 +60,51 @@ const IMAGE: TypeSchema = TypeSchema {
             "What lies outside 0..1 along v.",
         )
         .foreign(&[("wrapT", "glTF")]),
+        Field::new(
+            "scale",
+            FieldType::Number(SCALE),
+            Default::Number(1.0),
+            "How often the image fits into a unit of the texture coordinates, along both axes; below zero it is \
+             mirrored. Coordinates are scaled, then turned, then moved.",
+        )
+        .typical("4")
+        .foreign(&[("repeat", "three.js"), ("tiling", "Unity")]),
+        Field::new(
+            "scale_u",
+            FieldType::Number(SCALE),
+            Default::Absent("what `scale` says"),
+            "How often it fits along u.",
+        )
+        .foreign(&[("uscale", "pbrt")]),
+        Field::new(
+            "scale_v",
+            FieldType::Number(SCALE),
+            Default::Absent("what `scale` says"),
+            "How often it fits along v.",
+        )
+        .foreign(&[("vscale", "pbrt")]),
+        Field::new(
+            "rotate",
+            FieldType::Number(Bounds::new(Dim::ANGLE, "deg", f64::NEG_INFINITY, f64::INFINITY)),
+            Default::Number(0.0),
+            "Turns the scaled coordinates counter-clockwise about (0, 0), and so the image clockwise.",
+        )
+        .typical("90deg")
+        .foreign(&[("rotation", "glTF, three.js")]),
+        Field::new(
+            "offset_u",
+            FieldType::Number(OFFSET),
+            Default::Number(0.0),
+            "Added to u at the end: 0.25 moves the image by a quarter of its width towards smaller u.",
+        )
+        .foreign(&[("udelta", "pbrt")]),
+        Field::new(
+            "offset_v",
+            FieldType::Number(OFFSET),
+            Default::Number(0.0),
+            "Added to v at the end.",
+        )
+        .foreign(&[("vdelta", "pbrt")]),
     ],
     foreign: &[("imagemap", "pbrt, LuxCore"), ("bitmap", "Mitsuba"), ("map_Kd", "OBJ/MTL")],
 };

@@ -4,7 +4,7 @@ use lang::material::{
     self, Clearcoat, Conductor, Dielectric, Diffuse, Emissive, Fabric, Inside, Leaf, Metal,
     Pattern, Petal, Stone, Wood,
 };
-use lang::scene::{self, Color, MaterialModel, Scalar};
+use lang::scene::{self, MaterialModel, Scalar};
 use pack::abi::{self, MaterialKind, NONE, material_flag};
 
 use super::table::{MaterialTable, blank, factor, set_normal_map, switch, with_ior};
@@ -28,7 +28,7 @@ impl MaterialTable<'_> {
         let mut record = self.model(&material.model);
         // A map of strength 0 does nothing, and its image is not needed.
         if let Some(map) = material.normal.as_ref().filter(|map| map.strength.abs() > 0.0) {
-            let (_, image) = self.color(Color::Texture(map.texture));
+            let image = self.normals(map.texture);
             set_normal_map(&mut record, image, map.strength);
         }
         record

@@ -1,26 +1,21 @@
 //! Principled materials, declared or of a mesh file, become `Material` records.
 
-use lang::scene::{Color, ColorSpace, Principled, Scalar, Wrap};
+use lang::scene::{Color, ColorSpace, Placement, Principled, Scalar, TextureExpression, Wrap};
 use pack::abi::{self, MaterialKind, NONE, material_flag};
 
 use super::table::{MaterialTable, blank, channel, cutting, factor, image_of, switch, with_ior};
 use crate::import::{ImportedMaterial, MapUse};
 use crate::lower::files::ImageRef;
-use crate::lower::texture::Channel;
+use crate::lower::texture::{Channel, expression};
 
-/// Factor and channel of a scalar.
-type Textured = (f32, Option<Channel>);
-
-fn textured(scalar: Scalar) -> Textured {
-    (factor(scalar), channel(scalar))
-}
+/// A channel that nothing reads, or that is 1.
+const ONE: Scalar = Scalar::Constant(1.0);
 
 impl MaterialTable<'_> {
     pub(super) fn principled(&mut self, from: &Principled) -> abi::Material {
         let (color, color_texture) = self.color(from.color);
         let (emission, emission_texture) = self.emission(from.emission, from.emission_strength);
-        let metallic_roughness = [None, channel(from.roughness), channel(from.metallic), None];
-        let wrap = self.wrap(&[from.roughness, from.metallic]);
+        let metallic_roughness = self.scalars([ONE, from.roughness, from.metallic, ONE]);
         let mut record = abi::Material {
             color,
             color_texture,
@@ -28,18 +23,17 @@ impl MaterialTable<'_> {
             emission_texture,
             roughness: factor(from.roughness),
             metallic: factor(from.metallic),
-            metallic_roughness_texture: self.channels(metallic_roughness, wrap),
+            metallic_roughness_texture: metallic_roughness,
             flags: material_flag::EMIT_BOTH_SIDES,
             compensation: switch(from.compensation),
             ..with_ior(blank(MaterialKind::Principled), from.ior)
         };
         self.specular(&mut record, from);
         self.coat(&mut record, from);
-        let (transmission, through) = textured(from.transmission);
+        let transmission = factor(from.transmission);
         if transmission > 0.0 {
             record.transmission = transmission;
-            let wrap = self.wrap(&[from.transmission]);
-            record.transmission_texture = self.channels([through, None, None, None], wrap);
+            record.transmission_texture = self.scalars([from.transmission, ONE, ONE, ONE]);
             mark_straight(&mut record);
         }
         self.clip(&mut record, from.alpha, from.alpha_clip);
@@ -48,37 +42,49 @@ impl MaterialTable<'_> {
 
     /// Cuts out where `alpha` is below `cutoff`, if there is one.
     pub(super) fn clip(&mut self, record: &mut abi::Material, alpha: Scalar, cutoff: Option<f64>) {
-        let least = channel(alpha).map_or(1.0, |channel| self.textures.least(channel));
+        let least = self.least(alpha);
         let Some(cutoff) = cutting(cutoff, factor(alpha), least) else { return };
         record.flags |= material_flag::ALPHA_CLIP;
         record.alpha_cutoff = cutoff;
         record.alpha = factor(alpha);
-        let wrap = self.wrap(&[alpha]);
-        record.alpha_texture = self.channels([None, None, None, channel(alpha)], wrap);
+        record.alpha_texture = self.scalars([ONE, ONE, ONE, alpha]);
     }
 
     /// The texture with this roughness in green, or `NONE`.
     pub(super) fn roughness_texture(&mut self, roughness: Scalar) -> u32 {
-        let wrap = self.wrap(&[roughness]);
-        self.channels([None, channel(roughness), None, None], wrap)
+        self.scalars([ONE, roughness, ONE, ONE])
     }
 
     fn specular(&mut self, record: &mut abi::Material, from: &Principled) {
-        let (specular, alpha) = textured(from.specular);
-        record.specular = specular;
-        let (image, space, wrap) = match from.specular_color {
+        record.specular = factor(from.specular);
+        record.specular_texture = match from.specular_color {
             Color::Constant(rgb) => {
                 record.tint = rgb.map(|c| c as f32);
-                let wrap = self.wrap(&[from.specular]);
-                record.specular_texture = self.channels([None, None, None, alpha], wrap);
-                return;
+                self.scalars([ONE, ONE, ONE, from.specular])
             }
             Color::Texture(texture) => {
                 let found = &self.scene.textures[texture];
-                (ImageRef::Scene(texture), found.space, found.wrap)
+                let alpha = channel(from.specular);
+                let is_constant = matches!(from.specular, Scalar::Constant(_));
+                if found.placement == Placement::NONE && (alpha.is_some() || is_constant) {
+                    self.tinted(ImageRef::Scene(texture), found.space, alpha, found.wrap)
+                } else {
+                    self.computed_specular(&TextureExpression::Image(texture), from.specular)
+                }
+            }
+            Color::Expression(index) => {
+                let scene = self.scene;
+                self.computed_specular(&scene.expressions[index], from.specular)
             }
         };
-        record.specular_texture = self.tinted(image, space, alpha, wrap);
+    }
+
+    /// A colour, and a number in alpha.
+    fn computed_specular(&mut self, color: &TextureExpression<usize>, alpha: Scalar) -> u32 {
+        let mut ops = self.operations(color);
+        ops.extend(self.number(alpha).unwrap_or_else(|| vec![expression::constant([1.0; 4])]));
+        ops.push(expression::insert(3));
+        self.textures.expression(ops)
     }
 
     /// An image for colour whose alpha is `alpha`, or 1.
@@ -97,30 +103,19 @@ impl MaterialTable<'_> {
     }
 
     fn coat(&mut self, record: &mut abi::Material, from: &Principled) {
-        let ((coat, share), (roughness, rough)) =
-            (textured(from.coat), textured(from.coat_roughness));
+        let coat = factor(from.coat);
         if coat > 0.0 {
-            (record.coat, record.coat_roughness) = (coat, roughness);
-            let wrap = self.wrap(&[from.coat, from.coat_roughness]);
-            record.coat_texture = self.channels([share, rough, None, None], wrap);
+            (record.coat, record.coat_roughness) = (coat, factor(from.coat_roughness));
+            record.coat_texture = self.scalars([from.coat, from.coat_roughness, ONE, ONE]);
         }
     }
 
     /// A texture of single channels; `NONE` where there is no channel.
-    fn channels(&mut self, channels: [Option<Channel>; 4], wrap: [Wrap; 2]) -> u32 {
+    pub(super) fn channels(&mut self, channels: [Option<Channel>; 4], wrap: [Wrap; 2]) -> u32 {
         if channels.iter().all(Option::is_none) {
             return NONE;
         }
         self.textures.gathered(channels, ColorSpace::Data, wrap)
-    }
-
-    /// How the texture of the first textured scalar wraps.
-    fn wrap(&self, scalars: &[Scalar]) -> [Wrap; 2] {
-        let textures = scalars.iter().filter_map(|scalar| match scalar {
-            Scalar::Texture { texture, .. } => Some(self.scene.textures[*texture].wrap),
-            Scalar::Constant(_) => None,
-        });
-        textures.into_iter().next().unwrap_or([Wrap::Repeat; 2])
     }
 
     /// The principled material of a mesh file.

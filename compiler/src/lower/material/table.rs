@@ -2,14 +2,14 @@
 //!
 //! It does not know how a material becomes a record.
 
-use lang::scene::{self, Color, ColorSpace, Scalar, Scene};
-use pack::abi::{self, MaterialKind, NONE, material_flag};
+use lang::scene::{self, Color, ColorSpace, Placement, Scalar, Scene, TextureExpression, Wrap};
+use pack::abi::{self, MaterialKind, NONE, TextureOp, material_flag};
 
 use crate::import::MapUse;
 use crate::lower::files::{Files, ImageRef};
 use crate::lower::light::luminance;
 use crate::lower::medium::{Water, has_inside};
-use crate::lower::texture::TextureTable;
+use crate::lower::texture::{TextureTable, expression};
 use crate::stage::Stages;
 
 /// Where a material is declared.
@@ -140,11 +140,100 @@ impl<'a> MaterialTable<'a> {
     pub(in crate::lower) fn color(&mut self, color: Color) -> ([f32; 3], u32) {
         match color {
             Color::Constant(rgb) => (rgb.map(|c| c as f32), NONE),
-            Color::Texture(texture) => {
-                let scene::Texture { space, wrap, .. } = &self.scene.textures[texture];
-                let id = self.textures.whole(ImageRef::Scene(texture), *space, *wrap);
-                ([1.0; 3], id)
+            Color::Texture(texture) => ([1.0; 3], self.image(texture)),
+            Color::Expression(index) => {
+                let scene = self.scene;
+                let of = &scene.expressions[index];
+                match tinted_image(of) {
+                    Some((factor, texture)) => (factor, self.image(texture)),
+                    None => ([1.0; 3], self.expression(of)),
+                }
             }
+        }
+    }
+
+    /// A declared image where it is placed.
+    fn image(&mut self, texture: usize) -> u32 {
+        let scene::Texture { space, wrap, placement, .. } = &self.scene.textures[texture];
+        let id = self.textures.whole(ImageRef::Scene(texture), *space, *wrap);
+        if *placement == Placement::NONE {
+            return id;
+        }
+        self.textures.expression(vec![expression::image(id, placement)])
+    }
+
+    /// A declared image of normals where it is placed.
+    pub(super) fn normals(&mut self, texture: usize) -> u32 {
+        let scene::Texture { space, wrap, placement, .. } = &self.scene.textures[texture];
+        let id = self.textures.whole(ImageRef::Scene(texture), *space, *wrap);
+        if *placement == Placement::NONE {
+            return id;
+        }
+        let ops = vec![expression::image(id, placement), expression::tilt(placement)];
+        self.textures.expression(ops)
+    }
+
+    fn expression(&mut self, of: &TextureExpression<usize>) -> u32 {
+        let ops = self.operations(of);
+        self.textures.expression(ops)
+    }
+
+    /// The operations that leave the value of an expression.
+    pub(super) fn operations(&mut self, of: &TextureExpression<usize>) -> Vec<TextureOp> {
+        let scene = self.scene;
+        expression::operations(of, &mut |texture| {
+            let scene::Texture { space, wrap, placement, .. } = &scene.textures[texture];
+            let id = self.textures.whole(ImageRef::Scene(texture), linear(*space), *wrap);
+            vec![expression::image(id, placement)]
+        })
+    }
+
+    /// A texture whose channels are these numbers, 1 for those that are the same everywhere; `NONE` if all are.
+    pub(super) fn scalars(&mut self, lanes: [Scalar; 4]) -> u32 {
+        let is_plain = |lane: &Scalar| match lane {
+            Scalar::Constant(_) => true,
+            Scalar::Texture { texture, .. } => {
+                self.scene.textures[*texture].placement == Placement::NONE
+            }
+            Scalar::Expression(_) => false,
+        };
+        if lanes.iter().all(is_plain) {
+            let wrap = lanes.iter().find_map(|lane| match lane {
+                Scalar::Texture { texture, .. } => Some(self.scene.textures[*texture].wrap),
+                Scalar::Constant(_) | Scalar::Expression(_) => None,
+            });
+            return self.channels(lanes.map(channel), wrap.unwrap_or([Wrap::Repeat; 2]));
+        }
+        let mut ops = vec![expression::constant([1.0; 4])];
+        for (k, lane) in lanes.into_iter().enumerate() {
+            if let Some(lane) = self.number(lane) {
+                ops.extend(lane);
+                ops.push(expression::insert(k));
+            }
+        }
+        self.textures.expression(ops)
+    }
+
+    /// The operations that leave a number; none for one that is the same everywhere.
+    pub(super) fn number(&mut self, scalar: Scalar) -> Option<Vec<TextureOp>> {
+        let scene = self.scene;
+        match scalar {
+            Scalar::Constant(_) => None,
+            Scalar::Texture { texture, channel } => {
+                Some(self.operations(&TextureExpression::Channel(texture, channel)))
+            }
+            Scalar::Expression(index) => Some(self.operations(&scene.expressions[index])),
+        }
+    }
+
+    /// The least that a number is anywhere, in proportion to its factor.
+    pub(super) fn least(&mut self, scalar: Scalar) -> f32 {
+        match scalar {
+            Scalar::Constant(_) => 1.0,
+            Scalar::Texture { texture, channel } => {
+                self.textures.least((ImageRef::Scene(texture), channel))
+            }
+            Scalar::Expression(index) => self.scene.expressions[index].range()[0] as f32,
         }
     }
 
@@ -170,13 +259,7 @@ impl<'a> MaterialTable<'a> {
 
     pub(in crate::lower) fn map(&mut self, asset: usize, map: Option<MapUse>) -> u32 {
         map.map_or(NONE, |map| {
-            let image = image_of(asset, map);
-            // Bytes that are not colours are the same numbers under either linear name.
-            let space = match map.space {
-                ColorSpace::Data => ColorSpace::Linear,
-                space @ (ColorSpace::Srgb | ColorSpace::Linear) => space,
-            };
-            self.textures.whole(image, space, map.wrap)
+            self.textures.whole(image_of(asset, map), linear(map.space), map.wrap)
         })
     }
 }
@@ -243,14 +326,36 @@ pub(in crate::lower) fn switch(on: bool) -> f32 {
 pub(in crate::lower) fn factor(scalar: Scalar) -> f32 {
     match scalar {
         Scalar::Constant(value) => value as f32,
-        Scalar::Texture { .. } => 1.0,
+        Scalar::Texture { .. } | Scalar::Expression(_) => 1.0,
     }
 }
 
+/// The channel of an image that a number is.
 pub(in crate::lower) fn channel(scalar: Scalar) -> Option<(ImageRef, u8)> {
     match scalar {
-        Scalar::Constant(_) => None,
+        Scalar::Constant(_) | Scalar::Expression(_) => None,
         Scalar::Texture { texture, channel } => Some((ImageRef::Scene(texture), channel)),
+    }
+}
+
+/// The constant factor and the image of what is nothing but their product.
+fn tinted_image(of: &TextureExpression<usize>) -> Option<([f32; 3], usize)> {
+    let TextureExpression::Product(parts) = of else { return None };
+    let (factor, texture) = match parts.as_slice() {
+        [TextureExpression::Image(texture), TextureExpression::Color(rgb)]
+        | [TextureExpression::Color(rgb), TextureExpression::Image(texture)] => (*rgb, texture),
+        [TextureExpression::Image(texture), TextureExpression::Number(x)]
+        | [TextureExpression::Number(x), TextureExpression::Image(texture)] => ([*x; 3], texture),
+        _ => return None,
+    };
+    Some((factor.map(|c| c as f32), *texture))
+}
+
+/// Bytes that are not colours are the same numbers under either linear name.
+fn linear(space: ColorSpace) -> ColorSpace {
+    match space {
+        ColorSpace::Data => ColorSpace::Linear,
+        space @ (ColorSpace::Srgb | ColorSpace::Linear) => space,
     }
 }
 

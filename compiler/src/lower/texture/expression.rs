@@ -1,0 +1,132 @@
+//! Expressions of textures become the operations of a kernel.
+//!
+//! Parts are written in order, each leaving its value on the stack, then the operation on them. It knows neither
+//! files nor records; images are ids of the texture table.
+
+use lang::scene::{Placement, TextureExpression, TexturePattern};
+use pack::abi::{TextureOp, TextureOpKind};
+
+/// Appends the operations that leave the value of `of`. `image` gives those that leave an image.
+pub(in crate::lower) fn operations(
+    of: &TextureExpression<usize>,
+    image: &mut impl FnMut(usize) -> Vec<TextureOp>,
+) -> Vec<TextureOp> {
+    let mut ops: Vec<TextureOp> =
+        of.parts().iter().flat_map(|part| operations(part, image)).collect();
+    match of {
+        TextureExpression::Number(value) => ops.push(constant([*value as f32; 4])),
+        TextureExpression::Color([r, g, b]) => {
+            ops.push(constant([*r as f32, *g as f32, *b as f32, 1.0]));
+        }
+        TextureExpression::Image(texture) => ops.extend(image(*texture)),
+        TextureExpression::Channel(texture, channel) => {
+            ops.extend(image(*texture));
+            ops.push(TextureOp { arg: u32::from(*channel), ..plain(TextureOpKind::Channel) });
+        }
+        TextureExpression::Pattern(of) => ops.push(pattern(of)),
+        TextureExpression::Sum(_) => ops.push(plain(TextureOpKind::Add)),
+        TextureExpression::Product(_) => ops.push(plain(TextureOpKind::Multiply)),
+        TextureExpression::Mix(_) => ops.push(plain(TextureOpKind::Mix)),
+        TextureExpression::Clamp(_, [low, high]) => {
+            let p = [*low as f32, *high as f32, 0.0, 0.0];
+            ops.push(TextureOp { p, ..plain(TextureOpKind::Clamp) });
+        }
+    }
+    ops
+}
+
+/// The same value everywhere.
+pub(in crate::lower) fn constant(p: [f32; 4]) -> TextureOp {
+    TextureOp { p, ..plain(TextureOpKind::Constant) }
+}
+
+/// Puts the number on top of the stack into channel `channel` of the value below it.
+pub(in crate::lower) fn insert(channel: usize) -> TextureOp {
+    TextureOp { arg: channel as u32, ..plain(TextureOpKind::Insert) }
+}
+
+/// The image with this id in the texture table, where `placement` puts it.
+pub(in crate::lower) fn image(id: u32, placement: &Placement) -> TextureOp {
+    let (matrix, offset) = placement.matrix();
+    TextureOp { arg: id, ..placed(TextureOpKind::Image, matrix, offset) }
+}
+
+/// The id of the image that an operation reads.
+pub(super) fn image_of(op: &TextureOp) -> Option<u32> {
+    (op.kind == TextureOpKind::Image as u32).then_some(op.arg)
+}
+
+/// What follows the image of a normal map: its x and y point along the axes of the image, which are turned against
+/// those of the surface where the coordinates are.
+///
+/// A map of heights h(M uv) has the gradient M^T grad h. Only the directions of the axes count: a normal map has slopes
+/// and not heights, whatever its size.
+pub(in crate::lower) fn tilt(placement: &Placement) -> TextureOp {
+    let (sin, cos) = (libm::sin(placement.rotate) as f32, libm::cos(placement.rotate) as f32);
+    let [u, v] = placement.scale.map(|scale| if scale < 0.0 { -1.0 } else { 1.0 });
+    TextureOp { p: [u * cos, u * sin, -v * sin, v * cos], ..plain(TextureOpKind::Tilt) }
+}
+
+fn plain(kind: TextureOpKind) -> TextureOp {
+    TextureOp { kind: kind as u32, ..TextureOp::default() }
+}
+
+fn placed(kind: TextureOpKind, matrix: [f64; 4], [u, v]: [f64; 2]) -> TextureOp {
+    let q = [u as f32, v as f32, 0.0, 0.0];
+    TextureOp { p: matrix.map(|x| x as f32), q, ..plain(kind) }
+}
+
+fn pattern(of: &TexturePattern) -> TextureOp {
+    let along = |kind, count: f64, angle: f64| {
+        let matrix = [count * libm::cos(angle), count * libm::sin(angle), 0.0, 0.0];
+        placed(kind, matrix, [0.0; 2])
+    };
+    match *of {
+        TexturePattern::Checker([u, v]) => {
+            placed(TextureOpKind::Checker, [u, 0.0, 0.0, v], [0.0; 2])
+        }
+        TexturePattern::Bricks { count: [u, v], mortar } => {
+            // As wide between the ends of bricks as between rows: half of it belongs to each brick.
+            let mut op = placed(TextureOpKind::Bricks, [u, 0.0, 0.0, v], [0.0; 2]);
+            op.q[2] = (0.5 * mortar * u / v) as f32;
+            op.q[3] = (0.5 * mortar) as f32;
+            op
+        }
+        TexturePattern::Gradient(angle) => along(TextureOpKind::Gradient, 1.0, angle),
+        TexturePattern::Wave { count, angle } => along(TextureOpKind::Wave, count, angle),
+        TexturePattern::Noise { count, octaves } => {
+            let matrix = [count, 0.0, 0.0, count];
+            TextureOp { arg: octaves, ..placed(TextureOpKind::Noise, matrix, [0.0; 2]) }
+        }
+    }
+}
+
+/// A guess at the mean, from the means of the images: for the brightness of lights, which only decides how often they
+/// are chosen. Never 0, since a part of it may give light.
+pub(super) fn mean(ops: &[TextureOp], image: impl Fn(u32) -> [f64; 4]) -> [f64; 4] {
+    const LEAST: f64 = 1e-3;
+    let mut stack: Vec<[f64; 4]> = Vec::new();
+    for op in ops {
+        let Some(kind) = TextureOpKind::from_tag(op.kind) else { continue };
+        let args = stack.split_off(stack.len().saturating_sub(kind.operands()));
+        let lanes = |f: &dyn Fn(usize) -> f64| [0, 1, 2, 3].map(f);
+        stack.push(match (kind, args.as_slice()) {
+            (TextureOpKind::Constant, _) => op.p.map(f64::from),
+            (TextureOpKind::Image, _) => image(op.arg),
+            (TextureOpKind::Channel, [a]) => [a[op.arg.min(3) as usize]; 4],
+            (TextureOpKind::Clamp, [a]) => {
+                a.map(|x| x.max(f64::from(op.p[0])).min(f64::from(op.p[1])))
+            }
+            (TextureOpKind::Tilt, [a]) => *a,
+            (TextureOpKind::Insert, [a, b]) => {
+                lanes(&|k| if k == op.arg as usize { b[0] } else { a[k] })
+            }
+            (TextureOpKind::Multiply, [a, b]) => lanes(&|k| a[k] * b[k]),
+            (TextureOpKind::Add, [a, b]) => lanes(&|k| a[k] + b[k]),
+            (TextureOpKind::Mix, [a, b, t]) => lanes(&|k| a[k] * (1.0 - t[k]) + b[k] * t[k]),
+            // Patterns.
+            _ => [0.5; 4],
+        });
+    }
+    stack.pop().unwrap_or([1.0; 4]).map(|x| x.max(LEAST))
+}
