@@ -46,5 +46,5 @@ pub use self::paint::Paint;
 pub use self::ply::{load_ply, read_ply};
 pub use self::report::{FileRead, Finding, ImportReport, Warning};
 pub use self::stl::{load_stl, read_stl};
-pub use self::studio::{FileCamera, FileLight, LightKind, Studio};
+pub use self::studio::{FileCamera, FileLight, FileView, LightKind, Studio};
 pub use self::topology::{Topology, topology};

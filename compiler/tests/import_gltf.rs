@@ -4,7 +4,9 @@
 
 mod import_support;
 
-use compiler::import::{ErrorKind, ImportError, LightKind, Limits, MeshFile, load_gltf, topology};
+use compiler::import::{
+    ErrorKind, FileView, ImportError, LightKind, Limits, MeshFile, load_gltf, topology,
+};
 use import_support::{Builder, glb, tiny_png, triangle};
 use lang::scene::{ColorSpace, Wrap};
 use serde_json::{Value, json};
@@ -536,13 +538,16 @@ fn required_lights_load_and_lights_and_cameras_are_known_where_nodes_place_them(
         {"type": "spot", "color": [1, 0.5, 0], "spot": {"outerConeAngle": 0.5}},
         {"type": "directional"},
     ]}});
-    document.json["cameras"] =
-        json!([{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}}]);
+    document.json["cameras"] = json!([
+        {"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}},
+        {"type": "orthographic",
+         "orthographic": {"xmag": 2, "ymag": 1.5, "zfar": 9, "znear": 0}},
+    ]);
     let of = |light: usize| json!({"KHR_lights_punctual": {"light": light}});
     document.json["nodes"] = json!([
         {"mesh": 0},
         {"name": "up here", "translation": [0, 2, 0], "children": [2, 3]},
-        {"translation": [1, 0, 0], "extensions": of(0)},
+        {"translation": [1, 0, 0], "extensions": of(0), "camera": 1},
         {"name": "Key", "rotation": [-std::f32::consts::FRAC_1_SQRT_2, 0, 0, std::f32::consts::FRAC_1_SQRT_2], "extensions": of(1)},
         {"extensions": of(2), "camera": 0},
     ]);
@@ -560,14 +565,14 @@ fn required_lights_load_and_lights_and_cameras_are_known_where_nodes_place_them(
     );
     assert!(spot.along[1] < -0.999_999, "turned down: {:?}", spot.along);
     assert_eq!((sun.kind, sun.along), (LightKind::Directional, [0.0, 0.0, -1.0]));
-    let [camera] = mesh.studio.cameras.as_slice() else { panic!("one camera") };
+    let [plan, camera] = mesh.studio.cameras.as_slice() else { panic!("two cameras") };
     assert_eq!(
-        (camera.vertical_fov, camera.from, camera.up),
-        (Some(0.5), [0.0; 3], [0.0, 1.0, 0.0])
+        (camera.view, camera.from, camera.up),
+        (FileView::Perspective(0.5), [0.0; 3], [0.0, 1.0, 0.0])
     );
+    assert_eq!((plan.view, plan.from), (FileView::Orthographic(3.0), [1.0, 2.0, 0.0]));
     let said: Vec<&str> = mesh.report.warnings.iter().map(|w| w.message.as_str()).collect();
-    let left_out =
-        "3 lights and 1 camera are left out: `rtc show --assets` prints them as text for the scene";
+    let left_out = "3 lights and 2 cameras are left out: `rtc show --assets` prints them as text for the scene";
     assert_eq!(said, [left_out]);
     let wrong: [(&str, &str); 4] = [
         (

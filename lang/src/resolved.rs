@@ -11,7 +11,9 @@ pub(crate) use written::{Declared, length, number, vector};
 use std::fmt::{self, Write as _};
 
 use crate::material::Shown;
-use crate::scene::{AssetFormat, Axis, Camera, FileFrame, Instance, Light, Scene, Shape, Wrap};
+use crate::scene::{
+    AssetFormat, Axis, Camera, FileFrame, Instance, Light, Projection, Scene, Shape, Wrap,
+};
 use crate::schema::color_text;
 use crate::shape::MeshEdit;
 use crate::units::{self, Dim};
@@ -168,7 +170,12 @@ fn edits(scene: &Scene, instance: &Instance) -> String {
 
 fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {
     let (camera, film, render) = (&scene.camera, &scene.film, &scene.render);
-    block(out, &format!("camera {}: perspective", camera.name.text), &camera_fields(camera))?;
+    let kind = match camera.projection {
+        Projection::Perspective(_) => "perspective",
+        Projection::Orthographic { .. } => "orthographic",
+        Projection::Panoramic { .. } => "panoramic",
+    };
+    block(out, &format!("camera {}: {kind}", camera.name.text), &camera_fields(camera))?;
     let [width, height] = film.size;
     let fields = [
         ("size", format!("({width}, {height})px")),
@@ -205,17 +212,27 @@ fn camera_fields(camera: &Camera) -> Vec<(&'static str, String)> {
     let [open, close] = camera.shutter;
     let shutter = format!("{}..{}", units::show(open, Dim::TIME), units::show(close, Dim::TIME));
     let fit = camera.fit.as_ref().map(|fit| ("fit", fit.instance.text.clone()));
-    let fields = [
+    let place = [
         ("from", vector(camera.from, "m")),
         ("to", vector(camera.to, "m")),
         ("up", vector(camera.up, "")),
-        ("fov.horizontal", units::show(camera.fov_horizontal, Dim::ANGLE)),
-        ("fov.vertical", units::show(camera.fov_vertical, Dim::ANGLE)),
-        ("aperture", length(2.0 * camera.lens_radius)),
-        ("focus", length(camera.focus_distance)),
-        ("shutter", shutter),
     ];
-    fit.into_iter().chain(fields).collect()
+    let view = match &camera.projection {
+        Projection::Perspective(lens) => vec![
+            ("fov.horizontal", units::show(lens.fov_horizontal, Dim::ANGLE)),
+            ("fov.vertical", units::show(lens.fov_vertical, Dim::ANGLE)),
+            ("aperture", length(2.0 * lens.radius)),
+            ("focus", length(lens.focus_distance)),
+        ],
+        Projection::Orthographic { size, .. } => {
+            let side = |name, side: f64| (name, length(side));
+            size.iter().flat_map(|[w, h]| [side("width", *w), side("height", *h)]).collect()
+        }
+        Projection::Panoramic { fov_horizontal } => {
+            vec![("fov.horizontal", units::show(*fov_horizontal, Dim::ANGLE))]
+        }
+    };
+    fit.into_iter().chain(place).chain(view).chain([("shutter", shutter)]).collect()
 }
 
 fn texture_name(scene: &Scene, texture: usize) -> &str {

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use common::{ROOT, check_files, check_text, describe};
 use lang::material::Diffuse;
-use lang::scene::{Color, MaterialModel, Sampler, Scene, Shape, SkyModel};
+use lang::scene::{Color, MaterialModel, Projection, Sampler, Scene, Shape, SkyModel};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests")
@@ -200,19 +200,22 @@ fn the_lens_and_the_field_of_view_agree() {
              camera c: perspective {{ from = (0, 0, 3)m, to = (0, 0, 0)m, {fields} }}\n\
              render r: path {{ }}\n"
         );
-        scene_of_text(&text).camera
+        match scene_of_text(&text).camera.projection {
+            Projection::Perspective(lens) => lens,
+            other => panic!("{other:?}"),
+        }
     };
     let lens = camera("lens = 50mm, f_stop = 2");
     assert!((lens.fov_horizontal.to_degrees() - 39.597_752).abs() < 1e-5);
     assert!((lens.fov_vertical.to_degrees() - 22.895_192).abs() < 1e-5);
-    assert!((lens.lens_radius - 0.0125).abs() < 1e-15);
+    assert!((lens.radius - 0.0125).abs() < 1e-15);
     assert_eq!(lens.focus_distance, 3.0);
     let default = camera("");
-    assert_eq!((default.fov_horizontal, default.lens_radius), (lens.fov_horizontal, 0.0));
+    assert_eq!((default.fov_horizontal, default.radius), (lens.fov_horizontal, 0.0));
     let vertical = camera("fov.vertical = 22.8951922deg");
     assert!((vertical.fov_horizontal - lens.fov_horizontal).abs() < 1e-8);
     let horizontal = camera("fov.horizontal = 39.597752deg, f_stop = 2");
-    assert!((horizontal.lens_radius - 0.0125).abs() < 1e-9);
+    assert!((horizontal.radius - 0.0125).abs() < 1e-9);
 }
 
 #[test]

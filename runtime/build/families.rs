@@ -1,6 +1,8 @@
 //! Families of feature sets: in each, one group of features takes all its values, and all others are there.
 
-use pack::abi::{LightKind, LightSurface, MaterialKind, SamplerKind, SkyKind, TextureFormat};
+use pack::abi::{
+    CameraKind, LightKind, LightSurface, MaterialKind, SamplerKind, SkyKind, TextureFormat,
+};
 use pack::features as bit;
 use shaders::{FeatureSet, NodeLayout};
 use std::collections::BTreeSet;
@@ -133,13 +135,21 @@ fn layouts() -> Family {
     Family { mask: bit::WIDE_NODES, members: members.map(member).into() }
 }
 
-fn skies_and_lens() -> Vec<(u64, FeatureSet)> {
+fn skies_and_cameras() -> Vec<(u64, FeatureSet)> {
     let mut members = Vec::new();
-    for lens in [false, true] {
+    for (camera, lens) in [
+        (CameraKind::Perspective, false),
+        (CameraKind::Perspective, true),
+        (CameraKind::Orthographic, false),
+        (CameraKind::Panoramic, false),
+    ] {
         for skies in subsets(&SkyKind::ALL) {
             let bits = skies.iter().map(|sky| sky.feature()).sum::<u64>()
-                | if lens { bit::LENS } else { 0 };
-            members.push((bits, FeatureSet { lens, skies, ..FeatureSet::full() }));
+                | if lens { bit::LENS } else { 0 }
+                | camera.feature();
+            let cameras = [camera].into();
+            let features = FeatureSet { cameras, lens, skies, ..FeatureSet::full() };
+            members.push((bits, features));
         }
     }
     members
@@ -167,8 +177,9 @@ fn choices() -> Family {
 }
 
 fn views() -> Family {
-    let mask = SkyKind::ALL.into_iter().map(SkyKind::feature).sum::<u64>() | bit::LENS;
-    Family { mask, members: skies_and_lens() }
+    let mask =
+        SkyKind::ALL.into_iter().map(SkyKind::feature).sum::<u64>() | bit::CAMERAS | bit::LENS;
+    Family { mask, members: skies_and_cameras() }
 }
 
 fn formats() -> Family {

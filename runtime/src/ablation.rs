@@ -17,6 +17,7 @@ use crate::scene::Scene;
 use crate::schedule::Stop;
 use crate::setup::Setup;
 use crate::trust::{FULL, Trust, Wanted, is_same, judge, relink};
+use pack::features as bit;
 use pack::manifest::KernelSize;
 use serde::Serialize;
 use std::sync::Arc;
@@ -229,12 +230,12 @@ fn kernels(setup: &Setup<'_>, plan: Plan) -> Vec<(String, String)> {
     }
     if plan.each {
         let wanted = Wanted::of(setup);
-        let bits = pack::features::NAMES.iter().filter(|(bit, _)| wanted.features & bit == 0);
-        // These two are other ways to do what the kernel does, and no additions to it.
-        let other = pack::features::SAMPLER_PCG | pack::features::WIDE_NODES;
-        let bits = bits.filter(|(bit, _)| bit & other == 0);
+        let bits = bit::NAMES.iter().filter(|(more, _)| wanted.features & more == 0);
+        // These are other ways to do what the kernel does, and no additions to it.
+        let other = bit::SAMPLER_PCG | bit::WIDE_NODES | bit::CAMERAS;
+        let bits = bits.filter(|(more, _)| more & other == 0);
         let mut more: Vec<(&str, Wanted)> =
-            bits.map(|(bit, name)| (*name, wanted.with(*bit))).collect();
+            bits.map(|(more, name)| (*name, wanted.with(*more))).collect();
         if !wanted.smooth {
             more.push(("smooth normals", Wanted { smooth: true, ..wanted }));
         }

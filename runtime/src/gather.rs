@@ -14,7 +14,7 @@ use crate::schedule::WorkItem;
 use crate::setup::Setup;
 use crate::signals::Signals;
 use pack::Manifest;
-use pack::abi::{AovSample, NONE};
+use pack::abi::{AovSample, CameraKind, NONE};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -248,8 +248,11 @@ impl<'a> Gatherer<'a> {
             [0, 1, 2].map(|axis| f64::from(a[axis]) - f64::from(b[axis]))
         };
         let away = from(sample.position, self.camera.origin);
-        let depth: f64 =
-            away.iter().zip(self.camera.forward).map(|(a, axis)| a * f64::from(axis)).sum();
+        let depth: f64 = if self.camera.kind == CameraKind::Panoramic as u32 {
+            away.iter().map(|a| a * a).sum::<f64>().sqrt()
+        } else {
+            away.iter().zip(self.camera.forward).map(|(a, axis)| a * f64::from(axis)).sum()
+        };
         let [x, y, z] = sample.position.map(f64::from);
         let position =
             [x * metres + center[0], y * metres + center[1], z * metres + center[2]].map(single);

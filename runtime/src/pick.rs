@@ -9,7 +9,7 @@ use crate::kernel::f32 as k;
 use crate::scene::Scene;
 use glam::{UVec2, Vec2, Vec3};
 use pack::Manifest;
-use pack::abi::{MOVES, NONE};
+use pack::abi::{CameraKind, MOVES, NONE};
 use pack::manifest::Named;
 use serde::Serialize;
 use std::fmt;
@@ -56,7 +56,7 @@ pub struct Surface {
     pub position: [f64; 3],
     /// From the camera, metres.
     pub distance: f64,
-    /// Along the viewing direction, metres: where the camera focuses on it.
+    /// Along the viewing direction, metres: where the camera focuses on it; of a panorama the distance.
     pub depth: f64,
     /// Shading normal before normal maps, unit, world space, on the side of the camera.
     pub normal: [f64; 3],
@@ -114,21 +114,26 @@ pub fn pick(scene: &Scene, job: &Job, pixel: [u32; 2]) -> Result<Pick, PickError
     let mut kernel = check::open(&setup, &frame);
     let camera = kernel.load_camera();
     let at = Vec2::new(pixel[0] as f32 + 0.5, pixel[1] as f32 + 0.5);
-    let ray = kernel.pinhole_ray(camera, at);
+    let ray = match CameraKind::from_tag(camera.kind) {
+        Some(CameraKind::Orthographic) => kernel.orthographic_ray(camera, at),
+        Some(CameraKind::Panoramic) => kernel.panoramic_ray(camera, at),
+        Some(CameraKind::Perspective) | None => kernel.pinhole_ray(camera, at),
+    };
     let nowhere = UVec2::splat(NONE);
     let ray = kernel.ray_new(ray.origin, ray.dir, k::RAY_FAR, nowhere, NONE, 0.0);
     let hit = kernel.trace(ray);
     let manifest = scene.pack().manifest().unwrap_or_default();
     let surface = (hit.prim != NONE).then(|| {
         let surface = kernel.dispatch_surface(hit, ray.origin, ray.dir, 0.0);
-        let facing = f64::from(ray.dir.dot(camera.forward));
+        let around = camera.kind == CameraKind::Panoramic as u32;
+        let facing = if around { 1.0 } else { f64::from(ray.dir.dot(camera.forward)) };
         described(scene, &manifest, (&surface, hit), facing)
     });
     let camera = manifest.cameras.first().map(|camera| declared(&manifest, camera));
     Ok(Pick { pixel, image: size, surface, camera })
 }
 
-/// `facing`: cosine between the ray and the viewing direction.
+/// `facing`: cosine between the ray and the viewing direction; 1 where the camera looks all around.
 fn described(
     scene: &Scene,
     manifest: &Manifest,

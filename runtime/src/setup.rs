@@ -56,18 +56,10 @@ pub(crate) struct Setup<'a> {
 }
 
 impl Scene {
-    /// The camera for the job's image: another aspect keeps the horizontal field of view.
+    /// The camera for the job's image: see `Camera::resized`.
     fn camera(&self, job: &Job) -> Camera {
-        let (camera, size) = (job.camera.unwrap_or(*self.pack().camera()), job.image_size);
-        let [w, h] = size.map(u64::from);
-        let [scene_w, scene_h] = self.settings().image_size.map(u64::from);
-        if w * scene_h == h * scene_w {
-            return camera;
-        }
-        #[expect(clippy::cast_possible_truncation, reason = "rounded once, as the compiler does")]
-        let tan_half_height =
-            (f64::from(camera.tan_half_width) * f64::from(size[1]) / f64::from(size[0])) as f32;
-        Camera { tan_half_height, ..camera }
+        let camera = job.camera.unwrap_or(*self.pack().camera());
+        camera.resized(job.image_size, self.settings().image_size)
     }
 
     /// First heap words of the tables of directional albedo, which begin at word `first`.

@@ -1,7 +1,7 @@
 //! What a scene needs of the kernel.
 
 use crate::ShaderError;
-use pack::abi::{LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat};
+use pack::abi::{CameraKind, LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat};
 use std::collections::BTreeSet;
 
 /// Storage buffers that every WebGPU device offers, less one that is left for the host. A scene that needs more
@@ -35,7 +35,9 @@ pub struct FeatureSet {
     pub spot: bool,
     /// Kinds of sky; none is black. A scene has at most one, the full kernel knows all.
     pub skies: BTreeSet<SkyKind>,
-    /// The camera has a lens of radius > 0.
+    /// Kinds of cameras. A scene has exactly one, the full kernel knows all.
+    pub cameras: BTreeSet<CameraKind>,
+    /// The camera has a lens of radius > 0; only with perspective cameras.
     pub lens: bool,
     /// Where random numbers come from. A scene has exactly one, the full kernel knows all.
     pub samplers: BTreeSet<SamplerKind>,
@@ -134,6 +136,7 @@ impl FeatureSet {
             tint: false,
             spot: false,
             skies: BTreeSet::new(),
+            cameras: [CameraKind::Perspective].into(),
             lens: false,
             samplers: [SamplerKind::Sobol].into(),
             textures: BTreeSet::new(),
@@ -171,6 +174,7 @@ impl FeatureSet {
             tint: true,
             spot: true,
             skies: SkyKind::ALL.into(),
+            cameras: CameraKind::ALL.into(),
             lens: true,
             samplers: SamplerKind::ALL.into(),
             textures: TextureFormat::ALL.into(),

@@ -21,6 +21,8 @@ pub struct Case {
     pub name: &'static str,
     /// Sky, lights and things.
     parts: &'static [&'static str],
+    /// Type of the camera, and how much it sees.
+    view: [&'static str; 2],
     /// Fields of the camera beyond the usual.
     camera: &'static str,
     /// Fields of the render beyond the usual, each behind a comma.
@@ -28,7 +30,7 @@ pub struct Case {
 }
 
 const fn case(name: &'static str, parts: &'static [&'static str]) -> Case {
-    Case { name, parts, camera: "", render: "" }
+    Case { name, parts, view: PERSPECTIVE, camera: "", render: "" }
 }
 
 /// Every feature of the kernel.
@@ -41,6 +43,15 @@ pub const CASES: &[Case] = &[
     case("triangles alone", &[SKY, CLAY, BOX]),
     case("black sky", &[SPHERE_LIGHT, CLAY, BALL, FLOOR]),
     Case { camera: LENS, ..case("lens", &[SKY, CLAY, BALL, FLOOR]) },
+    // Other cameras.
+    Case {
+        view: ORTHOGRAPHIC,
+        camera: SHUTTER,
+        ..case("orthographic camera", &[GRADIENT, PLASTIC, MOVING_BALL, FLOOR])
+    },
+    Case { view: ORTHOGRAPHIC, ..case("orthographic camera of the sky", &[GRADIENT]) },
+    Case { view: PANORAMIC, ..case("panoramic camera", &[GRADIENT, CLAY, BALL, TENT, FLOOR]) },
+    Case { view: PANORAMIC, ..case("panoramic camera of the sky", &[PANORAMA]) },
     // The other sampler, at everything that draws numbers, and in the kernel without geometry.
     Case { camera: LENS_AND_SHUTTER, render: PCG, ..case("independent samples", DRAWS) },
     Case { render: PCG, ..case("independent samples of the sky", &[GRADIENT]) },
@@ -250,6 +261,9 @@ const DRAWS: &[&str] =
 
 const PCG: &str = ", sampler = pcg";
 
+const PERSPECTIVE: [&str; 2] = ["perspective", "fov.vertical = 42deg"];
+const ORTHOGRAPHIC: [&str; 2] = ["orthographic", "height = 4m"];
+const PANORAMIC: [&str; 2] = ["panoramic", "fov.horizontal = 270deg"];
 const LENS: &str = "  aperture = 40cm\n  focus = 5m\n";
 const SHUTTER: &str = "  shutter = -5ms..15ms\n";
 const LENS_AND_SHUTTER: &str = "  aperture = 40cm\n  focus = 5m\n  shutter = 0ms..20ms\n";
@@ -613,16 +627,16 @@ pub fn shared(case: &Case, instancing: Instancing, layout: Layout) -> Compiled {
 fn with(case: &Case, how: (Instancing, Layout), change: impl FnOnce(&mut Scene)) -> Compiled {
     let dir = tempfile::tempdir().expect("a temporary directory can be made");
     write_files(dir.path());
-    let Case { parts, camera, render, .. } = case;
+    let Case { parts, view: [kind, seen], camera, render, .. } = case;
     let things = parts.concat();
     let air = ["mist", "smoke"].into_iter().find(|air| things.contains(&format!("medium {air}:")));
     let air = air.map_or(String::new(), |air| format!(", atmosphere = {air}"));
     let text = format!(
         "rts 1\n{things}
-camera eye: perspective {{
+camera eye: {kind} {{
   from = (0.5, 1.8, 5)m
   to = (0, 0.9, 0)m
-  fov.vertical = 42deg
+  {seen}
 {camera}}}
 film small {{ size = (40, 30)px }}
 render main: path {{ camera = eye, film = small, samples = 8, depth = 8, seed = 7{render}{air} }}\n",

@@ -121,10 +121,17 @@ fn the_cases_cover_every_feature_of_a_pack() {
     seen.sort_by_key(|name| every.iter().position(|known| known == name));
     seen.dedup();
     assert_eq!(seen, every);
-    // A scene has one sky and one sampler; that is all that the last case lacks.
+    // A scene has one sky, one sampler and one camera; that is all that the last case lacks.
     let all = of(case_pack(named("all")));
     let lacks: Vec<&&str> = every.iter().filter(|name| !all.contains(name)).collect();
-    assert_eq!(lacks, [&"constant sky", &"independent samples", &"image sky"]);
+    let others = [
+        "constant sky",
+        "independent samples",
+        "image sky",
+        "orthographic camera",
+        "panoramic camera",
+    ];
+    assert_eq!(lacks, others.each_ref());
 }
 
 /// Width and height of an image larger than a binding, in texels: 151 MB.

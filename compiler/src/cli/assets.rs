@@ -12,7 +12,7 @@ use super::args::SceneArgs;
 use super::bounds::{options, place, rounded};
 use super::compile::failed;
 use crate::cache::Cache;
-use crate::import::{FileCamera, FileLight, LightKind, MeshFacts, PartFacts};
+use crate::import::{FileCamera, FileLight, FileView, LightKind, MeshFacts, PartFacts};
 use crate::lower::Bounds;
 use crate::pipeline;
 use crate::report::Reporter;
@@ -172,9 +172,6 @@ fn light_text(light: &FileLight, name: &str, size: f64) -> String {
 }
 
 fn camera_text(camera: &FileCamera, name: &str, size: f64, middle: [f64; 3]) -> String {
-    let Some(fov) = camera.vertical_fov else {
-        return "// It is orthographic; cameras of a scene are not.".to_owned();
-    };
     // It looks at what is in the middle of the file, as far as it looks that way.
     let to_middle = [0, 1, 2].map(|k| middle[k] - camera.from[k]);
     let ahead: f64 = (0..3).map(|k| to_middle[k] * camera.along[k]).sum();
@@ -187,11 +184,19 @@ fn camera_text(camera: &FileCamera, name: &str, size: f64, middle: [f64; 3]) -> 
     } else {
         format!(", up = {}", vector(camera.up, 1.0))
     };
+    let (kind, seen) = match camera.view {
+        FileView::Perspective(fov) => {
+            let degrees = show_number(rounded(fov.to_degrees(), 100.0));
+            ("perspective", format!("fov.vertical = {degrees}deg"))
+        }
+        FileView::Orthographic(height) => {
+            ("orthographic", format!("height = {}m", show_number(rounded(height, height))))
+        }
+    };
     format!(
-        "camera {name}: perspective {{ from = {}m, to = {}m{up}, fov.vertical = {}deg }}",
+        "camera {name}: {kind} {{ from = {}m, to = {}m{up}, {seen} }}",
         vector(camera.from, size),
         vector(to, size),
-        show_number(rounded(fov.to_degrees(), 100.0))
     )
 }
 
@@ -235,7 +240,7 @@ mod tests {
     fn cameras_look_at_the_middle_and_say_where_up_is_if_they_are_tilted() {
         let mut camera = FileCamera {
             name: String::new(),
-            vertical_fov: Some(PI / 4.0),
+            view: FileView::Perspective(PI / 4.0),
             from: [0.0, 1.0, 5.0],
             along: [0.0, 0.0, -1.0],
             up: [0.0, 1.0, 0.0],
@@ -247,8 +252,10 @@ mod tests {
         );
         camera.up = [1.0, 0.0, 0.0];
         assert!(camera_text(&camera, "eye", 2.0, [0.0; 3]).contains(", up = (1, 0, 0), fov"));
-        camera.vertical_fov = None;
-        assert!(camera_text(&camera, "eye", 2.0, [0.0; 3]).starts_with("//"));
+        camera.view = FileView::Orthographic(3.0);
+        let found = camera_text(&camera, "eye", 2.0, [0.0; 3]);
+        assert!(found.starts_with("camera eye: orthographic { from = "), "{found}");
+        assert!(found.ends_with(", up = (1, 0, 0), height = 3m }"), "{found}");
     }
 
     #[test]

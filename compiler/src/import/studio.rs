@@ -45,13 +45,22 @@ pub enum LightKind {
     Directional,
 }
 
+/// How much a camera of a mesh file sees, from the lower to the upper edge of its image.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum FileView {
+    /// An angle, radians.
+    Perspective(f64),
+    /// A length along parallel rays, metres.
+    Orthographic(f64),
+}
+
 /// A camera of a mesh file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FileCamera {
     /// Of its node, or of itself; empty where neither has one.
     pub name: String,
-    /// Angle between the lower and the upper edge of its image, radians; `None`: it is orthographic.
-    pub vertical_fov: Option<f64>,
+    /// How much it sees.
+    pub view: FileView,
     /// Where it is.
     pub from: [f64; 3],
     /// Unit vector into its image.

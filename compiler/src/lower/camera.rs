@@ -1,24 +1,75 @@
-//! The camera declaration becomes the `Camera` record in the normalised frame.
+//! The camera declaration becomes the `Camera` record in the normalised frame; and where the rays of that record go, for
+//! the passes of the compiler that trace some.
 
-use lang::scene;
-use pack::abi;
+use std::f64::consts::PI;
+
+use glam::DVec3;
+use lang::scene::{self, Projection};
+use pack::abi::{self, CameraKind};
 
 use crate::normalize::Normalization;
 
 /// Right-handed frame: `forward` to `to`, `right = forward x up`.
 pub(super) fn camera(camera: &scene::Camera, frame: &Normalization) -> abi::Camera {
-    let from = glam::DVec3::from(camera.from);
-    let forward = (glam::DVec3::from(camera.to) - from).normalize();
-    let right = forward.cross(glam::DVec3::from(camera.up)).normalize();
+    let from = DVec3::from(camera.from);
+    let forward = (DVec3::from(camera.to) - from).normalize();
+    let right = forward.cross(DVec3::from(camera.up)).normalize();
     let up = right.cross(forward);
-    abi::Camera {
+    let placed = abi::Camera {
         origin: frame.point(camera.from),
-        lens_radius: frame.length(camera.lens_radius),
         right: right.as_vec3().to_array(),
-        tan_half_height: libm::tan(0.5 * camera.fov_vertical) as f32,
         up: up.as_vec3().to_array(),
-        focus_distance: frame.length(camera.focus_distance),
         forward: forward.as_vec3().to_array(),
-        tan_half_width: libm::tan(0.5 * camera.fov_horizontal) as f32,
+        focus_distance: frame.length((DVec3::from(camera.to) - from).length()),
+        ..abi::Camera::default()
+    };
+    match &camera.projection {
+        Projection::Perspective(lens) => abi::Camera {
+            kind: CameraKind::Perspective as u32,
+            lens_radius: frame.length(lens.radius),
+            half_height: libm::tan(0.5 * lens.fov_vertical) as f32,
+            focus_distance: frame.length(lens.focus_distance),
+            half_width: libm::tan(0.5 * lens.fov_horizontal) as f32,
+            ..placed
+        },
+        Projection::Orthographic { size, .. } => {
+            let [width, height] = size.expect("a camera that frames something has been placed");
+            abi::Camera {
+                kind: CameraKind::Orthographic as u32,
+                half_height: frame.length(0.5 * height),
+                half_width: frame.length(0.5 * width),
+                ..placed
+            }
+        }
+        Projection::Panoramic { fov_horizontal } => abi::Camera {
+            kind: CameraKind::Panoramic as u32,
+            half_height: 0.25,
+            half_width: (0.25 * fov_horizontal / PI) as f32,
+            ..placed
+        },
+    }
+}
+
+/// Origin and unit direction of the ray through a place on the film, -1 ..= 1 to the right and up; through the middle of
+/// the lens. Normalised frame.
+pub(super) fn ray(camera: &abi::Camera, [x, y]: [f64; 2]) -> [DVec3; 2] {
+    let of = |v: [f32; 3]| DVec3::from(v.map(f64::from));
+    let (x, y) = (x * f64::from(camera.half_width), y * f64::from(camera.half_height));
+    let (origin, forward) = (of(camera.origin), of(camera.forward));
+    match CameraKind::from_tag(camera.kind) {
+        Some(CameraKind::Orthographic) => {
+            [origin + of(camera.right) * x + of(camera.up) * y, forward]
+        }
+        Some(CameraKind::Panoramic) => {
+            let [azimuth, elevation] = [x, y].map(|turns| 2.0 * PI * turns);
+            let level = of(camera.right) * libm::sin(azimuth) + forward * libm::cos(azimuth);
+            let up = of(camera.up) * libm::sin(elevation);
+            [origin, (level * libm::cos(elevation) + up).normalize()]
+        }
+        Some(CameraKind::Perspective) | None => {
+            let right = of(camera.right) * x;
+            let up = of(camera.up) * y;
+            [origin, (forward + right + up).normalize()]
+        }
     }
 }

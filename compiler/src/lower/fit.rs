@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 use lang::diagnostic::{Code, Diagnostic};
-use lang::scene::{Camera, Fit, Instance, Scene, Side};
+use lang::scene::{Camera, Fit, Instance, Lens, Projection, Scene, Side};
 
 use super::bounds::{Bounds, ball, corners};
 use crate::import::MeshFacts;
@@ -87,26 +87,71 @@ fn camera(camera: &Camera, fit: &Fit, balls: &[Ball]) -> Result<Camera, Box<Diag
             Ball { center, radius }
         })
         .collect();
-    let half =
-        [camera.fov_horizontal, camera.fov_vertical].map(|angle| FILLED * libm::tan(0.5 * angle));
-    let across = [0, 1].map(|axis| between(&seen, axis, half[axis]));
     // In front of the camera, too, and never at it.
     let depth = seen.iter().fold(0.0, |most: f64, ball| most.max(ball.radius - ball.center.z));
     let size = (DVec3::from(bounds.hi) - DVec3::from(bounds.lo)).length();
-    let distance = across[0].0.max(across[1].0).max(depth + 1e-3 * size);
+    let Placed { distance, across, projection } =
+        placed(&camera.projection, fit, &seen, depth + 1e-3 * size);
     if size <= 0.0 || !distance.is_finite() {
         let text = format!("the camera cannot frame `{name}`, which has no size");
         return Err(Box::new(Diagnostic::error(Code("E0713"), text).at(at, "a point")));
     }
-    let center = middle + right * across[0].1 + up * across[1].1;
-    let focus_distance = if fit.has_focus { camera.focus_distance } else { distance };
+    let center = middle + right * across[0] + up * across[1];
     Ok(Camera {
         fit: None,
         from: (center - forward * distance).into(),
         to: center.into(),
-        focus_distance,
+        projection,
         ..camera.clone()
     })
+}
+
+/// Where a camera is that sees all balls, and what it sees.
+struct Placed {
+    /// From the middle, along the view.
+    distance: f64,
+    /// From the middle, to the right and up.
+    across: [f64; 2],
+    projection: Projection,
+}
+
+/// `nearest`: the least distance at which the balls are in front of the camera.
+fn placed(projection: &Projection, fit: &Fit, seen: &[Ball], nearest: f64) -> Placed {
+    match projection {
+        Projection::Perspective(lens) => {
+            let half = [lens.fov_horizontal, lens.fov_vertical]
+                .map(|angle| FILLED * libm::tan(0.5 * angle));
+            let across = [0, 1].map(|axis| between(seen, axis, half[axis]));
+            let distance = across[0].0.max(across[1].0).max(nearest);
+            let focus_distance = if fit.has_focus { lens.focus_distance } else { distance };
+            let projection = Projection::Perspective(Lens { focus_distance, ..lens.clone() });
+            Placed { distance, across: across.map(|(_, across)| across), projection }
+        }
+        Projection::Orthographic { size, aspect } => {
+            let ends = [0, 1].map(|axis| ends(seen, axis));
+            let [width, height] = ends.map(|[low, high]| (high - low) / FILLED);
+            let width = width.max(height / aspect);
+            let size = size.unwrap_or([width, width * aspect]);
+            Placed {
+                distance: nearest,
+                across: ends.map(|[low, high]| 0.5 * (low + high)),
+                projection: Projection::Orthographic { size: Some(size), aspect: *aspect },
+            }
+        }
+        // It sees all around; the language lets it frame nothing.
+        Projection::Panoramic { .. } => {
+            Placed { distance: nearest, across: [0.0; 2], projection: projection.clone() }
+        }
+    }
+}
+
+/// Where the balls end, along one axis.
+fn ends(balls: &[Ball], axis: usize) -> [f64; 2] {
+    let most = |sign: f64| {
+        let reach = |ball: &Ball| sign * ball.center[axis] + ball.radius;
+        balls.iter().map(reach).fold(f64::NEG_INFINITY, f64::max)
+    };
+    [-most(-1.0), most(1.0)]
 }
 
 /// How far from the middle a camera must be for all balls to be between two edges of the image, and how far across
@@ -169,7 +214,8 @@ render r: path {{ camera = c }}
             let forward = (to - from).normalize();
             let right = forward.cross(DVec3::from(framed.up)).normalize();
             let up = right.cross(forward);
-            let edge = [framed.fov_horizontal, framed.fov_vertical].map(|a| libm::tan(0.5 * a));
+            let Projection::Perspective(lens) = &framed.projection else { panic!("{framed:?}") };
+            let edge = [lens.fov_horizontal, lens.fov_vertical].map(|a| libm::tan(0.5 * a));
             let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
             for corner in corners(&scene.instances[0], &[]) {
                 let p = DVec3::from(corner) - from;
@@ -186,7 +232,41 @@ render r: path {{ camera = c }}
             assert!(ends.into_iter().any(touches), "{camera}: {ends:?}");
             let distance = (to - from).length();
             let focus = if camera.contains("focus") { 3.0 } else { distance };
-            assert!((framed.focus_distance - focus).abs() < 1e-9, "{camera}");
+            assert!((lens.focus_distance - focus).abs() < 1e-9, "{camera}");
+        }
+    }
+
+    #[test]
+    fn parallel_rays_see_just_what_they_frame() {
+        for (film, seen) in
+            [("(640, 360)px", None), ("(100, 900)px", None), ("(640, 360)px", Some([32.0, 18.0]))]
+        {
+            let mut scene = scene("", film);
+            scene.camera.projection = Projection::Orthographic {
+                size: seen,
+                aspect: f64::from(scene.film.size[1]) / f64::from(scene.film.size[0]),
+            };
+            let framed = framed(&scene, &[], &mut Vec::new()).expect("a camera").camera;
+            let Projection::Orthographic { size: Some(size), .. } = framed.projection else {
+                panic!("{framed:?}")
+            };
+            let (from, to) = (DVec3::from(framed.from), DVec3::from(framed.to));
+            let forward = (to - from).normalize();
+            let right = forward.cross(DVec3::from(framed.up)).normalize();
+            let axes = [right, right.cross(forward)];
+            let mut most: [f64; 2] = [0.0; 2];
+            for corner in corners(&scene.instances[0], &[]) {
+                let p = DVec3::from(corner) - from;
+                assert!(p.dot(forward) > 0.0, "{film}: a corner is behind the camera");
+                for (k, axis) in axes.iter().enumerate() {
+                    most[k] = most[k].max((p.dot(*axis) / (0.5 * size[k])).abs());
+                }
+            }
+            let reach = most[0].max(most[1]);
+            match seen {
+                None => assert!((reach - FILLED).abs() < 1e-9, "{film} {size:?}: {most:?}"),
+                Some(seen) => assert_eq!(size.map(f64::to_bits), seen.map(f64::to_bits)),
+            }
         }
     }
 

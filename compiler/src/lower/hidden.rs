@@ -16,6 +16,7 @@ use glam::DVec3;
 use pack::abi::{self, LightKind, material_flag};
 use rayon::prelude::*;
 
+use super::camera;
 use super::material::MaterialTable;
 use super::occlusion::{Hit, Occluders};
 use super::world::Sections;
@@ -142,16 +143,11 @@ impl Numbers {
 
 /// Traces paths that every surface scatters alike.
 fn paths(camera: &abi::Camera, occluders: &Occluders<'_>) -> Paths {
-    let of = |v: [f32; 3]| DVec3::from(v.map(f64::from));
     let traced: Vec<(Vec<Point>, bool)> = (0..PATHS)
         .into_par_iter()
         .map(|path| {
             let mut numbers = Numbers::of(u32::MAX, path);
-            let [x, y] = numbers.pair().map(|u| 2.0 * u - 1.0);
-            let right = of(camera.right) * (x * f64::from(camera.tan_half_width));
-            let up = of(camera.up) * (y * f64::from(camera.tan_half_height));
-            let mut p = of(camera.origin);
-            let mut dir = (of(camera.forward) + right + up).normalize();
+            let [mut p, mut dir] = camera::ray(camera, numbers.pair().map(|u| 2.0 * u - 1.0));
             let mut points = Vec::new();
             for _ in 0..SEGMENTS {
                 let Some(hit) = occluders.nearest(p, dir, [OFF, FAR]) else {

@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 use lang::diagnostic::{Code, Diagnostic};
-use lang::scene::{Camera, Parts, Scene, Shape};
+use lang::scene::{Camera, Parts, Projection, Scene, Shape};
 use lang::units;
 use pack::abi::NONE;
 
@@ -53,8 +53,10 @@ pub(super) fn check(look: &Look<'_>, diagnostics: &mut Vec<Diagnostic>) -> Resul
         diagnostics.extend(empty_frame(look.scene, &things));
     }
     let eye = DVec3::from(look.scene.camera.from);
+    // Parallel rays start in a plane, of which most may be outside.
+    let parallel = matches!(look.scene.camera.projection, Projection::Orthographic { .. });
     let mut rooms = Vec::new();
-    for (i, thing) in things.iter().enumerate() {
+    for (i, thing) in things.iter().enumerate().filter(|_| !parallel) {
         if thing.opaque && thing.bounds.has(eye) && look.encloses(thing, eye)? {
             rooms.push(i);
         }
@@ -118,7 +120,7 @@ fn empty_frame(scene: &Scene, things: &[Boxed<'_>]) -> Option<Diagnostic> {
     Some(with_fit(warning, scene, things))
 }
 
-/// False if every corner of a box is behind the camera, or all are beyond one edge of the image.
+/// False if every corner of a box is behind the camera, or all are beyond one edge of the image. A panorama may see all.
 fn may_see(camera: &Camera, bounds: &Bounds) -> bool {
     let from = DVec3::from(camera.from);
     let (Some(forward), up) = ((DVec3::from(camera.to) - from).try_normalize(), camera.up) else {
@@ -126,17 +128,24 @@ fn may_see(camera: &Camera, bounds: &Bounds) -> bool {
     };
     let Some(right) = forward.cross(DVec3::from(up)).try_normalize() else { return true };
     let up = right.cross(forward);
-    let [x, y] = [camera.fov_horizontal, camera.fov_vertical].map(|angle| libm::tan(0.5 * angle));
-    // Normals of the sides of the pyramid that the camera sees, inwards, and the way it looks.
-    let sides =
-        [forward, forward * x - right, forward * x + right, forward * y - up, forward * y + up];
-    // Through a lens a little more is seen than through its middle.
-    let margin = camera.lens_radius * (1.0 + x.max(y));
-    sides.iter().all(|side| {
-        bounds
-            .corners()
-            .iter()
-            .any(|corner| side.dot(DVec3::from(*corner) - from) >= -margin * side.length())
+    // Normals of the planes that bound what the camera sees, inwards, and how far each is behind `from`.
+    let sides = match &camera.projection {
+        Projection::Perspective(lens) => {
+            let tangents = [lens.fov_horizontal, lens.fov_vertical];
+            let [x, y] = tangents.map(|angle| libm::tan(0.5 * angle));
+            // Through a lens a little more is seen than through its middle.
+            let margin = lens.radius * (1.0 + x.max(y));
+            [forward, forward * x - right, forward * x + right, forward * y - up, forward * y + up]
+                .map(|side| (side, margin * side.length()))
+        }
+        Projection::Orthographic { size, .. } => {
+            let [x, y] = size.unwrap_or([f64::INFINITY; 2]).map(|side| 0.5 * side);
+            [(forward, 0.0), (-right, x), (right, x), (-up, y), (up, y)]
+        }
+        Projection::Panoramic { .. } => return true,
+    };
+    sides.iter().all(|(side, behind)| {
+        bounds.corners().iter().any(|corner| side.dot(DVec3::from(*corner) - from) >= -behind)
     })
 }
 

@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 use lang::scene::{Instance, MediumModel, Name, Parts, Scene, Shape, SkyModel};
 use lang::source::Span;
 use pack::abi::{
-    LightKind, Material, MaterialKind, NONE, SamplerKind, SkyKind, TRI_SMOOTH, TextureFormat,
-    material_flag,
+    CameraKind, LightKind, Material, MaterialKind, NONE, SamplerKind, SkyKind, TRI_SMOOTH,
+    TextureFormat, material_flag,
 };
 use pack::features as bit;
 use shaders::{FeatureSet, NodeLayout};
@@ -258,7 +258,15 @@ impl Explain<'_> {
         let pcg = self.features.samplers.contains(&SamplerKind::Pcg);
         let chosen = by("its sampler".to_owned(), &render.name);
         let sobol = by("its sampler is another".to_owned(), &render.name);
+        let kind = |kind: CameraKind| {
+            let kept = self.features.cameras.contains(&kind);
+            let seen = by("the camera".to_owned(), &camera.name);
+            let other = by("it is of another kind".to_owned(), &camera.name);
+            Self::row(name_of(kind.feature()), kept, Some(seen), Some(other))
+        };
         vec![
+            kind(CameraKind::Orthographic),
+            kind(CameraKind::Panoramic),
             Self::row(name_of(bit::LENS), self.features.lens, Some(open), Some(point)),
             Self::row(name_of(bit::SAMPLER_PCG), pcg, Some(chosen), Some(sobol)),
         ]

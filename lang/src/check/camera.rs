@@ -1,11 +1,11 @@
-//! Camera and film fields become angles, radii and pixels.
+//! Camera and film fields become angles, radii, sizes and pixels.
 
 use super::exclusive::{one_of, one_of_noting};
 use super::fields::Fields;
 use super::light::unit;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
-use crate::scene::{Camera, Film, Fit, Name, Side, ToneMap};
+use crate::scene::{Camera, Film, Fit, Lens, Name, Projection, Side, ToneMap};
 use crate::schema;
 use crate::schema::camera::CameraType;
 use crate::units::{self, Dim};
@@ -27,6 +27,7 @@ pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
         _ => String::new(),
     });
     one_of(ev, fields, &["f_stop", "aperture"], "the opening of the lens");
+    one_of(ev, fields, &["width", "height"], "the size of the view");
     let (Some(from), Some(to), Some(span)) =
         (fields.vector::<3>("from"), fields.vector::<3>("to"), fields.span("to"))
     else {
@@ -130,10 +131,35 @@ pub(super) fn camera(
     fields: &Fields,
     film: &Film,
 ) -> Option<Camera> {
-    let CameraType::Perspective = CameraType::of(fields.schema);
     let fit = framed.map(|instance| fit(instance, fields));
     let [from, to] = place(fields, fit.as_ref())?;
     let aspect = f64::from(film.size[1]) / f64::from(film.size[0]);
+    let projection = match CameraType::of(fields.schema) {
+        CameraType::Perspective => {
+            Projection::Perspective(lens(fields, aspect, length(sub(to, from)))?)
+        }
+        CameraType::Orthographic => {
+            let size = match (fields.number("width"), fields.number("height")) {
+                (Some(width), _) => Some([width, width * aspect]),
+                (None, Some(height)) => Some([height / aspect, height]),
+                (None, None) => None,
+            };
+            Projection::Orthographic { size, aspect }
+        }
+        CameraType::Panoramic => {
+            Projection::Panoramic { fov_horizontal: fields.number("fov.horizontal")? }
+        }
+    };
+    let shutter = match fields.get("shutter") {
+        Some(crate::eval::value::Value::Range(open, close, _)) => [open, close],
+        _ => [0.0; 2],
+    };
+    Some(Camera { name, fit, from, to, up: fields.vector("up")?, projection, shutter })
+}
+
+/// Builds the lens of a perspective camera; `aspect`: height over width of the film. `None` only for fields with
+/// faults.
+fn lens(fields: &Fields, aspect: f64, distance: f64) -> Option<Lens> {
     let sensor = fields.number("sensor.width")?;
     let (across, up) = match (fields.number("fov.horizontal"), fields.number("fov.vertical")) {
         (Some(across), _) => (across, vertical(across, aspect)),
@@ -150,41 +176,60 @@ pub(super) fn camera(
         (None, Some(f_stop)) => focal_length / f_stop,
         (None, None) => 0.0,
     };
-    let shutter = match fields.get("shutter") {
-        Some(crate::eval::value::Value::Range(open, close, _)) => [open, close],
-        _ => [0.0; 2],
-    };
-    Some(Camera {
-        name,
-        fit,
-        from,
-        to,
-        up: fields.vector("up")?,
+    Some(Lens {
         fov_horizontal: across,
         fov_vertical: up,
-        lens_radius: 0.5 * opening,
-        focus_distance: fields.number("focus").unwrap_or_else(|| length(sub(to, from))),
-        shutter,
+        radius: 0.5 * opening,
+        focus_distance: fields.number("focus").unwrap_or(distance),
     })
 }
 
-/// Reports angles and distances that the film makes impossible.
+/// Reports angles, sizes and distances that cannot be drawn, or that the film makes impossible.
 pub(super) fn check_built(ev: &mut Evaluator<'_>, camera: &Camera) {
-    let numbers =
-        [camera.fov_horizontal, camera.fov_vertical, camera.lens_radius, camera.focus_distance];
+    let (sees, help) = match &camera.projection {
+        Projection::Perspective(lens) => {
+            let Some(sees) = beyond_drawing(lens) else { return };
+            (sees, "choose another field of view, or a film that is less narrow")
+        }
+        Projection::Orthographic { size: Some(size), .. } => {
+            let sound = |side: &f64| (1e-9..schema::MAX_MAGNITUDE).contains(side);
+            if size.iter().all(sound) {
+                return;
+            }
+            let [across, up] = size.map(|side| units::show(side, Dim::LENGTH));
+            (
+                format!("{across} across and {up} up"),
+                "choose another size, or a film that is less narrow",
+            )
+        }
+        Projection::Orthographic { size: None, .. } if camera.fit.is_some() => return,
+        Projection::Orthographic { size: None, .. } => {
+            let text = format!("`{}` does not say how much it sees", camera.name.text);
+            let error = Diagnostic::error(Code("E0704"), text).at(camera.name.span, "this camera");
+            ev.fault(error.with_help("write `height = 4m`, `width = 6m`, or `fit = ` an instance"));
+            return;
+        }
+        Projection::Panoramic { fov_horizontal } => {
+            if *fov_horizontal > 1e-9 {
+                return;
+            }
+            (units::show(*fov_horizontal, Dim::ANGLE) + " across", "choose another field of view")
+        }
+    };
+    let text = format!("`{}` sees {sees}, which cannot be drawn", camera.name.text);
+    let error = Diagnostic::error(Code("E0704"), text).at(camera.name.span, "this camera");
+    ev.fault(error.with_help(help));
+}
+
+/// What a lens sees, if that cannot be drawn.
+fn beyond_drawing(lens: &Lens) -> Option<String> {
+    let numbers = [lens.fov_horizontal, lens.fov_vertical, lens.radius, lens.focus_distance];
     let flat = std::f64::consts::PI - 1e-3;
     let sound = numbers.iter().all(|v| v.is_finite() && *v >= 0.0 && *v < schema::MAX_MAGNITUDE);
-    let angles = [camera.fov_horizontal, camera.fov_vertical];
-    if !sound || angles.iter().any(|v| *v <= 1e-9 || *v >= flat) || camera.focus_distance <= 0.0 {
-        let text = format!(
-            "`{}` sees {} across and {} up, which cannot be drawn",
-            camera.name.text,
-            units::show(camera.fov_horizontal, Dim::ANGLE),
-            units::show(camera.fov_vertical, Dim::ANGLE)
-        );
-        let error = Diagnostic::error(Code("E0704"), text).at(camera.name.span, "this camera");
-        ev.fault(error.with_help("choose another field of view, or a film that is less narrow"));
-    }
+    let angles = [lens.fov_horizontal, lens.fov_vertical];
+    let drawn = sound && angles.iter().all(|v| *v > 1e-9 && *v < flat) && lens.focus_distance > 0.0;
+    let [across, up] = angles.map(|angle| units::show(angle, Dim::ANGLE));
+    (!drawn).then(|| format!("{across} across and {up} up"))
 }
 
 fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

@@ -3,13 +3,13 @@
 use super::common::Name;
 use crate::schema::words;
 
-/// A perspective camera.
+/// A camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
     /// Declared name.
     pub name: Name,
-    /// What it is to frame; then `from`, `to` and, where it is not declared, `focus_distance` follow from where that
-    /// is.
+    /// What it is to frame; then `from`, `to` and, where it is not declared, what `projection` says of distance or
+    /// size follow from where that is.
     pub fit: Option<Fit>,
     /// Eye, metres.
     pub from: [f64; 3],
@@ -17,16 +17,42 @@ pub struct Camera {
     pub to: [f64; 3],
     /// Which way is up in the image; not parallel to the view.
     pub up: [f64; 3],
+    /// How directions become places on the film.
+    pub projection: Projection,
+    /// Shutter opens and closes, seconds relative to the frame.
+    pub shutter: [f64; 2],
+}
+
+/// How directions become places on the film.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Projection {
+    /// Through one point, or a lens around it.
+    Perspective(Lens),
+    /// Along parallel rays.
+    Orthographic {
+        /// Width and height of what is seen, metres; `None` where `fit` decides.
+        size: Option<[f64; 2]>,
+        /// Height over width of the film.
+        aspect: f64,
+    },
+    /// All around, on a lat-long map from straight up to straight down.
+    Panoramic {
+        /// Angle between the left and the right edge, radians, in (0, 2 pi].
+        fov_horizontal: f64,
+    },
+}
+
+/// What a perspective camera looks through.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lens {
     /// Horizontal field of view at the film's aspect ratio, radians.
     pub fov_horizontal: f64,
     /// Vertical field of view at the film's aspect ratio, radians.
     pub fov_vertical: f64,
-    /// Radius of the lens, metres; 0 is a pinhole.
-    pub lens_radius: f64,
+    /// Its radius, metres; 0 is a pinhole.
+    pub radius: f64,
     /// Distance to the plane of focus, metres, > 0.
     pub focus_distance: f64,
-    /// Shutter opens and closes, seconds relative to the frame.
-    pub shutter: [f64; 2],
 }
 
 /// What a camera frames.

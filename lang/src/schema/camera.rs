@@ -1,9 +1,13 @@
-//! Cameras: `camera NAME: perspective { ... }`.
+//! Cameras: `camera NAME: perspective { ... }`, `orthographic`, `panoramic`.
 
 use super::{Bounds, Default, Field, FieldType, Kind, TypeSchema};
 use crate::units::Dim;
 
-types!(CameraType { Perspective = PERSPECTIVE });
+types!(CameraType {
+    Perspective = PERSPECTIVE,
+    Orthographic = ORTHOGRAPHIC,
+    Panoramic = PANORAMIC,
+});
 
 /// 179 degrees: at 180 the image plane is infinite.
 const MAX_FOV: f64 = 179.0 * std::f64::consts::PI / 180.0;
@@ -18,6 +22,54 @@ const FOV: FieldType = FieldType::Number(Bounds {
 
 const MILLIMETRES: FieldType = FieldType::Number(Bounds::above(Dim::LENGTH, "mm", 0.0));
 
+const FROM: Field =
+    Field::new("from", FieldType::Vector(Dim::LENGTH, "m"), Default::Required, "Where the eye is.")
+        .foreign(&[
+            ("origin", "Mitsuba"),
+            ("orig", "LuxCore"),
+            ("eye", "common use"),
+            ("position", "common use"),
+            ("lookfrom", "Ray Tracing in One Weekend"),
+        ]);
+
+const TO: Field = Field::new(
+    "to",
+    FieldType::Vector(Dim::LENGTH, "m"),
+    Default::Required,
+    "The point in the middle of the image.",
+)
+.foreign(&[
+    ("target", "LuxCore and Mitsuba"),
+    ("look_at", "common use"),
+    ("lookat", "Ray Tracing in One Weekend"),
+]);
+
+const UP: Field = Field::new(
+    "up",
+    FieldType::Vector(Dim::NONE, ""),
+    Default::Vector([0.0, 1.0, 0.0]),
+    "Which way is up in the image; not along the view.",
+)
+.foreign(&[("vup", "Ray Tracing in One Weekend")]);
+
+const FIT: Field = Field::new(
+    "fit",
+    FieldType::Name(Kind::Instance),
+    Default::Absent("the camera stays where `from` and `to` say"),
+    "The instance that is to fill the image: the camera is put where it just fits, a mesh with the boxes around \
+     its parts, with 5 % to spare. `from` and `to` then only say which way it looks, `from` alone from where; \
+     without them it looks from the front, the right and above.",
+)
+.foreign(&[("frame", "common use"), ("frame_selected", "Blender")]);
+
+const SHUTTER: Field = Field::new(
+    "shutter",
+    FieldType::Interval(Bounds::new(Dim::TIME, "ms", f64::NEG_INFINITY, f64::INFINITY)),
+    Default::Interval(0.0, 0.0),
+    "When the shutter opens and closes, relative to the frame.",
+)
+.foreign(&[("shutteropen", "pbrt and LuxCore"), ("shutter_open", "Mitsuba")]);
+
 const PERSPECTIVE: TypeSchema = TypeSchema {
     kind: Kind::Camera,
     name: "perspective",
@@ -26,46 +78,10 @@ const PERSPECTIVE: TypeSchema = TypeSchema {
     example: "camera hero: perspective { from = (4, 1.5, 10)m, to = (0, 2, 0)m, lens = 50mm, \
               f_stop = 2.0 }",
     fields: &[
-        Field::new(
-            "from",
-            FieldType::Vector(Dim::LENGTH, "m"),
-            Default::Required,
-            "Where the eye is.",
-        )
-        .foreign(&[
-            ("origin", "Mitsuba"),
-            ("orig", "LuxCore"),
-            ("eye", "common use"),
-            ("position", "common use"),
-            ("lookfrom", "Ray Tracing in One Weekend"),
-        ]),
-        Field::new(
-            "to",
-            FieldType::Vector(Dim::LENGTH, "m"),
-            Default::Required,
-            "The point in the middle of the image.",
-        )
-        .foreign(&[
-            ("target", "LuxCore and Mitsuba"),
-            ("look_at", "common use"),
-            ("lookat", "Ray Tracing in One Weekend"),
-        ]),
-        Field::new(
-            "up",
-            FieldType::Vector(Dim::NONE, ""),
-            Default::Vector([0.0, 1.0, 0.0]),
-            "Which way is up in the image; not along the view.",
-        )
-        .foreign(&[("vup", "Ray Tracing in One Weekend")]),
-        Field::new(
-            "fit",
-            FieldType::Name(Kind::Instance),
-            Default::Absent("the camera stays where `from` and `to` say"),
-            "The instance that is to fill the image: the camera is put where it just fits, a mesh with the boxes around \
-             its parts, with 5 % to spare. `from` and `to` then only say which way it looks, `from` alone from where; \
-             without them it looks from the front, the right and above.",
-        )
-        .foreign(&[("frame", "common use"), ("frame_selected", "Blender")]),
+        FROM,
+        TO,
+        UP,
+        FIT,
         Field::new(
             "lens",
             MILLIMETRES,
@@ -133,13 +149,76 @@ const PERSPECTIVE: TypeSchema = TypeSchema {
             ("focus_distance", "Mitsuba and Blender"),
             ("focus_dist", "Ray Tracing in One Weekend"),
         ]),
-        Field::new(
-            "shutter",
-            FieldType::Interval(Bounds::new(Dim::TIME, "ms", f64::NEG_INFINITY, f64::INFINITY)),
-            Default::Interval(0.0, 0.0),
-            "When the shutter opens and closes, relative to the frame.",
-        )
-        .foreign(&[("shutteropen", "pbrt and LuxCore"), ("shutter_open", "Mitsuba")]),
+        SHUTTER,
     ],
     foreign: &[("thinlens", "Mitsuba"), ("pinhole", "common use"), ("persp", "Blender")],
+};
+
+/// A side of what parallel rays see.
+const SIDE: FieldType = FieldType::Number(Bounds::above(Dim::LENGTH, "m", 0.0));
+
+const ORTHOGRAPHIC: TypeSchema = TypeSchema {
+    kind: Kind::Camera,
+    name: "orthographic",
+    doc: "A camera whose rays are parallel: things have the same size at every distance, as in plans and elevations. \
+          `width` or `height` says how much it sees; the other follows from the film. Rays start in the plane through \
+          `from`, so what is behind it is not seen.",
+    example: "camera front: orthographic { from = (0, 1, 10)m, to = (0, 1, 0)m, height = 4m }",
+    fields: &[
+        FROM,
+        TO,
+        UP,
+        FIT,
+        Field::new(
+            "width",
+            SIDE,
+            Default::Absent("what `height` or `fit` says"),
+            "Distance between the left and the right edge of the view.",
+        )
+        .foreign(&[("ortho_scale", "Blender"), ("xmag", "glTF; it is half of this")]),
+        Field::new(
+            "height",
+            SIDE,
+            Default::Absent("what `width` or `fit` says"),
+            "Distance between the lower and the upper edge of the view.",
+        )
+        .foreign(&[("ymag", "glTF; it is half of this"), ("screenwindow", "pbrt and LuxCore")]),
+        SHUTTER,
+    ],
+    foreign: &[("ortho", "Blender and common use"), ("parallel", "common use")],
+};
+
+const PANORAMIC: TypeSchema = TypeSchema {
+    kind: Kind::Camera,
+    name: "panoramic",
+    doc: "A camera that sees all around it, on a lat-long (equirectangular) picture: columns are angles around `up`, \
+          rows are angles from it, from straight up to straight down. The direction of `to` is in the middle; the \
+          horizon is level where `to` is as high as `from`. Pixels are square on a film that is twice as wide as high.",
+    example: "camera around: panoramic { from = (0, 1.6, 0)m, to = (0, 1.6, -1)m }",
+    fields: &[
+        FROM,
+        TO,
+        UP,
+        Field::new(
+            "fov.horizontal",
+            FieldType::Number(Bounds {
+                dim: Dim::ANGLE,
+                unit: "deg",
+                min: 0.0,
+                above_min: true,
+                max: 2.0 * std::f64::consts::PI,
+            }),
+            Default::Number(2.0 * std::f64::consts::PI),
+            "Angle between the left and the right edge of the picture; 360deg sees all around.",
+        )
+        .foreign(&[("fov", "common use"), ("longitude_max", "Blender")]),
+        SHUTTER,
+    ],
+    foreign: &[
+        ("panorama", "common use"),
+        ("spherical", "pbrt"),
+        ("environment", "pbrt-v3 and LuxCore"),
+        ("equirectangular", "Blender"),
+        ("pano", "Blender"),
+    ],
 };

@@ -2,7 +2,7 @@
 
 use crate::scene::Scene;
 use glam::DVec3;
-use pack::abi::Camera;
+use pack::abi::{Camera, CameraKind};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 
@@ -11,7 +11,7 @@ const MAX_FOV: f64 = 179.0;
 /// Farthest from the scene, of which the radius is between .5 and 1.
 const MAX_DISTANCE: f64 = 1e6;
 
-/// A thin-lens camera.
+/// A camera of the kind of the pack's.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct View {
@@ -21,7 +21,8 @@ pub struct View {
     pub to: [f64; 3],
     /// Which way is up in the image; not along the view.
     pub up: [f64; 3],
-    /// Horizontal field of view, degrees.
+    /// Horizontal field of view, degrees. Of parallel rays: the angle at which `from` sees the width of the view around
+    /// `to`, so that a camera that comes nearer sees less. Of a panorama: nothing, it sees as much as that of the pack.
     pub fov: f64,
     /// Distance at which things are sharp, metres.
     pub focus: f64,
@@ -37,8 +38,20 @@ impl View {
         let (scale, center) = (scene.settings().scale(), DVec3::from(scene.settings().center()));
         let wide = |v: [f32; 3]| DVec3::from(v.map(f64::from));
         let from = wide(camera.origin) / scale + center;
-        let focus = f64::from(camera.focus_distance) / scale;
-        let degrees = 2.0 * libm::atan(f64::from(camera.tan_half_width)).to_degrees();
+        let half_width = f64::from(camera.half_width);
+        let distance = f64::from(camera.focus_distance);
+        let distance = match kind_of(camera) {
+            // Where the width of the view makes an angle that `fov` may have.
+            CameraKind::Orthographic => distance.clamp(half_width / 50.0, half_width * 5e4),
+            CameraKind::Panoramic | CameraKind::Perspective => distance,
+        };
+        let focus = distance / scale;
+        let tangent = match kind_of(camera) {
+            CameraKind::Orthographic => half_width / distance,
+            CameraKind::Panoramic => 1.0,
+            CameraKind::Perspective => half_width,
+        };
+        let degrees = 2.0 * libm::atan(tangent).to_degrees();
         Self {
             from: from.to_array(),
             to: (from + wide(camera.forward) * focus).to_array(),
@@ -66,44 +79,75 @@ impl View {
             && (0.0..MAX_DISTANCE).contains(&radius)
             && self.fov > 1e-3
             && self.fov <= MAX_FOV;
-        let tan_half_width = libm::tan(0.5 * self.fov.to_radians());
+        let own = scene.pack().camera();
+        let has_lens = kind_of(own) == CameraKind::Perspective;
+        let tangent = libm::tan(0.5 * self.fov.to_radians());
         let [w, h] = settings.image_size.map(f64::from);
+        let [half_width, half_height] = match kind_of(own) {
+            CameraKind::Orthographic => {
+                let half_width = tangent * (to - from).length() * scale;
+                [half_width, half_width * h / w]
+            }
+            CameraKind::Panoramic => [own.half_width, own.half_height].map(f64::from),
+            CameraKind::Perspective => [tangent, tangent * h / w],
+        };
+        let sound = sound
+            && [half_width, half_height].iter().all(|half| (1e-9..MAX_DISTANCE).contains(half));
         let narrow = |v: DVec3| v.as_vec3().to_array();
         #[expect(clippy::cast_possible_truncation, reason = "rounded once, as the compiler does")]
         sound.then(|| Camera {
             origin: narrow(origin),
-            lens_radius: radius as f32,
+            lens_radius: if has_lens { radius as f32 } else { 0.0 },
             right: narrow(right),
-            tan_half_height: (tan_half_width * h / w) as f32,
+            half_height: half_height as f32,
             up: narrow(right.cross(forward)),
             focus_distance: focus as f32,
             forward: narrow(forward),
-            tan_half_width: tan_half_width as f32,
+            half_width: half_width as f32,
+            ..*own
         })
     }
 
-    /// The declaration, to be pasted into a scene text.
+    /// The declaration, to be pasted into a scene text; `own`: the camera of the pack, whose kind it has.
     #[must_use]
-    pub fn text(&self, name: &str) -> String {
+    pub fn text(&self, name: &str, own: &Camera) -> String {
+        let kind = kind_of(own);
         let far = self.from.into_iter().chain(self.to).fold(0.0, |far, x| x.abs().max(far));
         let vector = |v: [f64; 3], far: f64| {
             let [x, y, z] = v.map(|x| short_beside(x, far));
             format!("({x}, {y}, {z})")
         };
-        let mut text = format!("camera {name}: perspective {{\n");
+        let mut text = format!("camera {name}: {} {{\n", kind.stem());
         // Writing to a string cannot fail.
         let _ = writeln!(text, "  from = {}m", vector(self.from, far));
         let _ = writeln!(text, "  to = {}m", vector(self.to, far));
         if DVec3::from(self.up) != DVec3::Y {
             let _ = writeln!(text, "  up = {}", vector(self.up, 1.0));
         }
-        let _ = writeln!(text, "  fov.horizontal = {}deg", short(self.fov));
-        if self.aperture > 0.0 {
+        let tangent = libm::tan(0.5 * self.fov.to_radians());
+        let distance = (DVec3::from(self.to) - DVec3::from(self.from)).length();
+        let _ = match kind {
+            CameraKind::Perspective => {
+                writeln!(text, "  fov.horizontal = {}deg", short(self.fov))
+            }
+            CameraKind::Orthographic => {
+                writeln!(text, "  width = {}m", short(2.0 * tangent * distance))
+            }
+            CameraKind::Panoramic => {
+                writeln!(text, "  fov.horizontal = {}deg", short(720.0 * f64::from(own.half_width)))
+            }
+        };
+        if kind == CameraKind::Perspective && self.aperture > 0.0 {
             let _ = writeln!(text, "  aperture = {}mm", short(1e3 * self.aperture));
             let _ = writeln!(text, "  focus = {}m", short(self.focus));
         }
         text + "}\n"
     }
+}
+
+/// What kind of camera it is; packs that have been checked hold no others.
+pub(super) fn kind_of(camera: &Camera) -> CameraKind {
+    CameraKind::from_tag(camera.kind).unwrap_or(CameraKind::Perspective)
 }
 
 /// The vertical of the world where the image stands upright, otherwise the top of the image: turning the camera then

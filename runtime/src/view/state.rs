@@ -1,6 +1,6 @@
 //! What a session knows, and how the page is told.
 
-use super::camera::View;
+use super::camera::{View, kind_of};
 use super::curve::Point;
 use super::plane::Plane;
 use crate::control::Control;
@@ -91,6 +91,8 @@ struct Told<'a> {
     /// The camera that the picture is seen with, and that of the pack.
     view: Option<&'a View>,
     own_view: Option<View>,
+    /// The type of both.
+    camera: Option<String>,
     /// The declaration of the camera.
     text: Option<String>,
     /// Stops, and what the film is mapped with, as the scene says.
@@ -112,7 +114,6 @@ impl State {
         let own = self.scene.as_ref().map(|shown| View::of(&shown.scene));
         let view = self.view.as_ref().or(own.as_ref());
         let settings = self.scene.as_ref().map(|shown| *shown.scene.settings());
-        let name = self.scene.as_ref().map(|shown| shown.camera.as_str());
         let told = Told {
             revision: self.revision,
             epoch: self.epoch,
@@ -129,7 +130,10 @@ impl State {
             curve: &self.curve,
             view,
             own_view: own.clone(),
-            text: view.zip(name).map(|(view, name)| view.text(name)),
+            camera: self.scene.as_ref().map(|shown| kind_of(shown.scene.pack().camera()).stem()),
+            text: view
+                .zip(self.scene.as_ref())
+                .map(|(view, shown)| view.text(&shown.camera, shown.scene.pack().camera())),
             exposure: settings.map_or(0.0, |settings| settings.exposure),
             tone_map: settings.map_or(0, |settings| settings.tone_map),
             message: self.message.as_deref(),

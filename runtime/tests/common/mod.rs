@@ -171,11 +171,11 @@ fn view() -> (RenderSettings, Camera) {
     let camera = Camera {
         origin: [0.0, 0.1, 0.9],
         right: [1.0, 0.0, 0.0],
-        tan_half_height: 0.3,
+        half_height: 0.3,
         up: [0.0, 1.0, 0.0],
         focus_distance: 1.0,
         forward: [0.0, 0.0, -1.0],
-        tan_half_width: 0.54,
+        half_width: 0.54,
         ..Camera::default()
     };
     (settings, camera)

@@ -28,7 +28,7 @@ mod texture_op;
 
 pub use albedo::{AlbedoTable, albedo_tables, albedo_words};
 pub use aov::AovSample;
-pub use camera::Camera;
+pub use camera::{Camera, CameraKind};
 pub use field::{AbiRecord, Field, FieldType, Record};
 pub use film::FilmPixel;
 pub use frame::Frame;

@@ -5,7 +5,8 @@
 //! bits that it does not know.
 
 use crate::abi::{
-    LightKind, MaterialKind, NONE, Object, SamplerKind, SkyKind, TextureFormat, material_flag,
+    CameraKind, LightKind, MaterialKind, NONE, Object, SamplerKind, SkyKind, TextureFormat,
+    material_flag,
 };
 use crate::contents::Contents;
 
@@ -84,7 +85,8 @@ pub const TEXTURE_EXPRESSION: u64 = TextureFormat::Expression.feature();
 pub const MATERIAL_PRINCIPLED: u64 = MaterialKind::Principled.feature();
 /// Independent random numbers, instead of Sobol's.
 pub const SAMPLER_PCG: u64 = SamplerKind::Pcg.feature();
-
+/// Cameras that are not perspective.
+pub const CAMERAS: u64 = CameraKind::Orthographic.feature() | CameraKind::Panoramic.feature();
 /// The name of every bit, empty for those that are free. Two features with the same bit do not compile.
 const TABLE: [&str; 64] = {
     let mut table = [""; 64];
@@ -93,6 +95,7 @@ const TABLE: [&str; 64] = {
     claim(&mut table, SkyKind::FEATURES);
     claim(&mut table, TextureFormat::FEATURES);
     claim(&mut table, SamplerKind::FEATURES);
+    claim(&mut table, CameraKind::FEATURES);
     claim(&mut table, MaterialKind::FEATURES);
     table
 };
@@ -146,6 +149,7 @@ pub(crate) fn of(contents: &Contents<'_>) -> u64 {
     set(TRIANGLES, !contents.triangles.is_empty());
     set(SPHERES, !contents.spheres.is_empty());
     set(LENS, contents.camera.lens_radius > 0.0);
+    set(CameraKind::from_tag(contents.camera.kind).map_or(0, CameraKind::feature), true);
     set(SamplerKind::from_tag(contents.render.sampler).map_or(0, SamplerKind::feature), true);
     set(LIGHT_CHOICE, contents.lights.len() > 1);
     set(LIGHT_TREE, !contents.light_nodes.is_empty());

@@ -156,7 +156,8 @@ pub(crate) const SRGB_WORDS: u64 = 64;
 /// Every section of this format, in file order.
 pub const SECTIONS: [SectionSpec; 21] = [
     one(Kind::RENDER, size_of::<abi::RenderSettings>(), true),
-    one(Kind::CAMERA, size_of::<abi::Camera>(), true),
+    // 2: kinds of cameras.
+    SectionSpec { version: 2, ..one(Kind::CAMERA, size_of::<abi::Camera>(), true) },
     one(Kind::SKY, size_of::<abi::Sky>(), false),
     // A binary tree has one inner node less than leaves, and a leaf holds at least one primitive.
     table(Kind::NODE, size_of::<abi::Node>(), 2 * MAX_PRIMITIVES),

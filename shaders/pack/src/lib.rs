@@ -70,8 +70,8 @@ pub fn doc_example() -> (abi::RenderSettings, abi::Camera) {
         right: [1.0, 0.0, 0.0],
         up: [0.0, 1.0, 0.0],
         forward: [0.0, 0.0, -1.0],
-        tan_half_width: 1.0,
-        tan_half_height: 1.0,
+        half_width: 1.0,
+        half_height: 1.0,
         focus_distance: 1.0,
         ..abi::Camera::default()
     };

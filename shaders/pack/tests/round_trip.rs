@@ -5,7 +5,8 @@ mod common;
 use std::fs;
 
 use common::{Draft, Scene, WAYS, manifest, map};
-use pack::abi::{Light, LightKind, Material, Node, SkyKind, Sphere, Texture, TriShade, Triangle};
+use pack::abi::{CameraKind, Light, LightKind, Material, Node, SkyKind};
+use pack::abi::{Sphere, Texture, TriShade, Triangle};
 use pack::{Kind, Manifest, Pack, PackWriter, describe, features};
 
 fn assert_same(pack: &Pack, scene: &Scene) {
@@ -152,7 +153,9 @@ fn features_are_those_of_the_contents() {
         | features::SPOT
         | features::INSTANCES
         | features::WIDE_NODES
-        | features::SAMPLER_PCG;
+        | features::SAMPLER_PCG
+        | CameraKind::Orthographic.feature()
+        | CameraKind::Panoramic.feature();
     assert_eq!(pack.features(), features::KNOWN & !absent);
     let wide = Pack::from_bytes(Scene::wide().bytes()).unwrap();
     assert_eq!(wide.features(), pack.features() | features::WIDE_NODES);
@@ -272,7 +275,7 @@ fn a_bad_pack_is_never_written() {
     assert_eq!(text, "section FANCY (entry 16): unknown section in format 2.0");
     let mut writer = PackWriter::new();
     let text = writer.bytes(Kind::CAMERA, &[0; 63]).to_bytes().unwrap_err().to_string();
-    let ragged = "length is 63 bytes, but 0 elements of 64 bytes make 0";
+    let ragged = "length is 63 bytes, but 0 elements of 80 bytes make 0";
     assert_eq!(text, format!("section CAMERA (entry 0): {ragged}"));
     let text = PackWriter::new().to_bytes().unwrap_err().to_string();
     assert_eq!(text, "section RENDER is missing");

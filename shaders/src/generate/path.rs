@@ -1,8 +1,8 @@
 //! `scene/dispatch.wgsl` and `scene/place.wgsl`: what a path asks of the scene at its vertices, from the camera on.
 
-use super::wgsl::imports;
+use super::wgsl::{imports, switch, tag};
 use crate::FeatureSet;
-use pack::abi::LightKind;
+use pack::abi::{CameraKind, LightKind};
 use std::fmt::Write as _;
 
 /// Camera, sky, surfaces and direct light.
@@ -13,7 +13,6 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
         "abi/material.wgsl",
         "bsdf/scatter.wgsl",
         "camera/film_plane.wgsl",
-        "camera/pinhole.wgsl",
         "kernel/state.wgsl",
         "math/vector.wgsl",
         "sampler/key.wgsl",
@@ -28,6 +27,11 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
         "surface/surface.wgsl",
         "trace/ray.wgsl",
     ];
+    modules.extend(features.cameras.iter().map(|kind| match kind {
+        CameraKind::Perspective => "camera/pinhole.wgsl",
+        CameraKind::Orthographic => "camera/orthographic.wgsl",
+        CameraKind::Panoramic => "camera/panoramic.wgsl",
+    }));
     if features.lens {
         modules.push("camera/thin_lens.wgsl");
     }
@@ -56,10 +60,23 @@ fn camera(features: &FeatureSet) -> String {
     } else {
         ""
     };
+    let cases: Vec<(String, String)> = features
+        .cameras
+        .iter()
+        .map(|kind| {
+            let ray = match kind {
+                CameraKind::Perspective => "pinhole_ray(camera, at)",
+                CameraKind::Orthographic => "orthographic_ray(camera, at)",
+                CameraKind::Panoramic => "panoramic_ray(camera, at)",
+            };
+            (tag("CAMERA", &kind.stem()), ray.to_owned())
+        })
+        .collect();
     format!(
         "\n// The ray through `at`, pixels from the top left corner.\n\
          fn dispatch_camera(key: SampleKey, at: vec2f) -> CameraRay {{\n    \
-         let camera = load_camera();\n{lens}    return pinhole_ray(camera, at);\n}}\n"
+         let camera = load_camera();\n{lens}{}}}\n",
+        switch("camera.kind", &cases, cases.first().map_or("", |(_, ray)| ray.as_str()))
     )
 }
 

@@ -1,6 +1,6 @@
 //! The feature sets that the tests run over.
 
-use pack::abi::{LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat};
+use pack::abi::{CameraKind, LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat};
 use shaders::{FeatureSet, NodeLayout};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -28,6 +28,10 @@ fn features() -> Vec<(String, Switch)> {
     }
     for kind in SkyKind::ALL {
         rows.push(row(format!("{} sky", kind.stem()), move |f| _ = f.skies.insert(kind)));
+    }
+    for kind in CameraKind::ALL {
+        rows.push(row(format!("{} camera", kind.stem()), move |f| _ = f.cameras.insert(kind)));
+        rows.push(row(format!("{} camera alone", kind.stem()), move |f| f.cameras = [kind].into()));
     }
     for kind in TextureFormat::ALL {
         rows.push(row(kind.stem(), move |f| _ = f.textures.insert(kind)));

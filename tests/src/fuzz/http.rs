@@ -3,6 +3,7 @@
 use std::io::{self, Read};
 use std::path::Path;
 
+use pack::abi::{Camera, CameraKind};
 use runtime::view::View;
 use runtime::view::http::{MAX_BODY, Request, Status, read};
 
@@ -78,7 +79,11 @@ fn assert_sound(request: &Request) {
         assert!(word.is_none_or(|word| request.query.contains(word) && !word.contains('&')));
     }
     if let Ok(view) = serde_json::from_slice::<View>(&request.body) {
-        let text = view.text("eye");
-        assert!(text.starts_with("camera eye: perspective {\n") && text.ends_with("}\n"));
+        for kind in CameraKind::ALL {
+            let own = Camera { kind: kind as u32, ..Camera::default() };
+            let text = view.text("eye", &own);
+            let head = format!("camera eye: {} {{\n", kind.stem());
+            assert!(text.starts_with(&head) && text.ends_with("}\n"), "{text}");
+        }
     }
 }

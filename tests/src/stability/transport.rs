@@ -273,11 +273,12 @@ twins! {
             origin: [0.3, -0.2, 0.1],
             lens_radius: 0.0,
             right: [0.8, 0.0, -0.6],
-            tan_half_height: tan,
+            half_height: tan,
             up: [0.0, 1.0, 0.0],
             focus_distance: 2.5,
             forward: [-0.6, 0.0, -0.8],
-            tan_half_width: tan,
+            half_width: tan,
+            ..Camera::default()
         };
         let bench = Bench::new().camera(camera, [64, 64]);
         let mut kernel = open(&bench);

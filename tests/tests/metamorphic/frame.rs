@@ -64,8 +64,16 @@ fn lengths(scene: &mut Scene, mut change: impl FnMut(&mut f64)) {
     }
     let camera = &mut scene.camera;
     camera.from.iter_mut().chain(&mut camera.to).for_each(&mut change);
-    change(&mut camera.lens_radius);
-    change(&mut camera.focus_distance);
+    match &mut camera.projection {
+        lang::scene::Projection::Perspective(lens) => {
+            change(&mut lens.radius);
+            change(&mut lens.focus_distance);
+        }
+        lang::scene::Projection::Orthographic { size, .. } => {
+            size.iter_mut().flatten().for_each(&mut change);
+        }
+        lang::scene::Projection::Panoramic { .. } => {}
+    }
 }
 
 #[test]

@@ -16,16 +16,17 @@ pub(crate) const CHECKS: usize = RADII.len() + 1;
 const SIZE: [u32; 2] = [64, 48];
 const SIDE: usize = 20;
 
-fn camera(lens_radius: f32, tan_half_width: f32) -> Camera {
+fn camera(lens_radius: f32, half_width: f32) -> Camera {
     Camera {
         origin: [0.0; 3],
         lens_radius,
         right: [0.8, 0.0, -0.6],
-        tan_half_height: tan_half_width * 0.75,
+        half_height: half_width * 0.75,
         up: [0.0, 1.0, 0.0],
         focus_distance: 2.5,
         forward: [-0.6, 0.0, -0.8],
-        tan_half_width,
+        half_width,
+        ..Camera::default()
     }
 }
 
@@ -69,8 +70,8 @@ fn the_pixel_is_filled_evenly() {
         let d = path.dir.as_dvec3();
         let axis = |v: [f32; 3]| d.dot(Vec3::from(v).as_dvec3());
         let depth = axis(camera.forward);
-        let x = axis(camera.right) / depth / f64::from(camera.tan_half_width);
-        let y = axis(camera.up) / depth / f64::from(camera.tan_half_height);
+        let x = axis(camera.right) / depth / f64::from(camera.half_width);
+        let y = axis(camera.up) / depth / f64::from(camera.half_height);
         let x = (x + 1.0) * 0.5 * f64::from(SIZE[0]) - f64::from(pixel.x);
         let y = (1.0 - y) * 0.5 * f64::from(SIZE[1]) - f64::from(pixel.y);
         let inside = -1e-4..1.0 + 1e-4;

@@ -2,7 +2,7 @@
 
 use super::super::check::unit;
 use super::super::error::{ErrorKind, ImportError};
-use super::super::studio::{FileCamera, FileLight, LightKind, Studio};
+use super::super::studio::{FileCamera, FileLight, FileView, LightKind, Studio};
 use super::document::Document;
 use super::matrix::Matrix;
 use ::gltf::json::extensions::scene::khr_lights_punctual::{Light, Type};
@@ -73,14 +73,29 @@ fn camera_of(
     let Some(camera) = document.root.get(index) else {
         return Err(document.error(ErrorKind::Index, &what, "there is no such camera"));
     };
-    let vertical_fov = camera.perspective.as_ref().map(|lens| f64::from(lens.yfov));
-    if vertical_fov.is_some_and(|fov| !(fov > 0.0 && fov < std::f64::consts::PI)) {
-        let message = "its `yfov` is no angle between 0 and pi";
+    let view = match (&camera.perspective, &camera.orthographic) {
+        (Some(lens), _) => FileView::Perspective(f64::from(lens.yfov)),
+        // The scale of its node does not count; half of the height is stored.
+        (None, Some(view)) => FileView::Orthographic(2.0 * f64::from(view.ymag).abs()),
+        (None, None) => {
+            let message = "it does not say how much it sees";
+            return Err(document.error(ErrorKind::Format, &what, message));
+        }
+    };
+    let (is_sound, message) = match view {
+        FileView::Perspective(fov) => {
+            (fov > 0.0 && fov < std::f64::consts::PI, "its `yfov` is no angle between 0 and pi")
+        }
+        FileView::Orthographic(height) => {
+            (height.is_finite() && height > 0.0, "its `ymag` is 0 or no number")
+        }
+    };
+    if !is_sound {
         return Err(document.error(ErrorKind::Number, &what, message));
     }
     Ok(FileCamera {
         name: name(node, camera.name.as_deref()),
-        vertical_fov,
+        view,
         from: origin(file_from_node),
         along: backwards(file_from_node),
         up: unit(column(file_from_node, 1)).unwrap_or([0.0, 1.0, 0.0]),

@@ -208,11 +208,17 @@ const vector = (v) => v.map((x) => digits(Math.abs(x) < 1e-6 * Math.hypot(...v) 
 function showCamera() {
   if (!view) return;
   const lens = view.aperture > 0 ? `${digits(1e3 * view.aperture, 3)} mm, sharp at ${digits(view.focus, 4)} m` : "pinhole";
+  const width = 2 * Math.tan((view.fov * Math.PI) / 360) * Math.hypot(...sub(view.to, view.from));
+  const seen = {
+    perspective: [["field of view", `${digits(view.fov, 4)}°`], ["lens", lens]],
+    orthographic: [["width", `${digits(width, 4)} m`]],
+    panoramic: [],
+  };
   rows($("camera"), [
+    ["type", state.camera],
     ["from", vector(view.from)],
     ["to", vector(view.to)],
-    ["field of view", `${digits(view.fov, 4)}°`],
-    ["lens", lens],
+    ...(seen[state.camera] || []),
   ]);
 }
 
@@ -279,6 +285,10 @@ async function click(pixel) {
   if (!focusing) return;
   setFocusing(false);
   if (!surface || !view) return;
+  if (state.camera !== "perspective") {
+    hint(`${digits(surface.depth, 4)} m away; of this camera everything is sharp`);
+    return;
+  }
   if (!(view.aperture > 0)) {
     hint(`${digits(surface.depth, 4)} m away; a pinhole has no focus: give the camera an aperture`);
     return;

@@ -4,9 +4,10 @@
 //! field that is not in it may hold any value, and the comment there says why.
 
 use crate::abi::{
-    Camera, Instance, Light, LightKind, LightNode, LightSurface, MOVES, Material, MaterialKind,
-    Medium, Node, OBJECT_OF_INSTANCE, Object, RenderSettings, SamplerKind, Sky, SkyKind, Sphere,
-    TRI_SMOOTH, Texture, TextureFormat, ToneMap, TriShade, Triangle, WideNode, Wrap, material_flag,
+    Camera, CameraKind, Instance, Light, LightKind, LightNode, LightSurface, MOVES, Material,
+    MaterialKind, Medium, Node, OBJECT_OF_INSTANCE, Object, RenderSettings, SamplerKind, Sky,
+    SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap, TriShade, Triangle, WideNode,
+    Wrap, material_flag,
 };
 use crate::contents::Contents;
 use crate::fault::ElementFault;
@@ -68,15 +69,19 @@ rules! { pack;
         _pad0: unused(),
         _pad1: unused(),
     }
-    Camera {
+    Camera and camera {
         origin: finite(),
         lens_radius: not_negative(),
         right: direction(),
-        tan_half_height: positive(),
+        half_height: positive(),
         up: direction(),
         focus_distance: positive(),
         forward: direction(),
-        tan_half_width: positive(),
+        half_width: positive(),
+        kind: tag(CameraKind::ALL.len()),
+        _pad0: unused(),
+        _pad1: unused(),
+        _pad2: unused(),
     }
     // `sun_direction` is any finite vector: a sky without a sun has none. `rows` and `columns` are compared
     // with SKYTABLE.
@@ -320,6 +325,14 @@ fn material(record: &Material, pack: &Contents<'_>) -> Option<Broken> {
         return Some(("ior", fault));
     }
     not_negative(record.ior_minus_1).map(|fault| ("ior_minus_1", fault))
+}
+
+/// Only perspective cameras have a lens.
+fn camera(record: &Camera, _: &Contents<'_>) -> Option<Broken> {
+    if record.kind == CameraKind::Perspective as u32 {
+        return None;
+    }
+    unused(record.lens_radius.to_bits()).map(|fault| ("lens_radius", fault))
 }
 
 /// An image sky has an image.

@@ -176,11 +176,12 @@ pub(crate) fn camera() -> Camera {
         origin: [0.0, 0.0, 3.0],
         lens_radius: 0.01,
         right: [1.0, 0.0, 0.0],
-        tan_half_height: 0.5,
+        half_height: 0.5,
         up: [0.0, 1.0, 0.0],
         focus_distance: 3.0,
         forward: [0.0, 0.0, -1.0],
-        tan_half_width: 1.0,
+        half_width: 1.0,
+        ..Camera::default()
     }
 }
 

@@ -1,0 +1,205 @@
+//! What cameras of every kind see, where it is known exactly.
+
+#![expect(clippy::float_cmp, reason = "what is nothing, or the same number twice, is exact")]
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use pack::abi::Camera;
+use pack::{Checked, Pack};
+use runtime::layers::Layer;
+use runtime::pick::pick;
+use runtime::view::View;
+use runtime::{Job, Scene};
+use tests::exr_file::File;
+use tests::picture::{self, channel};
+use tests::scene::{bytes, compile_in};
+
+fn pack_in(dir: &Path, text: &str) -> Pack<Checked> {
+    Pack::from_bytes(bytes(&compile_in(dir, text))).expect("what was written can be read")
+}
+
+/// A glowing ball of radius 1 m at `at`, and the camera.
+fn ball(at: &str, camera: &str, film: &str) -> Pack<Checked> {
+    let text = format!(
+        "rts 1
+material glow: emissive {{ color = linear(1) }}
+instance ball {{ shape = sphere(radius: 1m), material = glow, at = {at} }}
+camera eye: {camera}
+film f {{ size = {film} }}
+render main: path {{ camera = eye, film = f, samples = 64, depth = 2, seed = 3 }}
+"
+    );
+    pack_in(Path::new("."), &text)
+}
+
+fn mean(pack: Pack<Checked>, size: Option<[u32; 2]>) -> f64 {
+    let outcome = picture::cpu(pack, |job| {
+        if let Some([w, h]) = size {
+            job.resize([w, h]);
+        }
+    });
+    let values = channel(outcome.film(), 1);
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Of the pixels that the edge crosses, about `sqrt(n)`, each is right to about 1 / 64.
+const TOLERANCE: f64 = 1e-3;
+
+#[test]
+fn a_ball_covers_its_disk_of_an_orthographic_picture_at_every_distance() {
+    for at in ["(0, 0, 0)m", "(0.7, -0.4, -30)m", "(-1, 1, 7)m"] {
+        let camera = "orthographic { from = (0, 0, 10)m, to = (0, 0, 0)m, height = 5m }";
+        let share = mean(ball(at, camera, "(96, 64)px"), None);
+        let expected = PI / (5.0 * 7.5);
+        assert!((share / expected - 1.0).abs() < TOLERANCE, "{at}: {share}, {expected} expected");
+    }
+    // Behind the plane of the camera it is not seen, and half of it where it reaches through.
+    let camera = "orthographic { from = (0, 0, 0)m, to = (0, 0, -1)m, width = 5m }";
+    assert_eq!(mean(ball("(0, 0, 2)m", camera, "(32, 32)px"), None), 0.0);
+    let share = mean(ball("(0, 0, 0)m", camera, "(64, 64)px"), None);
+    assert!((share / (PI / 25.0) - 1.0).abs() < TOLERANCE, "{share}");
+}
+
+#[test]
+fn another_aspect_keeps_the_width_of_the_view() {
+    let camera = "orthographic { from = (0, 0, 10)m, to = (0, 0, 0)m, width = 6m }";
+    let share = mean(ball("(0, 0, 0)m", camera, "(64, 64)px"), Some([96, 48]));
+    let expected = PI / (6.0 * 3.0);
+    assert!((share / expected - 1.0).abs() < TOLERANCE, "{share}, {expected} expected");
+}
+
+/// Texels of the panorama: smooth, of another colour everywhere.
+fn texel(x: usize, y: usize) -> f32 {
+    let turn = 2.0 * std::f32::consts::PI * (x as f32 + 0.5) / 32.0;
+    2.0 + turn.cos() + 0.5 * turn.sin() + 0.05 * y as f32
+}
+
+#[test]
+fn a_panorama_shows_the_sky_as_it_is_stored() {
+    let dir = tempfile::tempdir().expect("a folder");
+    let rgb = |x: usize, y: usize| (texel(x, y), texel(x, y), texel(x, y));
+    exr::prelude::write_rgb_file(dir.path().join("sky.exr"), 32, 16, rgb).expect("written");
+    // What bilinear interpolation is on the mean over a pixel that is a texel.
+    let blur = |row: usize, column: usize| {
+        let weights = [(-1_i32, 0.125), (0, 0.75), (1, 0.125)];
+        let near = |at: usize, step: i32| i32::try_from(at).expect("small") + step;
+        weights
+            .iter()
+            .flat_map(|(dy, wy)| weights.iter().map(move |(dx, wx)| (dy, dx, wx * wy)))
+            .map(|(dy, dx, weight)| {
+                let y = near(row, *dy).clamp(0, 15) as usize;
+                let x = near(column, *dx).rem_euclid(32) as usize;
+                weight * f64::from(texel(x, y))
+            })
+            .sum::<f64>()
+    };
+    for (fov, width, first) in [(360, 32, 0), (90, 8, 12)] {
+        let text = format!(
+            "rts 1
+sky s: image {{ file = \"sky.exr\" }}
+camera eye: panoramic {{ from = (3, 1, 2)m, to = (3, 1, -9)m, fov.horizontal = {fov}deg }}
+film f {{ size = ({width}, 16)px }}
+render main: path {{ camera = eye, film = f, samples = 256, seed = 11 }}
+"
+        );
+        let outcome = picture::cpu(pack_in(dir.path(), &text), |_| {});
+        for (i, value) in channel(outcome.film(), 1).into_iter().enumerate() {
+            let (row, column) = (i / width, i % width + first);
+            let expected = blur(row, column);
+            let off = (value - expected).abs();
+            assert!(off < 3e-3, "{fov} deg, row {row}, column {column}: {value}, {expected}");
+        }
+    }
+}
+
+/// Cameras of the page, and their texts, are those that they were made of.
+#[test]
+fn a_view_and_its_text_are_the_camera() {
+    for declared in [
+        "orthographic { from = (2, 1, 10)m, to = (1, 0, 0)m, height = 8m }",
+        "orthographic { from = (0, 0, 0.01)m, to = (0, 0, 0)m, width = 90m }",
+        "panoramic { from = (1, 0, 0)m, to = (0, 0, -1)m, fov.horizontal = 200deg }",
+        "perspective { from = (2, 1, 10)m, to = (1, 0, 0)m, f_stop = 2 }",
+    ] {
+        let own = Scene::new(ball("(0, 0, 0)m", declared, "(60, 40)px"));
+        let view = View::of(&own);
+        let camera = *own.pack().camera();
+        let seen = view.camera(&own).expect("a camera");
+        let text = view.text("eye", &camera);
+        let written = text.strip_prefix("camera eye: ").expect("a declaration");
+        let read = *Scene::new(ball("(0, 0, 0)m", written, "(60, 40)px")).pack().camera();
+        for other in [seen, read] {
+            let numbers = |c: &Camera| {
+                let rows = [c.origin, c.right, c.up, c.forward].concat();
+                let rest = [c.half_width, c.half_height, c.lens_radius];
+                [rows, rest.into()].concat()
+            };
+            for (a, b) in numbers(&other).into_iter().zip(numbers(&camera)) {
+                assert!((a - b).abs() < 1e-4, "{declared}: {text} {other:?} instead of {camera:?}");
+            }
+            assert_eq!(other.kind, camera.kind, "{declared}");
+        }
+    }
+}
+
+/// The layer `depth`: along the view, but of a panorama the distance.
+#[test]
+fn depths_are_along_the_view_or_all_around() {
+    for (camera, expected) in [
+        ("orthographic { from = (0, 0, 10)m, to = (0, 0, 0)m, height = 8m }", 9.0),
+        ("panoramic { from = (0, 0, 3)m, to = (0, 0, 9)m, fov.horizontal = 360deg }", 2.0),
+    ] {
+        let outcome = picture::cpu(ball("(0, 0, 0)m", camera, "(64, 32)px"), |job| {
+            job.wanted.layers = [Layer::Depth].into();
+        });
+        let file = File::written(&outcome.picture, false);
+        let depth = &file.channels["ViewLayer.Depth.Z"];
+        let nearest = depth.iter().copied().fold(f32::INFINITY, f32::min);
+        assert!((f64::from(nearest) - expected).abs() < 0.01, "{camera}: {nearest}");
+    }
+}
+
+#[test]
+fn what_is_picked_is_where_parallel_rays_and_panoramas_see_it() {
+    let camera = "orthographic { from = (2, 0, 10)m, to = (2, 0, 0)m, height = 8m }";
+    let scene = Scene::new(ball("(0, 0, 0)m", camera, "(8, 8)px"));
+    let seen = pick(&scene, &Job::of_scene(&scene), [2, 3]).expect("a pixel").surface;
+    let seen = seen.expect("the ball");
+    let (x, y) = (0.5, 0.5_f64);
+    let z = (1.0 - x * x - y * y).sqrt();
+    for (found, expected) in seen.position.into_iter().zip([x, y, z]) {
+        assert!((found - expected).abs() < 1e-5, "{:?}", seen.position);
+    }
+    assert!((seen.depth - (10.0 - z)).abs() < 1e-4 && (seen.distance - seen.depth).abs() < 1e-9);
+    // Straight behind a panorama is its left edge, and depth is distance.
+    let camera = "panoramic { from = (0, 0, 0)m, to = (0, 0, -1)m }";
+    let scene = Scene::new(ball("(0, 0, 5)m", camera, "(64, 32)px"));
+    let seen = pick(&scene, &Job::of_scene(&scene), [0, 15]).expect("a pixel").surface;
+    let seen = seen.expect("the ball");
+    assert!((seen.distance - 4.05).abs() < 0.02 && seen.depth == seen.distance, "{seen:?}");
+    let ahead = pick(&scene, &Job::of_scene(&scene), [32, 15]).expect("a pixel").surface;
+    assert!(ahead.is_none(), "{ahead:?}");
+}
+
+fn assert_merges(name: &str, pack: impl Fn() -> Pack<Checked>) {
+    let part = |start, end| {
+        picture::cpu(pack(), |job| job.samples = runtime::SampleRange { start, end }).picture
+    };
+    let merged = runtime::output::merge(vec![part(64, 96), part(0, 64)]).expect("parts");
+    let whole = part(0, 96);
+    let bits = |film: &runtime::Film| -> Vec<_> {
+        film.sums.iter().map(|rgb| rgb.map(f64::to_bits)).collect()
+    };
+    assert_eq!(bits(&merged.film), bits(&whole.film), "{name}");
+}
+
+#[test]
+fn parts_of_a_picture_merge_to_its_bits() {
+    for camera in [
+        "panoramic { from = (0, 0, 0)m, to = (0, 0, -1)m }",
+        "orthographic { from = (0, 0, 9)m, to = (0, 0, 0)m, height = 3m }",
+    ] {
+        assert_merges(camera, || ball("(0, 0, 5)m", camera, "(32, 16)px"));
+    }
+}
