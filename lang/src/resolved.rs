@@ -218,12 +218,19 @@ fn camera_fields(camera: &Camera) -> Vec<(&'static str, String)> {
         ("up", vector(camera.up, "")),
     ];
     let view = match &camera.projection {
-        Projection::Perspective(lens) => vec![
-            ("fov.horizontal", units::show(lens.fov_horizontal, Dim::ANGLE)),
-            ("fov.vertical", units::show(lens.fov_vertical, Dim::ANGLE)),
-            ("aperture", length(2.0 * lens.radius)),
-            ("focus", length(lens.focus_distance)),
-        ],
+        Projection::Perspective(lens) => {
+            let mut fields = vec![
+                ("fov.horizontal", units::show(lens.fov_horizontal, Dim::ANGLE)),
+                ("fov.vertical", units::show(lens.fov_vertical, Dim::ANGLE)),
+                ("aperture", length(2.0 * lens.radius)),
+                ("focus", length(lens.focus_distance)),
+            ];
+            if let Some(blades) = lens.blades {
+                fields.push(("blades", blades.to_string()));
+                fields.push(("rotation", units::show(lens.rotation, Dim::ANGLE)));
+            }
+            fields
+        }
         Projection::Orthographic { size, .. } => {
             let side = |name, side: f64| (name, length(side));
             size.iter().flat_map(|[w, h]| [side("width", *w), side("height", *h)]).collect()

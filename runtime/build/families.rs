@@ -137,18 +137,20 @@ fn layouts() -> Family {
 
 fn skies_and_cameras() -> Vec<(u64, FeatureSet)> {
     let mut members = Vec::new();
-    for (camera, lens) in [
-        (CameraKind::Perspective, false),
-        (CameraKind::Perspective, true),
-        (CameraKind::Orthographic, false),
-        (CameraKind::Panoramic, false),
+    for (camera, lens, blades) in [
+        (CameraKind::Perspective, false, false),
+        (CameraKind::Perspective, true, false),
+        (CameraKind::Perspective, true, true),
+        (CameraKind::Orthographic, false, false),
+        (CameraKind::Panoramic, false, false),
     ] {
         for skies in subsets(&SkyKind::ALL) {
             let bits = skies.iter().map(|sky| sky.feature()).sum::<u64>()
                 | if lens { bit::LENS } else { 0 }
+                | if blades { bit::BLADES } else { 0 }
                 | camera.feature();
             let cameras = [camera].into();
-            let features = FeatureSet { cameras, lens, skies, ..FeatureSet::full() };
+            let features = FeatureSet { cameras, lens, blades, skies, ..FeatureSet::full() };
             members.push((bits, features));
         }
     }
@@ -177,8 +179,10 @@ fn choices() -> Family {
 }
 
 fn views() -> Family {
-    let mask =
-        SkyKind::ALL.into_iter().map(SkyKind::feature).sum::<u64>() | bit::CAMERAS | bit::LENS;
+    let mask = SkyKind::ALL.into_iter().map(SkyKind::feature).sum::<u64>()
+        | bit::CAMERAS
+        | bit::LENS
+        | bit::BLADES;
     Family { mask, members: skies_and_cameras() }
 }
 

@@ -39,6 +39,8 @@ pub struct FeatureSet {
     pub cameras: BTreeSet<CameraKind>,
     /// The camera has a lens of radius > 0; only with perspective cameras.
     pub lens: bool,
+    /// The opening of the lens has corners; only with `lens`.
+    pub blades: bool,
     /// Where random numbers come from. A scene has exactly one, the full kernel knows all.
     pub samplers: BTreeSet<SamplerKind>,
     /// Formats of the textures.
@@ -138,6 +140,7 @@ impl FeatureSet {
             skies: BTreeSet::new(),
             cameras: [CameraKind::Perspective].into(),
             lens: false,
+            blades: false,
             samplers: [SamplerKind::Sobol].into(),
             textures: BTreeSet::new(),
             alpha_clip: false,
@@ -176,6 +179,7 @@ impl FeatureSet {
             skies: SkyKind::ALL.into(),
             cameras: CameraKind::ALL.into(),
             lens: true,
+            blades: true,
             samplers: SamplerKind::ALL.into(),
             textures: TextureFormat::ALL.into(),
             alpha_clip: true,

@@ -52,6 +52,7 @@ pub const CASES: &[Case] = &[
     Case { view: ORTHOGRAPHIC, ..case("orthographic camera of the sky", &[GRADIENT]) },
     Case { view: PANORAMIC, ..case("panoramic camera", &[GRADIENT, CLAY, BALL, TENT, FLOOR]) },
     Case { view: PANORAMIC, ..case("panoramic camera of the sky", &[PANORAMA]) },
+    Case { camera: BLADES, ..case("aperture blades", &[SKY, CLAY, BALL, FLOOR]) },
     // The other sampler, at everything that draws numbers, and in the kernel without geometry.
     Case { camera: LENS_AND_SHUTTER, render: PCG, ..case("independent samples", DRAWS) },
     Case { render: PCG, ..case("independent samples of the sky", &[GRADIENT]) },
@@ -230,7 +231,7 @@ pub const CASES: &[Case] = &[
             &[WEAR, PAINT, LACE_LAMP, MOVING_PANEL, CLAY, MOVING_BALL, FLOOR],
         )
     },
-    Case { camera: LENS_AND_SHUTTER, ..case("all", ALL) },
+    Case { camera: BLADES_AND_SHUTTER, ..case("all", ALL) },
 ];
 
 const ALL: &[&str] = &[
@@ -265,7 +266,10 @@ const PERSPECTIVE: [&str; 2] = ["perspective", "fov.vertical = 42deg"];
 const ORTHOGRAPHIC: [&str; 2] = ["orthographic", "height = 4m"];
 const PANORAMIC: [&str; 2] = ["panoramic", "fov.horizontal = 270deg"];
 const LENS: &str = "  aperture = 40cm\n  focus = 5m\n";
+const BLADES: &str = "  aperture = 40cm\n  focus = 3m\n  blades = 5\n  rotation = 20deg\n";
 const SHUTTER: &str = "  shutter = -5ms..15ms\n";
+const BLADES_AND_SHUTTER: &str =
+    "  aperture = 40cm\n  focus = 5m\n  blades = 7\n  shutter = 0ms..20ms\n";
 const LENS_AND_SHUTTER: &str = "  aperture = 40cm\n  focus = 5m\n  shutter = 0ms..20ms\n";
 
 const SKY: &str = "sky day: constant { color = linear(0.6, 0.8, 1.0) }\n";

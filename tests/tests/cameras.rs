@@ -120,7 +120,7 @@ fn a_view_and_its_text_are_the_camera() {
         "orthographic { from = (2, 1, 10)m, to = (1, 0, 0)m, height = 8m }",
         "orthographic { from = (0, 0, 0.01)m, to = (0, 0, 0)m, width = 90m }",
         "panoramic { from = (1, 0, 0)m, to = (0, 0, -1)m, fov.horizontal = 200deg }",
-        "perspective { from = (2, 1, 10)m, to = (1, 0, 0)m, f_stop = 2 }",
+        "perspective { from = (2, 1, 10)m, to = (1, 0, 0)m, f_stop = 2, blades = 6, rotation = 20deg }",
     ] {
         let own = Scene::new(ball("(0, 0, 0)m", declared, "(60, 40)px"));
         let view = View::of(&own);
@@ -133,12 +133,12 @@ fn a_view_and_its_text_are_the_camera() {
             let numbers = |c: &Camera| {
                 let rows = [c.origin, c.right, c.up, c.forward].concat();
                 let rest = [c.half_width, c.half_height, c.lens_radius];
-                [rows, rest.into()].concat()
+                [rows, rest.into(), vec![c.blade_rotation, c.blade_reach]].concat()
             };
             for (a, b) in numbers(&other).into_iter().zip(numbers(&camera)) {
                 assert!((a - b).abs() < 1e-4, "{declared}: {text} {other:?} instead of {camera:?}");
             }
-            assert_eq!(other.kind, camera.kind, "{declared}");
+            assert_eq!([other.kind, other.blades], [camera.kind, camera.blades], "{declared}");
         }
     }
 }
@@ -157,6 +157,70 @@ fn depths_are_along_the_view_or_all_around() {
         let depth = &file.channels["ViewLayer.Depth.Z"];
         let nearest = depth.iter().copied().fold(f32::INFINITY, f32::min);
         assert!((f64::from(nearest) - expected).abs() < 0.01, "{camera}: {nearest}");
+    }
+}
+
+/// A glowing ball of radius 2 cm, 2 m away, through an opening of 20 cm that focuses at 1 m.
+fn blurred(lens: &str) -> Vec<f64> {
+    let camera = format!(
+        "perspective {{ from = (0, 0, 2)m, to = (0, 0, 0)m, fov.horizontal = 17deg, aperture = 20cm, focus = 1m, {lens} }}"
+    );
+    let text = format!(
+        "rts 1
+material glow: emissive {{ color = linear(1) }}
+instance spark {{ shape = sphere(radius: 2cm), material = glow }}
+camera eye: {camera}
+film f {{ size = (64, 64)px }}
+render main: path {{ camera = eye, film = f, samples = 256, depth = 1, seed = 3 }}
+"
+    );
+    channel(picture::cpu(pack_in(Path::new("."), &text), |_| {}).film(), 1)
+}
+
+/// What is out of focus shows the opening: at the film, at distance 1, a polygon half as large as the opening, which is
+/// a disk of radius 5 cm where there are no blades, and everywhere as bright.
+#[test]
+fn what_is_out_of_focus_shows_the_blades() {
+    let half_width = (8.5_f64).to_radians().tan();
+    let place = |i: usize| 2.0 * half_width * ((i as f64 + 0.5) / 64.0 - 0.5);
+    let disk = PI * 0.05 * 0.05;
+    for (blades, rotation) in [(0, 0.0_f64), (3, 0.0), (3, 90.0), (3, 200.0), (6, 0.0)] {
+        let lens = if blades == 0 {
+            String::new()
+        } else {
+            format!("blades = {blades}, rotation = {rotation}deg")
+        };
+        let values = blurred(&lens);
+        let at = |i: usize| [place(i % 64), -place(i / 64)];
+        // A moment of the light, divided by all of it.
+        let all: f64 = values.iter().sum();
+        let moment = |of: &dyn Fn([f64; 2]) -> f64| {
+            values.iter().enumerate().map(|(i, value)| value * of(at(i))).sum::<f64>() / all
+        };
+        // As bright as in the middle, so much area.
+        let inner: Vec<f64> = (0..values.len())
+            .filter(|i| at(*i)[0].hypot(at(*i)[1]) < 0.024)
+            .map(|i| values[i])
+            .collect();
+        let middle = inner.iter().sum::<f64>() / inner.len() as f64;
+        let area = all / middle * (2.0 * half_width / 64.0).powi(2);
+        assert!((area / disk - 1.0).abs() < 0.03, "{lens}: area {area}, {disk} expected");
+        // Of a regular polygon with n corners at r: r^2 (2 + cos(2 pi / n)) / 6, and a quarter of the square of the
+        // ball's own radius along both axes; without blades r^2 / 2.
+        let n = f64::from(blades);
+        let r = match blades {
+            0 => 0.05,
+            _ => (2.0 * disk / (n * (2.0 * PI / n).sin())).sqrt(),
+        };
+        let polar = if blades == 0 { 0.5 } else { (2.0 + (2.0 * PI / n).cos()) / 6.0 };
+        let expected = r * r * polar + 0.5 * 0.01 * 0.01;
+        let found = moment(&|[x, y]| x * x + y * y);
+        assert!((found / expected - 1.0).abs() < 0.02, "{lens}: {found}, {expected} expected");
+        // The third moment along an axis through a corner of a triangle is r^3 / 40; it turns clockwise.
+        let (sin, cos) = rotation.to_radians().sin_cos();
+        let skew = moment(&|[x, y]| (x * sin + y * cos).powi(3)) / r.powi(3);
+        let expected = if blades == 3 { 1.0 / 40.0 } else { 0.0 };
+        assert!((skew - expected).abs() < 0.0025, "{lens}: {skew}, {expected} expected");
     }
 }
 
@@ -201,5 +265,21 @@ fn parts_of_a_picture_merge_to_its_bits() {
         "orthographic { from = (0, 0, 9)m, to = (0, 0, 0)m, height = 3m }",
     ] {
         assert_merges(camera, || ball("(0, 0, 5)m", camera, "(32, 16)px"));
+    }
+}
+
+#[test]
+fn blades_leave_the_opening_its_area() {
+    for blades in [3, 7, 16] {
+        let camera = compile_in(Path::new("."), &format!(
+            "rts 1\nsky s: constant {{ }}\nfilm f {{ size = (8, 8)px }}\nrender r: path {{ }}\n\
+             camera c: perspective {{ from = (0, 0, 1)m, to = (0, 0, 0)m, aperture = 1m, blades = {blades} }}\n"
+        ))
+        .lowered
+        .camera;
+        let reach = f64::from(camera.blade_reach);
+        let area = 0.5 * f64::from(blades) * reach * reach * (2.0 * PI / f64::from(blades)).sin();
+        assert_eq!(camera.blades, blades);
+        assert!((area / PI - 1.0).abs() < 1e-6, "{blades}: {area}");
     }
 }

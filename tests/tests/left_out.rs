@@ -67,6 +67,14 @@ const CASES: &[Case] = &[
         words: &["thin_lens_ray", "PURPOSE_LENS"],
     },
     Case {
+        name: "blades of an aperture of 0",
+        idle: "CAMERA aperture = 0cm, blades = 6, rotation = 10deg\n",
+        without: "",
+        busy: "CAMERA aperture = 40cm, blades = 6, rotation = 10deg\n",
+        bits: bit::LENS | bit::BLADES,
+        words: &["thin_lens_ray", "blades_point"],
+    },
+    Case {
         name: "a normal map of strength 0",
         idle: "texture bumps = image(\"holes.png\", space: data)\nMATERIAL normal = bumps.rgb, normal.strength = 0\n",
         without: "",

@@ -30,6 +30,9 @@ pub(super) fn camera(camera: &scene::Camera, frame: &Normalization) -> abi::Came
             half_height: libm::tan(0.5 * lens.fov_vertical) as f32,
             focus_distance: frame.length(lens.focus_distance),
             half_width: libm::tan(0.5 * lens.fov_horizontal) as f32,
+            blades: lens.blades.unwrap_or(0),
+            blade_rotation: (0.5 * lens.rotation / PI).rem_euclid(1.0) as f32,
+            blade_reach: lens.blades.map_or(0.0, blade_reach) as f32,
             ..placed
         },
         Projection::Orthographic { size, .. } => {
@@ -48,6 +51,13 @@ pub(super) fn camera(camera: &scene::Camera, frame: &Normalization) -> abi::Came
             ..placed
         },
     }
+}
+
+/// From the middle of a regular polygon with `n` corners, 3 or more, and the area of a disk of radius 1 to its corners:
+/// n/2 r^2 sin(2 pi / n) = pi.
+fn blade_reach(n: u32) -> f64 {
+    let turn = 2.0 * PI / f64::from(n);
+    (turn / libm::sin(turn)).sqrt()
 }
 
 /// Origin and unit direction of the ray through a place on the film, -1 ..= 1 to the right and up; through the middle of

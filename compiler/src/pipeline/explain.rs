@@ -255,6 +255,8 @@ impl Explain<'_> {
         let Scene { camera, render, .. } = self.scene;
         let open = by("its aperture is open".to_owned(), &camera.name);
         let point = by("its aperture is 0".to_owned(), &camera.name);
+        let corners = by("its opening has corners".to_owned(), &camera.name);
+        let round = by("it has no opening with corners".to_owned(), &camera.name);
         let pcg = self.features.samplers.contains(&SamplerKind::Pcg);
         let chosen = by("its sampler".to_owned(), &render.name);
         let sobol = by("its sampler is another".to_owned(), &render.name);
@@ -268,6 +270,7 @@ impl Explain<'_> {
             kind(CameraKind::Orthographic),
             kind(CameraKind::Panoramic),
             Self::row(name_of(bit::LENS), self.features.lens, Some(open), Some(point)),
+            Self::row(name_of(bit::BLADES), self.features.blades, Some(corners), Some(round)),
             Self::row(name_of(bit::SAMPLER_PCG), pcg, Some(chosen), Some(sobol)),
         ]
     }

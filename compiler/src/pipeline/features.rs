@@ -39,6 +39,7 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
             .filter_map(|sky| SkyKind::from_tag(sky.kind))
             .collect::<BTreeSet<_>>(),
         cameras: CameraKind::from_tag(lowered.camera.kind).into_iter().collect(),
+        blades: lowered.camera.lens_radius > 0.0 && lowered.camera.blades > 0,
         lens: lowered.camera.lens_radius > 0.0,
         samplers: SamplerKind::from_tag(lowered.render.sampler).into_iter().collect(),
         textures: TextureFormat::ALL

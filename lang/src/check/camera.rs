@@ -28,6 +28,7 @@ pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
     });
     one_of(ev, fields, &["f_stop", "aperture"], "the opening of the lens");
     one_of(ev, fields, &["width", "height"], "the size of the view");
+    check_blades(ev, fields);
     let (Some(from), Some(to), Some(span)) =
         (fields.vector::<3>("from"), fields.vector::<3>("to"), fields.span("to"))
     else {
@@ -52,6 +53,23 @@ pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
             .at(at, "which way is up in the image?")
             .with_help("for a view straight down write `up = (0, 0, -1)`");
         ev.fault(error);
+    }
+}
+
+/// Blades shape an opening, and are what is turned.
+fn check_blades(ev: &mut Evaluator<'_>, fields: &Fields) {
+    let opens = fields.has("f_stop") || fields.has("aperture");
+    for (name, needs, is_there) in [
+        ("blades", "`f_stop` or `aperture`", opens),
+        ("rotation", "`blades`", fields.has("blades")),
+    ] {
+        let Some(span) = fields.span(name).filter(|_| fields.has(name) && !is_there) else {
+            continue;
+        };
+        let error =
+            Diagnostic::error(Code("E0207"), format!("`{name}` does nothing without {needs}"))
+                .at(span, "nothing to shape");
+        ev.fault(error.with_help(format!("write {needs}, or leave this out")));
     }
 }
 
@@ -180,6 +198,8 @@ fn lens(fields: &Fields, aspect: f64, distance: f64) -> Option<Lens> {
         fov_horizontal: across,
         fov_vertical: up,
         radius: 0.5 * opening,
+        blades: fields.integer("blades"),
+        rotation: fields.number("rotation")?,
         focus_distance: fields.number("focus").unwrap_or(distance),
     })
 }

@@ -51,6 +51,10 @@ pub struct Lens {
     pub fov_vertical: f64,
     /// Its radius, metres; 0 is a pinhole.
     pub radius: f64,
+    /// Blades of the aperture, 3 ..= 16; `None`: its opening is round.
+    pub blades: Option<u32>,
+    /// By how much they are turned, clockwise in the image, from a corner at the top; radians.
+    pub rotation: f64,
     /// Distance to the plane of focus, metres, > 0.
     pub focus_distance: f64,
 }

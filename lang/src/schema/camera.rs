@@ -139,6 +139,26 @@ const PERSPECTIVE: TypeSchema = TypeSchema {
             ("aperture_radius", "Mitsuba; it is half of this"),
         ]),
         Field::new(
+            "blades",
+            FieldType::Integer(3, 16),
+            Default::Absent("a round opening"),
+            "Straight blades of the aperture: what is out of focus shows its opening, a polygon with so many corners and \
+             the area of the round one.",
+        )
+        .typical("5 to 9")
+        .foreign(&[
+            ("aperture_blades", "Blender"),
+            ("bladecount", "common use"),
+            ("bokeh.blades", "LuxCore"),
+        ]),
+        Field::new(
+            "rotation",
+            FieldType::Number(Bounds::new(Dim::ANGLE, "deg", f64::NEG_INFINITY, f64::INFINITY)),
+            Default::Number(0.0),
+            "By how much the blades are turned, clockwise as what is behind the focus shows them; at 0deg a corner is at the top.",
+        )
+        .foreign(&[("aperture_rotation", "Blender")]),
+        Field::new(
             "focus",
             FieldType::Number(Bounds::above(Dim::LENGTH, "m", 0.0)),
             Default::Absent("the distance from `from` to `to`"),

@@ -40,6 +40,7 @@ impl Wanted {
         let needs = match more {
             bit::SCATTERING => bit::MEDIA,
             bit::SHEETS => bit::THROUGH,
+            bit::BLADES => bit::LENS,
             bit::LIGHT_TREE => bit::LIGHT_CHOICE,
             bit::LIGHT_SPHERE => bit::SPHERES,
             bit::LIGHT_RECTANGLE | bit::LIGHT_TRIANGLE | bit::INSTANCES => bit::TRIANGLES,

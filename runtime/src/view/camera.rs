@@ -140,6 +140,10 @@ impl View {
         if kind == CameraKind::Perspective && self.aperture > 0.0 {
             let _ = writeln!(text, "  aperture = {}mm", short(1e3 * self.aperture));
             let _ = writeln!(text, "  focus = {}m", short(self.focus));
+            if own.blades > 0 {
+                let rotation = short(360.0 * f64::from(own.blade_rotation));
+                let _ = writeln!(text, "  blades = {}\n  rotation = {rotation}deg", own.blades);
+            }
         }
         text + "}\n"
     }

@@ -55,6 +55,8 @@ features! {
     PRINCIPLED_TRANSMISSION = 30 "principled transmission",
     /// Something moves while the shutter is open.
     MOTION = 31 "motion",
+    /// The opening of the lens has corners.
+    BLADES = 36 "aperture blades",
     /// Has a tree of lights.
     LIGHT_TREE = 54 "light tree",
     /// Has a tinted light.
@@ -149,6 +151,7 @@ pub(crate) fn of(contents: &Contents<'_>) -> u64 {
     set(TRIANGLES, !contents.triangles.is_empty());
     set(SPHERES, !contents.spheres.is_empty());
     set(LENS, contents.camera.lens_radius > 0.0);
+    set(BLADES, contents.camera.lens_radius > 0.0 && contents.camera.blades > 0);
     set(CameraKind::from_tag(contents.camera.kind).map_or(0, CameraKind::feature), true);
     set(SamplerKind::from_tag(contents.render.sampler).map_or(0, SamplerKind::feature), true);
     set(LIGHT_CHOICE, contents.lights.len() > 1);

@@ -154,6 +154,7 @@ fn features_are_those_of_the_contents() {
         | features::INSTANCES
         | features::WIDE_NODES
         | features::SAMPLER_PCG
+        | features::BLADES
         | CameraKind::Orthographic.feature()
         | CameraKind::Panoramic.feature();
     assert_eq!(pack.features(), features::KNOWN & !absent);
@@ -161,6 +162,9 @@ fn features_are_those_of_the_contents() {
     assert_eq!(wide.features(), pack.features() | features::WIDE_NODES);
     let mut scene = Scene::empty();
     assert_eq!(Pack::from_bytes(scene.bytes()).unwrap().features(), features::LENS);
+    scene.camera.blades = 5;
+    let bladed = Pack::from_bytes(scene.bytes()).unwrap().features();
+    assert_eq!(bladed, features::LENS | features::BLADES);
     scene.camera.lens_radius = 0.0;
     assert_eq!(Pack::from_bytes(scene.bytes()).unwrap().features(), 0);
     scene.render.sampler = pack::abi::SamplerKind::Pcg as u32;

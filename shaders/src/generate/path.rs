@@ -34,6 +34,9 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
     }));
     if features.lens {
         modules.push("camera/thin_lens.wgsl");
+        if features.blades {
+            modules.push("camera/blades.wgsl");
+        }
     }
     if features.normal_maps {
         modules.push("surface/normal_map.wgsl");
@@ -54,11 +57,20 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
 }
 
 fn camera(features: &FeatureSet) -> String {
-    let lens = if features.lens {
-        "    if (camera.lens_radius > 0.0) {\n        \
-         return thin_lens_ray(camera, at, sample_2d(key, PURPOSE_LENS));\n    }\n"
+    let blades = if features.blades {
+        "        if (camera.blades > 0u) {\n            \
+         return thin_lens_ray(camera, at, blades_point(camera, u));\n        }\n"
     } else {
         ""
+    };
+    let lens = if features.lens {
+        format!(
+            "    if (camera.lens_radius > 0.0) {{\n        \
+             let u = sample_2d(key, PURPOSE_LENS);\n{blades}        \
+             return thin_lens_ray(camera, at, thin_lens_disk(camera, u));\n    }}\n"
+        )
+    } else {
+        String::new()
     };
     let cases: Vec<(String, String)> = features
         .cameras

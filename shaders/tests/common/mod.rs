@@ -54,6 +54,10 @@ const OTHERS: &[Other] = &[
     }),
     ("tint", |f| f.tint = true),
     ("lens", |f| f.lens = true),
+    ("blades", |f| {
+        f.lens = true;
+        f.blades = true;
+    }),
     ("alpha clip", |f| f.alpha_clip = true),
     ("tangents", |f| f.tangents = true),
     ("objects", |f| f.objects = true),

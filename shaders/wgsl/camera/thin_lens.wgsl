@@ -5,10 +5,15 @@
 #import "math/sincos.wgsl"
 #import "math/vector.wgsl"
 
-// The ray through `at`, pixels from the top left corner, and a point uniform on the lens: `u` in [0, 1)^2.
-fn thin_lens_ray(camera: Camera, at: vec2f, u: vec2f) -> CameraRay {
+// A point uniform on a round lens, to the right and up from its middle: `u` in [0, 1)^2.
+fn thin_lens_disk(camera: Camera, u: vec2f) -> vec2f {
     let sc = sincos_2pi(u.y) * (sqrt(u.x) * camera.lens_radius);
-    let offset = camera.right * sc.y + camera.up * sc.x;
+    return sc.yx;
+}
+
+// The ray through `at`, pixels from the top left corner, and the point `p` of the lens.
+fn thin_lens_ray(camera: Camera, at: vec2f, p: vec2f) -> CameraRay {
+    let offset = camera.right * p.x + camera.up * p.y;
     let focus = film_plane_point(camera, at) * camera.focus_distance;
     return CameraRay(camera.origin + offset, vector_unit(focus - offset));
 }

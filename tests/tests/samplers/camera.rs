@@ -11,7 +11,10 @@ use crate::{N, check, corners, key};
 const RADII: [f32; 2] = [0.25, 1e-3];
 
 /// Chi-square tests here.
-pub(crate) const CHECKS: usize = RADII.len() + 1;
+pub(crate) const CHECKS: usize = RADII.len() + 1 + BLADES.len();
+
+/// Counts of blades.
+const BLADES: [u32; 3] = [3, 6, 16];
 
 const SIZE: [u32; 2] = [64, 48];
 const SIDE: usize = 20;
@@ -54,6 +57,43 @@ fn the_lens_is_filled_evenly_and_focuses() {
             assert!(off < 1e-6, "a ray passes the point of focus at {off}");
         }
         check(&format!("lens of radius {radius}"), &counts);
+    }
+}
+
+/// A polygon of the area of the lens, with a corner where `blade_rotation` says.
+#[test]
+fn blades_are_filled_evenly() {
+    for (i, blades) in BLADES.into_iter().enumerate() {
+        let turn = std::f64::consts::TAU / f64::from(blades);
+        // Any size will do.
+        let reach = 1.25;
+        let rotation = 0.07;
+        let camera = Camera {
+            blades,
+            blade_rotation: rotation,
+            blade_reach: reach as f32,
+            ..camera(0.25, 0.5)
+        };
+        let bench = Bench::new().camera(camera, SIZE);
+        let mut kernel = bench.single();
+        let mut counts = Counts::uniform(SIDE * SIDE, N);
+        for k in 0..N {
+            let ray = kernel.dispatch_camera(key(2400 + i, k), Vec2::new(13.25, 40.5));
+            let x = f64::from(ray.origin.dot(camera.right.into())) / 0.25;
+            let y = f64::from(ray.origin.dot(camera.up.into())) / 0.25;
+            // Clockwise from the corner at the top.
+            let from_corner = (x.atan2(y) - f64::from(rotation) * std::f64::consts::TAU)
+                .rem_euclid(std::f64::consts::TAU);
+            let (side, within) = ((from_corner / turn).floor(), from_corner.rem_euclid(turn));
+            // The share of the triangle that is nearer to the middle, and of its side that is before the point.
+            let middle = within - 0.5 * turn;
+            let apothem = reach * (0.5 * turn).cos();
+            let radius = (x * x + y * y).sqrt() * middle.cos() / apothem;
+            let along = 0.5 + 0.5 * middle.tan() / (0.5 * turn).tan();
+            assert!(radius < 1.0 + 1e-5, "{blades}: {x} {y}");
+            counts.add(cell(radius * radius, (side + along) / f64::from(blades)));
+        }
+        check(&format!("{blades} blades"), &counts);
     }
 }
 

@@ -37,12 +37,12 @@ abi_struct! {
         pub half_width: f32,
         /// `CameraKind`.
         pub kind: u32,
-        /// Unused.
-        pub _pad0: u32,
-        /// Unused.
-        pub _pad1: u32,
-        /// Unused.
-        pub _pad2: u32,
+        /// Blades of the aperture, whose opening is a regular polygon of the area of the lens; 0: it is round.
+        pub blades: u32,
+        /// Turns of that polygon, clockwise in the image, from a corner at the top.
+        pub blade_rotation: f32,
+        /// From its middle to its corners, in radii of the lens.
+        pub blade_reach: f32,
     }
 }
 

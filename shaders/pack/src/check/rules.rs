@@ -79,9 +79,9 @@ rules! { pack;
         forward: direction(),
         half_width: positive(),
         kind: tag(CameraKind::ALL.len()),
-        _pad0: unused(),
-        _pad1: unused(),
-        _pad2: unused(),
+        blades: at_most(16),
+        blade_rotation: finite(),
+        blade_reach: not_negative(),
     }
     // `sun_direction` is any finite vector: a sky without a sun has none. `rows` and `columns` are compared
     // with SKYTABLE.
@@ -295,6 +295,10 @@ fn at_least_one(value: u32) -> Option<ElementFault> {
 
 fn at_least_one_at_most(value: u32, max: u32) -> Option<ElementFault> {
     count([value], 1, max)
+}
+
+fn at_most(value: u32, max: u32) -> Option<ElementFault> {
+    count([value], 0, max)
 }
 
 fn dimension(value: u32) -> Option<ElementFault> {
