@@ -25,6 +25,7 @@ pub(crate) mod exclusive;
 mod field;
 pub(crate) mod fields;
 pub(crate) mod file;
+mod film;
 pub(crate) mod given;
 mod group;
 mod index;

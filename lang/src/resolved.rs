@@ -179,6 +179,8 @@ fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {
     let [width, height] = film.size;
     let fields = [
         ("size", format!("({width}, {height})px")),
+        ("filter", film.filter.word().to_owned()),
+        ("filter.width", units::show(film.filter_width, Dim::PIXEL)),
         ("exposure", units::show(film.exposure, Dim::EV)),
         ("tone_map", film.tone_map.word().to_owned()),
     ];

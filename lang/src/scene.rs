@@ -18,7 +18,9 @@ pub use common::{Name, Rgb};
 pub use file::{Asset, AssetFormat, Axis, ColorSpace, FileFrame, Texture, Wrap};
 pub use instance::Instance;
 pub use light::{Beam, Light, Tint};
-pub use view::{Camera, Film, Fit, Layer, Lens, Projection, Render, Sampler, Side, ToneMap};
+pub use view::{
+    Camera, Film, Filter, Fit, Layer, Lens, Projection, Render, Sampler, Side, ToneMap,
+};
 
 pub use crate::material::{
     Color, Inside, Material, MaterialModel, NormalMap, Pattern, Principled, Scalar,

@@ -1,7 +1,8 @@
 //! Families of feature sets: in each, one group of features takes all its values, and all others are there.
 
 use pack::abi::{
-    CameraKind, LightKind, LightSurface, MaterialKind, SamplerKind, SkyKind, TextureFormat,
+    CameraKind, FilterKind, LightKind, LightSurface, MaterialKind, SamplerKind, SkyKind,
+    TextureFormat,
 };
 use pack::features as bit;
 use shaders::{FeatureSet, NodeLayout};
@@ -19,7 +20,7 @@ pub(crate) const MATERIALS: usize = 0;
 pub(crate) const MEDIA: usize = 1;
 
 /// All families.
-pub(crate) fn all() -> [Family; 14] {
+pub(crate) fn all() -> [Family; 15] {
     [
         materials(),
         media(),
@@ -29,6 +30,7 @@ pub(crate) fn all() -> [Family; 14] {
         asked(),
         normals(),
         samplers(),
+        filters(),
         tints(),
         choices(),
         layers(),
@@ -203,6 +205,13 @@ fn samplers() -> Family {
     let members = SamplerKind::ALL
         .map(|kind| (kind.feature(), FeatureSet { samplers: [kind].into(), ..FeatureSet::full() }));
     Family { mask: bit::SAMPLER_PCG, members: members.into() }
+}
+
+/// How the samples of a pixel are spread.
+fn filters() -> Family {
+    let members = FilterKind::ALL
+        .map(|kind| (kind.feature(), FeatureSet { filters: [kind].into(), ..FeatureSet::full() }));
+    Family { mask: bit::FILTERS, members: members.into() }
 }
 
 /// Shapes, lights, cut-outs, and whether there are textures at all. Any formats of textures stand

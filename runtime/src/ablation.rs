@@ -232,7 +232,7 @@ fn kernels(setup: &Setup<'_>, plan: Plan) -> Vec<(String, String)> {
         let wanted = Wanted::of(setup);
         let bits = bit::NAMES.iter().filter(|(more, _)| wanted.features & more == 0);
         // These are other ways to do what the kernel does, and no additions to it.
-        let other = bit::SAMPLER_PCG | bit::WIDE_NODES | bit::CAMERAS;
+        let other = bit::SAMPLER_PCG | bit::WIDE_NODES | bit::CAMERAS | bit::FILTERS;
         let bits = bits.filter(|(more, _)| more & other == 0);
         let mut more: Vec<(&str, Wanted)> =
             bits.map(|(more, name)| (*name, wanted.with(*more))).collect();

@@ -124,6 +124,8 @@ impl Scene {
             estimator: job.estimator,
             clamp_indirect: job.clamp_indirect.unwrap_or(0.0),
             sampler: settings.sampler,
+            pixel_filter: settings.filter,
+            filter_width: settings.filter_width,
             air: settings.air,
             fog: settings.fog,
             wide: u32::from(self.pack().section_bytes(Kind::WIDENODE).is_some()),

@@ -1,7 +1,9 @@
 //! What a scene needs of the kernel.
 
 use crate::ShaderError;
-use pack::abi::{CameraKind, LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat};
+use pack::abi::{
+    CameraKind, FilterKind, LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat,
+};
 use std::collections::BTreeSet;
 
 /// Storage buffers that every WebGPU device offers, less one that is left for the host. A scene that needs more
@@ -35,6 +37,8 @@ pub struct FeatureSet {
     pub spot: bool,
     /// Kinds of sky; none is black. A scene has at most one, the full kernel knows all.
     pub skies: BTreeSet<SkyKind>,
+    /// Pixel filters. A scene has exactly one, the full kernel knows all.
+    pub filters: BTreeSet<FilterKind>,
     /// Kinds of cameras. A scene has exactly one, the full kernel knows all.
     pub cameras: BTreeSet<CameraKind>,
     /// The camera has a lens of radius > 0; only with perspective cameras.
@@ -138,6 +142,7 @@ impl FeatureSet {
             tint: false,
             spot: false,
             skies: BTreeSet::new(),
+            filters: [FilterKind::Pixel].into(),
             cameras: [CameraKind::Perspective].into(),
             lens: false,
             blades: false,
@@ -177,6 +182,7 @@ impl FeatureSet {
             tint: true,
             spot: true,
             skies: SkyKind::ALL.into(),
+            filters: FilterKind::ALL.into(),
             cameras: CameraKind::ALL.into(),
             lens: true,
             blades: true,

@@ -25,12 +25,14 @@ pub struct Case {
     view: [&'static str; 2],
     /// Fields of the camera beyond the usual.
     camera: &'static str,
+    /// Fields of the film beyond its size, each behind a comma.
+    film: &'static str,
     /// Fields of the render beyond the usual, each behind a comma.
     render: &'static str,
 }
 
 const fn case(name: &'static str, parts: &'static [&'static str]) -> Case {
-    Case { name, parts, view: PERSPECTIVE, camera: "", render: "" }
+    Case { name, parts, view: PERSPECTIVE, camera: "", film: "", render: "" }
 }
 
 /// Every feature of the kernel.
@@ -53,6 +55,15 @@ pub const CASES: &[Case] = &[
     Case { view: PANORAMIC, ..case("panoramic camera", &[GRADIENT, CLAY, BALL, TENT, FLOOR]) },
     Case { view: PANORAMIC, ..case("panoramic camera of the sky", &[PANORAMA]) },
     Case { camera: BLADES, ..case("aperture blades", &[SKY, CLAY, BALL, FLOOR]) },
+    // Pixel filters.
+    Case { film: ", filter.width = 2.5px", ..case("box filter", &[GRADIENT, CLAY, BALL]) },
+    Case { film: ", filter = tent", ..case("tent filter", &[GRADIENT, CLAY, BALL, FLOOR]) },
+    Case { film: ", filter = gaussian", ..case("gaussian filter", &[GRADIENT, CLAY, BALL]) },
+    Case {
+        film: ", filter = blackman_harris",
+        ..case("Blackman-Harris filter", &[GRADIENT, CLAY, BALL, FLOOR])
+    },
+    Case { film: ", filter = tent", ..case("tent filter of the sky", &[GRADIENT]) },
     // The other sampler, at everything that draws numbers, and in the kernel without geometry.
     Case { camera: LENS_AND_SHUTTER, render: PCG, ..case("independent samples", DRAWS) },
     Case { render: PCG, ..case("independent samples of the sky", &[GRADIENT]) },
@@ -631,7 +642,7 @@ pub fn shared(case: &Case, instancing: Instancing, layout: Layout) -> Compiled {
 fn with(case: &Case, how: (Instancing, Layout), change: impl FnOnce(&mut Scene)) -> Compiled {
     let dir = tempfile::tempdir().expect("a temporary directory can be made");
     write_files(dir.path());
-    let Case { parts, view: [kind, seen], camera, render, .. } = case;
+    let Case { parts, view: [kind, seen], camera, film, render, .. } = case;
     let things = parts.concat();
     let air = ["mist", "smoke"].into_iter().find(|air| things.contains(&format!("medium {air}:")));
     let air = air.map_or(String::new(), |air| format!(", atmosphere = {air}"));
@@ -642,7 +653,7 @@ camera eye: {kind} {{
   to = (0, 0.9, 0)m
   {seen}
 {camera}}}
-film small {{ size = (40, 30)px }}
+film small {{ size = (40, 30)px{film} }}
 render main: path {{ camera = eye, film = small, samples = 8, depth = 8, seed = 7{render}{air} }}\n",
     );
     crate::scene::compile_shared(dir.path(), &text, how, change)

@@ -246,6 +246,72 @@ fn what_is_picked_is_where_parallel_rays_and_panoramas_see_it() {
     assert!(ahead.is_none(), "{ahead:?}");
 }
 
+/// Share of a filter, of this width, below `x` pixels from the middle of the pixel.
+fn below(filter: &str, width: f64, x: f64) -> f64 {
+    let weight = |t: f64| match filter {
+        "box" => 1.0,
+        "tent" => 1.0 - t.abs(),
+        // Along an axis, of a normal distribution within the circle of three standard deviations.
+        "gaussian" => {
+            let reach = (1.0 - t * t).sqrt();
+            let steps = 64;
+            let along = |i: i32| {
+                let s = reach * (2.0 * (f64::from(i) + 0.5) / f64::from(steps) - 1.0);
+                (-4.5 * (t * t + s * s)).exp()
+            };
+            reach * (0..steps).map(along).sum::<f64>() / f64::from(steps)
+        }
+        _ => {
+            let angle = PI * (t + 1.0);
+            0.35875 - 0.48829 * angle.cos() + 0.14128 * (2.0 * angle).cos()
+                - 0.01168 * (3.0 * angle).cos()
+        }
+    };
+    let (mut lower, mut all) = (0.0, 0.0);
+    let steps = 4000;
+    for i in 0..steps {
+        let t = 2.0 * (f64::from(i) + 0.5) / f64::from(steps) - 1.0;
+        let value = weight(t);
+        all += value;
+        lower += if 0.5 * width * t < x { value } else { 0.0 };
+    }
+    lower / all
+}
+
+/// A glowing half-plane whose edge is at column 4.3 of a picture of 10 columns.
+fn edge(film: &str) -> Pack<Checked> {
+    let text = format!(
+        "rts 1
+material glow: emissive {{ color = linear(1) }}
+instance half {{ shape = box(size: (10, 40, 1)m), material = glow, at = (-5.7, 0, 0)m }}
+camera eye: orthographic {{ from = (0, 0, 10)m, to = (0, 0, 0)m, width = 10m }}
+film f {{ size = (10, 10)px, {film} }}
+render main: path {{ camera = eye, film = f, samples = 1024, depth = 2, seed = 5 }}
+"
+    );
+    pack_in(Path::new("."), &text)
+}
+
+#[test]
+fn an_edge_is_as_soft_as_the_filter_says() {
+    for (filter, width, film) in [
+        ("box", 1.0, String::from("filter = box")),
+        ("tent", 2.0, String::from("filter = tent")),
+        ("gaussian", 3.0, String::from("filter = gaussian")),
+        ("blackman_harris", 3.0, String::from("filter = blackman_harris")),
+        ("box", 2.5, String::from("filter.width = 2.5px")),
+        ("blackman_harris", 4.0, String::from("filter = blackman_harris, filter.width = 4px")),
+    ] {
+        let outcome = picture::cpu(edge(&film), |_| {});
+        for (i, value) in channel(outcome.film(), 1).into_iter().enumerate() {
+            let column = (i % 10) as f64;
+            let expected = below(filter, width, 4.3 - (column + 0.5));
+            let off = (value - expected).abs();
+            assert!(off < 4e-3, "{film}, column {column}: {value}, {expected} expected");
+        }
+    }
+}
+
 fn assert_merges(name: &str, pack: impl Fn() -> Pack<Checked>) {
     let part = |start, end| {
         picture::cpu(pack(), |job| job.samples = runtime::SampleRange { start, end }).picture
@@ -266,6 +332,28 @@ fn parts_of_a_picture_merge_to_its_bits() {
     ] {
         assert_merges(camera, || ball("(0, 0, 5)m", camera, "(32, 16)px"));
     }
+    for filter in ["tent", "gaussian", "blackman_harris"] {
+        assert_merges(filter, || edge(&format!("filter = {filter}")));
+    }
+}
+
+#[test]
+fn a_box_of_one_pixel_is_what_there_is_without_a_filter() {
+    let plain = |film: &str| {
+        bytes(&compile_in(
+            Path::new("."),
+            &format!(
+                "rts 1\nsky s: constant {{ }}\ncamera c: perspective {{ from = (0, 0, 1)m, to = (0, 0, 0)m }}\n\
+         film f {{ size = (8, 8)px{film} }}\nrender r: path {{ }}\n"
+            ),
+        ))
+    };
+    let kernel = |film: &str| {
+        let pack = Pack::from_bytes(plain(film)).expect("a pack");
+        (pack.features(), pack.kernel().to_owned())
+    };
+    assert_eq!(kernel(""), kernel(", filter = box, filter.width = 1px"));
+    assert_ne!(kernel(""), kernel(", filter = tent"));
 }
 
 #[test]

@@ -121,11 +121,15 @@ fn the_cases_cover_every_feature_of_a_pack() {
     seen.sort_by_key(|name| every.iter().position(|known| known == name));
     seen.dedup();
     assert_eq!(seen, every);
-    // A scene has one sky, one sampler and one camera; that is all that the last case lacks.
+    // A scene has one sky, one sampler, one camera and one filter; that is all that the last case lacks.
     let all = of(case_pack(named("all")));
     let lacks: Vec<&&str> = every.iter().filter(|name| !all.contains(name)).collect();
     let others = [
         "constant sky",
+        "box filter",
+        "tent filter",
+        "gaussian filter",
+        "Blackman-Harris filter",
         "independent samples",
         "image sky",
         "orthographic camera",

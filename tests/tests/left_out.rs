@@ -75,6 +75,14 @@ const CASES: &[Case] = &[
         words: &["thin_lens_ray", "blades_point"],
     },
     Case {
+        name: "a box filter of one pixel",
+        idle: "FILM filter = box, filter.width = 1px\n",
+        without: "",
+        busy: "FILM filter = box, filter.width = 2px\n",
+        bits: pack::abi::FilterKind::Box.feature(),
+        words: &["box_offset", "load_frame_filter_width"],
+    },
+    Case {
         name: "a normal map of strength 0",
         idle: "texture bumps = image(\"holes.png\", space: data)\nMATERIAL normal = bumps.rgb, normal.strength = 0\n",
         without: "",
@@ -174,7 +182,7 @@ fn text(lines: &str) -> String {
         let found = take(place);
         if found.is_empty() { found } else { format!(", {found}") }
     };
-    let places = ["AIR ", "CAMERA ", "THING ", "MATERIAL ", "LIGHT ", "SKY ", "MORE "];
+    let places = ["AIR ", "CAMERA ", "FILM ", "THING ", "MATERIAL ", "LIGHT ", "SKY ", "MORE "];
     let own = lines.split('\n').filter(|line| !places.iter().any(|place| line.starts_with(place)));
     let declared = own.collect::<Vec<_>>().join("\n");
     let sky = take("SKY ");
@@ -197,12 +205,13 @@ material m: principled {{ color = linear(0.5, 0.4, 0.3), roughness = 0.4{} }}
 instance crate {{ shape = box(size: (1, 1, 1)m), material = m, at = (0, 0.7, 0)m, rotate = (10, 30, 0)deg{} }}
 light bulb: sphere {{ center = (2, 4, 2)m, radius = 50cm, strength = 20{} }}
 camera eye: perspective {{ from = (0, 1, 5)m, to = (0, 0.7, 0)m, fov.vertical = 40deg{} }}
-film tiny {{ size = (24, 18)px }}
+film tiny {{ size = (24, 18)px{} }}
 render main: path {{ camera = eye, film = tiny, samples = 8, depth = 6, seed = 3{air} }}\n",
         fields("MATERIAL "),
         fields("THING "),
         fields("LIGHT "),
         fields("CAMERA "),
+        fields("FILM "),
     )
 }
 

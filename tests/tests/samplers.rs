@@ -14,6 +14,8 @@
 mod bsdf;
 #[path = "samplers/camera.rs"]
 mod camera;
+#[path = "samplers/filter.rs"]
+mod filter;
 #[path = "samplers/light.rs"]
 mod light;
 #[path = "samplers/light_tree.rs"]
@@ -42,6 +44,7 @@ const SEED: u32 = 20_260;
 /// Chi-square tests in this file.
 const CHECKS: usize = bsdf::CHECKS
     + camera::CHECKS
+    + filter::CHECKS
     + light::CHECKS
     + matte::CHECKS
     + media::CHECKS

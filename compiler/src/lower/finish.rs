@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use lang::diagnostic::{Code, Diagnostic};
-use lang::scene::{Sampler, Scene, ToneMap};
+use lang::scene::{Film, Filter, Sampler, Scene, ToneMap};
 use pack::abi::{self, material_flag};
 
 use super::hidden;
@@ -105,6 +105,7 @@ pub(super) fn settings(
         Sampler::Sobol => abi::SamplerKind::Sobol,
         Sampler::Pcg => abi::SamplerKind::Pcg,
     };
+    let (filter, filter_width) = filter(&scene.film);
     abi::RenderSettings {
         image_size: scene.film.size,
         samples: scene.render.samples,
@@ -124,6 +125,22 @@ pub(super) fn settings(
         center_z_bits: abi::f64_bits(frame.center[2]),
         n_lights: n_lights as u32,
         sampler: sampler as u32,
-        ..Default::default()
+        filter: filter as u32,
+        filter_width,
     }
+}
+
+/// Kind and width of the pixel filter. The kernel need not ask for the width of a box of one pixel.
+#[expect(clippy::cast_possible_truncation, reason = "rounded once")]
+fn filter(film: &Film) -> (abi::FilterKind, f32) {
+    let kind = match film.filter {
+        Filter::Box if (film.filter_width - 1.0).abs() <= 0.0 => {
+            return (abi::FilterKind::Pixel, 0.0);
+        }
+        Filter::Box => abi::FilterKind::Box,
+        Filter::Tent => abi::FilterKind::Tent,
+        Filter::Gaussian => abi::FilterKind::Gaussian,
+        Filter::BlackmanHarris => abi::FilterKind::BlackmanHarris,
+    };
+    (kind, film.filter_width as f32)
 }

@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 use lang::scene::{Instance, MediumModel, Name, Parts, Scene, Shape, SkyModel};
 use lang::source::Span;
 use pack::abi::{
-    CameraKind, LightKind, Material, MaterialKind, NONE, SamplerKind, SkyKind, TRI_SMOOTH,
-    TextureFormat, material_flag,
+    CameraKind, FilterKind, LightKind, Material, MaterialKind, NONE, SamplerKind, SkyKind,
+    TRI_SMOOTH, TextureFormat, material_flag,
 };
 use pack::features as bit;
 use shaders::{FeatureSet, NodeLayout};
@@ -252,7 +252,7 @@ impl Explain<'_> {
     }
 
     fn view(&self) -> Vec<Row> {
-        let Scene { camera, render, .. } = self.scene;
+        let Scene { camera, film, render, .. } = self.scene;
         let open = by("its aperture is open".to_owned(), &camera.name);
         let point = by("its aperture is 0".to_owned(), &camera.name);
         let corners = by("its opening has corners".to_owned(), &camera.name);
@@ -266,7 +266,17 @@ impl Explain<'_> {
             let other = by("it is of another kind".to_owned(), &camera.name);
             Self::row(name_of(kind.feature()), kept, Some(seen), Some(other))
         };
+        let filter = |kind: FilterKind| {
+            let kept = self.features.filters.contains(&kind);
+            let [chosen, other] =
+                ["its filter", "its filter is another"].map(|text| by(text.to_owned(), &film.name));
+            Self::row(name_of(kind.feature()), kept, Some(chosen), Some(other))
+        };
         vec![
+            filter(FilterKind::Box),
+            filter(FilterKind::Tent),
+            filter(FilterKind::Gaussian),
+            filter(FilterKind::BlackmanHarris),
             kind(CameraKind::Orthographic),
             kind(CameraKind::Panoramic),
             Self::row(name_of(bit::LENS), self.features.lens, Some(open), Some(point)),

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use pack::abi::{
-    CameraKind, LightKind, Material, MaterialKind, NONE, SamplerKind, SkyKind, TRI_SMOOTH,
-    TextureFormat, material_flag,
+    CameraKind, FilterKind, LightKind, Material, MaterialKind, NONE, SamplerKind, SkyKind,
+    TRI_SMOOTH, TextureFormat, material_flag,
 };
 use shaders::{FeatureSet, NodeLayout, WINDOW_WORDS, Windows};
 
@@ -38,6 +38,7 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
             .iter()
             .filter_map(|sky| SkyKind::from_tag(sky.kind))
             .collect::<BTreeSet<_>>(),
+        filters: FilterKind::from_tag(lowered.render.filter).into_iter().collect(),
         cameras: CameraKind::from_tag(lowered.camera.kind).into_iter().collect(),
         blades: lowered.camera.lens_radius > 0.0 && lowered.camera.blades > 0,
         lens: lowered.camera.lens_radius > 0.0,

@@ -1,11 +1,11 @@
-//! Camera and film fields become angles, radii, sizes and pixels.
+//! Camera fields become angles, radii and sizes.
 
 use super::exclusive::{one_of, one_of_noting};
 use super::fields::Fields;
 use super::light::unit;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
-use crate::scene::{Camera, Film, Fit, Lens, Name, Projection, Side, ToneMap};
+use crate::scene::{Camera, Film, Fit, Lens, Name, Projection, Side};
 use crate::schema;
 use crate::schema::camera::CameraType;
 use crate::units::{self, Dim};
@@ -101,23 +101,6 @@ fn round(value: f64, steps: f64) -> f64 {
 /// The angle across the other side of an image whose height over width is `aspect`.
 fn vertical(horizontal: f64, aspect: f64) -> f64 {
     2.0 * libm::atan(libm::tan(0.5 * horizontal) * aspect)
-}
-
-/// Builds the film. `None` only for fields with faults.
-pub(super) fn film(name: Name, fields: &Fields) -> Option<Film> {
-    let size = fields.vector::<2>("size")?;
-    #[expect(clippy::cast_possible_truncation, reason = "whole and at most MAX_FILM_SIDE")]
-    let size = size.map(|pixels| pixels as u32);
-    let tone_map = ToneMap::of(fields.word("tone_map")?)?;
-    Some(Film { name, size, exposure: fields.number("exposure")?, tone_map })
-}
-
-/// The film that is used when none is declared: every default of the schema.
-pub(super) fn default_film(span: crate::source::Span) -> Film {
-    let schema = schema::find_type(schema::Kind::Film, "").expect("film has one schema");
-    let fields = Fields::new(schema);
-    let name = Name { text: "default".to_owned(), span };
-    film(name, &fields).expect("every field of a film has a default")
 }
 
 /// How the camera frames an instance.

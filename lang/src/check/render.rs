@@ -1,7 +1,7 @@
 //! The one `render` declaration, and the camera, film and sky it takes.
 
 use super::fields::Fields;
-use super::{Checker, camera, ids_of, medium, sky};
+use super::{Checker, camera, film, ids_of, medium, sky};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::eval::Evaluator;
 use crate::resolve::{ItemId, quoted_list};
@@ -33,8 +33,8 @@ impl Checker {
             return None;
         }
         let film = match film {
-            Choice::Item(film) => camera::film(name(ev, film), self.sound(film)?)?,
-            Choice::Nothing => camera::default_film(name_span),
+            Choice::Item(id) => film::film(name(ev, id), self.sound(id)?)?,
+            Choice::Nothing => film::default_film(name_span),
             Choice::Fault => return None,
         };
         let Choice::Item(camera) = camera else { return None };

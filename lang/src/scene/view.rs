@@ -95,10 +95,28 @@ pub struct Film {
     pub name: Name,
     /// Width and height in pixels.
     pub size: [u32; 2],
+    /// How the samples of a pixel are spread around it.
+    pub filter: Filter,
+    /// Side of the square outside of which the filter is 0, pixels, > 0.
+    pub filter_width: f64,
     /// Stops; the PNG is multiplied by `2^exposure`.
     pub exposure: f64,
     /// Response of the PNG.
     pub tone_map: ToneMap,
+}
+
+words! {
+    /// How the samples of a pixel are spread around it.
+    pub enum Filter {
+        /// Evenly.
+        Box = "box" "evenly over a square; 1px, unless `filter.width` is given",
+        /// Less and less along each axis.
+        Tent = "tent" "less and less along each axis; 2px",
+        /// A normal distribution.
+        Gaussian = "gaussian" "normally, up to three standard deviations, half of `filter.width`; 3px",
+        /// A window.
+        BlackmanHarris = "blackman_harris" "as the window of Blackman and Harris along each axis; 3px",
+    }
 }
 
 words! {

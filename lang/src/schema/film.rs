@@ -1,7 +1,7 @@
 //! Films: `film NAME { ... }`.
 
 use super::{Bounds, Default, Field, FieldType, Kind, TypeSchema};
-use crate::scene::ToneMap;
+use crate::scene::{Filter, ToneMap};
 use crate::units::Dim;
 
 pub(super) const TYPES: &[&TypeSchema] = &[&FILM];
@@ -21,6 +21,37 @@ const FILM: TypeSchema = TypeSchema {
                 ("height", "Mitsuba and LuxCore"),
                 ("resolution", "Blender"),
             ]),
+        Field::new(
+            "filter",
+            FieldType::Word(Filter::WORDS),
+            Default::Word("box"),
+            "How the samples of a pixel are spread around it. Each counts for one pixel only, with the weight 1, so that \
+             parts of a picture still merge exactly.",
+        )
+        .foreign(&[
+            ("pixelfilter", "pbrt"),
+            ("rfilter", "Mitsuba"),
+            ("reconstruction_filter", "common use"),
+            ("filter_type", "Blender"),
+        ]),
+        Field::new(
+            "filter.width",
+            FieldType::Number(Bounds {
+                dim: Dim::PIXEL,
+                unit: "px",
+                min: 0.0,
+                above_min: true,
+                max: 32.0,
+            }),
+            Default::Absent("1px to 3px, by `filter`"),
+            "Side of the square outside of which the filter is 0: less is sharper, more is smoother.",
+        )
+        .typical("1px to 4px")
+        .foreign(&[
+            ("xradius", "pbrt; it is half of this"),
+            ("yradius", "pbrt; it is half of this"),
+            ("filter_width", "Blender"),
+        ]),
         Field::new(
             "exposure",
             FieldType::Number(Bounds::new(Dim::EV, "EV", -64.0, 64.0)),

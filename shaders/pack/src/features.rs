@@ -5,8 +5,8 @@
 //! bits that it does not know.
 
 use crate::abi::{
-    CameraKind, LightKind, MaterialKind, NONE, Object, SamplerKind, SkyKind, TextureFormat,
-    material_flag,
+    CameraKind, FilterKind, LightKind, MaterialKind, NONE, Object, SamplerKind, SkyKind,
+    TextureFormat, material_flag,
 };
 use crate::contents::Contents;
 
@@ -89,6 +89,12 @@ pub const MATERIAL_PRINCIPLED: u64 = MaterialKind::Principled.feature();
 pub const SAMPLER_PCG: u64 = SamplerKind::Pcg.feature();
 /// Cameras that are not perspective.
 pub const CAMERAS: u64 = CameraKind::Orthographic.feature() | CameraKind::Panoramic.feature();
+/// Pixel filters other than a box of one pixel.
+pub const FILTERS: u64 = FilterKind::Box.feature()
+    | FilterKind::Tent.feature()
+    | FilterKind::Gaussian.feature()
+    | FilterKind::BlackmanHarris.feature();
+
 /// The name of every bit, empty for those that are free. Two features with the same bit do not compile.
 const TABLE: [&str; 64] = {
     let mut table = [""; 64];
@@ -98,6 +104,7 @@ const TABLE: [&str; 64] = {
     claim(&mut table, TextureFormat::FEATURES);
     claim(&mut table, SamplerKind::FEATURES);
     claim(&mut table, CameraKind::FEATURES);
+    claim(&mut table, FilterKind::FEATURES);
     claim(&mut table, MaterialKind::FEATURES);
     table
 };
@@ -154,6 +161,7 @@ pub(crate) fn of(contents: &Contents<'_>) -> u64 {
     set(BLADES, contents.camera.lens_radius > 0.0 && contents.camera.blades > 0);
     set(CameraKind::from_tag(contents.camera.kind).map_or(0, CameraKind::feature), true);
     set(SamplerKind::from_tag(contents.render.sampler).map_or(0, SamplerKind::feature), true);
+    set(FilterKind::from_tag(contents.render.filter).map_or(0, FilterKind::feature), true);
     set(LIGHT_CHOICE, contents.lights.len() > 1);
     set(LIGHT_TREE, !contents.light_nodes.is_empty());
     set(INSTANCES, !contents.instances.is_empty());

@@ -5,7 +5,7 @@ mod common;
 use std::fs;
 
 use common::{Draft, Scene, WAYS, manifest, map};
-use pack::abi::{CameraKind, Light, LightKind, Material, Node, SkyKind};
+use pack::abi::{CameraKind, FilterKind, Light, LightKind, Material, Node, SkyKind};
 use pack::abi::{Sphere, Texture, TriShade, Triangle};
 use pack::{Kind, Manifest, Pack, PackWriter, describe, features};
 
@@ -156,7 +156,8 @@ fn features_are_those_of_the_contents() {
         | features::SAMPLER_PCG
         | features::BLADES
         | CameraKind::Orthographic.feature()
-        | CameraKind::Panoramic.feature();
+        | CameraKind::Panoramic.feature()
+        | FilterKind::ALL.into_iter().map(FilterKind::feature).sum::<u64>();
     assert_eq!(pack.features(), features::KNOWN & !absent);
     let wide = Pack::from_bytes(Scene::wide().bytes()).unwrap();
     assert_eq!(wide.features(), pack.features() | features::WIDE_NODES);

@@ -3,10 +3,9 @@
 use super::wgsl::tag;
 use crate::FeatureSet;
 use pack::abi::{
-    CHILD_INNER, CHILD_INSTANCE, CHILD_OUT, CHILD_SPHERES, CameraKind, ChildRef, LIGHT_LEAF,
-    LightKind, MOVES, MaterialKind, NONE, SamplerKind, SkyKind, TRI_SMOOTH, TextureFormat,
-    TextureOpKind, Wrap,
-    material_flag,
+    CHILD_INNER, CHILD_INSTANCE, CHILD_OUT, CHILD_SPHERES, CameraKind, ChildRef, FilterKind,
+    LIGHT_LEAF, LightKind, MOVES, MaterialKind, NONE, SamplerKind, SkyKind, TRI_SMOOTH,
+    TextureFormat, TextureOpKind, Wrap, material_flag,
 };
 use std::fmt::Write as _;
 
@@ -47,6 +46,7 @@ pub(crate) fn text(features: &FeatureSet) -> String {
     rows.extend(SkyKind::DECLARED.map(|kind| (tag("SKY", &kind.stem()), kind as u32)));
     rows.extend(SamplerKind::DECLARED.map(|kind| (tag("SAMPLER", &kind.stem()), kind as u32)));
     rows.extend(CameraKind::DECLARED.map(|kind| (tag("CAMERA", &kind.stem()), kind as u32)));
+    rows.extend(FilterKind::DECLARED.map(|kind| (tag("FILTER", &kind.stem()), kind as u32)));
     rows.extend(TextureFormat::DECLARED.map(|kind| (tag("TEXTURE", &kind.stem()), kind as u32)));
     rows.extend(TextureOpKind::DECLARED.map(|kind| (tag("TEXTURE_OP", &kind.stem()), kind as u32)));
     rows.extend(Wrap::DECLARED.map(|rule| (tag("WRAP", &rule.stem()), rule as u32)));

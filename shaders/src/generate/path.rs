@@ -2,7 +2,7 @@
 
 use super::wgsl::{imports, switch, tag};
 use crate::FeatureSet;
-use pack::abi::{CameraKind, LightKind};
+use pack::abi::{CameraKind, FilterKind, LightKind};
 use std::fmt::Write as _;
 
 /// Camera, sky, surfaces and direct light.
@@ -32,6 +32,8 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
         CameraKind::Orthographic => "camera/orthographic.wgsl",
         CameraKind::Panoramic => "camera/panoramic.wgsl",
     }));
+    modules
+        .extend(features.filters.iter().filter_map(|kind| filter(*kind)).map(|(module, _)| module));
     if features.lens {
         modules.push("camera/thin_lens.wgsl");
         if features.blades {
@@ -45,6 +47,7 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
         modules.push("kernel/direct.wgsl");
     }
     text += &imports(modules);
+    text += &film(features);
     text += &camera(features);
     text += &miss(features);
     if features.geometry() {
@@ -54,6 +57,42 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
         text += &direct(features);
     }
     text
+}
+
+/// The module of a filter, and its offset from the middle of the pixel; `None`: it is the pixel.
+fn filter(kind: FilterKind) -> Option<(&'static str, &'static str)> {
+    match kind {
+        FilterKind::Pixel => None,
+        FilterKind::Box => Some(("filter/box.wgsl", "box_offset")),
+        FilterKind::Tent => Some(("filter/tent.wgsl", "tent_offset")),
+        FilterKind::Gaussian => Some(("filter/gaussian.wgsl", "gaussian_offset")),
+        FilterKind::BlackmanHarris => {
+            Some(("filter/blackman_harris.wgsl", "blackman_harris_offset"))
+        }
+    }
+}
+
+/// Where on the film a sample looks.
+fn film(features: &FeatureSet) -> String {
+    let cases: Vec<(String, String)> = features
+        .filters
+        .iter()
+        .map(|kind| {
+            let at = match filter(*kind) {
+                None => "vec2f(pixel) + u".to_owned(),
+                Some((_, offset)) => {
+                    format!("vec2f(pixel) + 0.5 + {offset}(u, load_frame_filter_width())")
+                }
+            };
+            (tag("FILTER", &kind.stem()), at)
+        })
+        .collect();
+    format!(
+        "\n// Where a sample of `pixel` looks, pixels from the top left corner: the filter, importance sampled.\n\
+         fn dispatch_film(key: SampleKey, pixel: vec2u) -> vec2f {{\n    \
+         let u = sample_2d(key, PURPOSE_PIXEL);\n{}}}\n",
+        switch("load_frame_pixel_filter()", &cases, "vec2f(pixel) + u")
+    )
 }
 
 fn camera(features: &FeatureSet) -> String {

@@ -1,6 +1,8 @@
 //! The feature sets that the tests run over.
 
-use pack::abi::{CameraKind, LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat};
+use pack::abi::{
+    CameraKind, FilterKind, LightKind, MaterialKind, SamplerKind, SkyKind, TextureFormat,
+};
 use shaders::{FeatureSet, NodeLayout};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -28,6 +30,9 @@ fn features() -> Vec<(String, Switch)> {
     }
     for kind in SkyKind::ALL {
         rows.push(row(format!("{} sky", kind.stem()), move |f| _ = f.skies.insert(kind)));
+    }
+    for kind in FilterKind::ALL {
+        rows.push(row(format!("{} filter", kind.stem()), move |f| f.filters = [kind].into()));
     }
     for kind in CameraKind::ALL {
         rows.push(row(format!("{} camera", kind.stem()), move |f| _ = f.cameras.insert(kind)));

@@ -5,7 +5,6 @@
 #import "scene/dispatch.wgsl"
 #import "scene/dispatch_sky.wgsl"
 #import "scene/records.wgsl"
-#import "scene/sampler.wgsl"
 
 @compute @workgroup_size(8, 8, 1)
 fn render(@builtin(global_invocation_id) gid: vec3<u32>) {
@@ -20,7 +19,7 @@ fn render(@builtin(global_invocation_id) gid: vec3<u32>) {
     loop {
         if (sample == end) { break; }
         let key = sample_key(pixel, sample, frame.seed);
-        let ray = dispatch_camera(key, vec2f(pixel) + sample_2d(key, PURPOSE_PIXEL));
+        let ray = dispatch_camera(key, dispatch_film(key, pixel));
         film_add(&film, dispatch_sky(ray.dir), sample - frame.sample_first, 1u);
         film.rays += 1u;
         sample += 1u;

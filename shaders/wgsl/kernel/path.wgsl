@@ -8,7 +8,6 @@
 #import "scene/constants.wgsl"
 #import "scene/dispatch.wgsl"
 #import "scene/probe.wgsl"
-#import "scene/sampler.wgsl"
 #import "scene/segment.wgsl"
 #import "scene/shadow.wgsl"
 #import "scene/start.wgsl"
@@ -16,8 +15,7 @@
 
 // The camera path of `key` through `pixel`.
 fn path_begin(key: SampleKey, pixel: vec2u) -> Path {
-    let at = vec2f(pixel) + sample_2d(key, PURPOSE_PIXEL);
-    return state_at_camera(key, dispatch_camera(key, at));
+    return state_at_camera(key, dispatch_camera(key, dispatch_film(key, pixel)));
 }
 
 // The ray to trace next.

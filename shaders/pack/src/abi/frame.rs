@@ -63,10 +63,10 @@ abi_struct! {
         pub instance_at: u32,
         /// Largest channel of the indirect light of a sample; 0: it is not clamped.
         pub clamp_indirect: f32,
-        /// Unused.
-        pub _pad1: u32,
-        /// Unused.
-        pub _pad2: u32,
+        /// `FilterKind`. The full kernel asks, a specialised one knows.
+        pub pixel_filter: u32,
+        /// Side of the square outside of which the filter is 0, pixels.
+        pub filter_width: f32,
         /// First heap word of each `AlbedoTable`; `NONE` for those that no material reads.
         pub albedo_at: [u32; 4],
     }

@@ -25,6 +25,22 @@ tags! {
     }
 }
 
+tags! {
+    /// How the samples of a pixel are spread around it. The numbers are part of the pack format.
+    pub enum FilterKind {
+        /// Over the pixel's own square.
+        Pixel = 0,
+        /// Over a square.
+        Box = 1 as 32 "box filter",
+        /// Falls off evenly along each axis.
+        Tent = 2 as 33 "tent filter",
+        /// Falls off as a normal distribution.
+        Gaussian = 3 as 34 "gaussian filter",
+        /// The window of Blackman and Harris along each axis.
+        BlackmanHarris = 4 as 35 "Blackman-Harris filter",
+    }
+}
+
 abi_struct! {
     /// The RENDER section: exactly one element, 112 bytes.
     pub struct RenderSettings {
@@ -65,10 +81,10 @@ abi_struct! {
         pub air: u32,
         /// Index of the `Medium` that is fog, or `NONE`.
         pub fog: u32,
-        /// Unused.
-        pub _pad0: u32,
-        /// Unused.
-        pub _pad1: u32,
+        /// `FilterKind`.
+        pub filter: u32,
+        /// Side of the square outside of which the filter is 0, pixels; 0 for `FilterKind::Pixel`, which knows it.
+        pub filter_width: f32,
     }
 }
 

@@ -4,10 +4,10 @@
 //! field that is not in it may hold any value, and the comment there says why.
 
 use crate::abi::{
-    Camera, CameraKind, Instance, Light, LightKind, LightNode, LightSurface, MOVES, Material,
-    MaterialKind, Medium, Node, OBJECT_OF_INSTANCE, Object, RenderSettings, SamplerKind, Sky,
-    SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap, TriShade, Triangle, WideNode,
-    Wrap, material_flag,
+    Camera, CameraKind, FilterKind, Instance, Light, LightKind, LightNode, LightSurface, MOVES,
+    Material, MaterialKind, Medium, Node, OBJECT_OF_INSTANCE, Object, RenderSettings, SamplerKind,
+    Sky, SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap, TriShade, Triangle,
+    WideNode, Wrap, material_flag,
 };
 use crate::contents::Contents;
 use crate::fault::ElementFault;
@@ -66,8 +66,8 @@ rules! { pack;
         air: index_or_none(table(pack, Kind::MEDIUM)),
         inside: indices_or_none(table(pack, Kind::MATERIAL)),
         fog: index_or_none(table(pack, Kind::MEDIUM)),
-        _pad0: unused(),
-        _pad1: unused(),
+        filter: tag(FilterKind::ALL.len()),
+        filter_width: not_negative(),
     }
     Camera and camera {
         origin: finite(),
