@@ -201,6 +201,7 @@ impl Checker {
             Kind::Light => light::check_light(ev, id, &fields),
             Kind::Sky => sky::check(ev, &fields),
             Kind::Camera => camera::check(ev, &fields),
+            Kind::Film => film::check(ev, &fields),
             _ => {}
         }
         self.fields.insert(id, fields);

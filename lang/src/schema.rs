@@ -56,7 +56,7 @@ pub(crate) use {types, words};
 
 pub(crate) mod asset;
 pub(crate) mod camera;
-mod film;
+pub(crate) mod film;
 pub(crate) mod instance;
 pub(crate) mod light;
 mod render;

@@ -219,6 +219,27 @@ fn the_lens_and_the_field_of_view_agree() {
 }
 
 #[test]
+fn what_is_metered_becomes_middle_grey() {
+    let film = |fields: &str| {
+        let text = format!(
+            "rts 1\nsky s: constant {{ }}\nfilm f {{ {fields} }}\n\
+             camera c: perspective {{ from = (0, 0, 3)m, to = (0, 0, 0)m }}\nrender r: path {{ }}\n"
+        );
+        scene_of_text(&text).film.exposure
+    };
+    // Sunny 16: EV 14.64 at ISO 100, 3200 nit.
+    let sunny = film("f_number = 16, shutter = 10ms, iso = 100");
+    assert!((2_f64.powf(sunny) * 3200.0 / 683.0 - 0.18).abs() < 1e-12, "{sunny}");
+    // EV 0 at ISO 100 is 1/8 nit; ISO 100 is the default.
+    let dark = film("f_number = 1, shutter = 1s");
+    assert!((2_f64.powf(dark) * 0.125 / 683.0 - 0.18).abs() < 1e-12, "{dark}");
+    // A stop is a stop, whichever way.
+    assert!((film("f_number = 1, shutter = 2s") - dark - 1.0).abs() < 1e-12);
+    assert!((film("f_number = 1, shutter = 1s, iso = 200") - dark - 1.0).abs() < 1e-12);
+    assert!((film("f_number = 2, shutter = 1s") - dark + 2.0).abs() < 1e-12);
+}
+
+#[test]
 fn power_is_spread_over_the_sphere() {
     let scene = scene_of_text(&with_view(
         "light l: sphere { center = (0, 0, 0)m, radius = 50cm, power = 10 }",

@@ -12,7 +12,7 @@ use crate::units::Dim;
 
 /// Lumens to the watt of luminous power: the luminous efficacy of light of 540 THz, which defines the candela
 /// (SI Brochure, 9th edition, 2.3.1).
-const EFFICACY: f64 = 683.0;
+pub(super) const EFFICACY: f64 = 683.0;
 
 /// What says how bright a light is, in the order of the reference.
 const FIELDS: [&str; 3] = ["strength", "intensity", "power"];

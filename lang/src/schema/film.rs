@@ -6,6 +6,9 @@ use crate::units::Dim;
 
 pub(super) const TYPES: &[&TypeSchema] = &[&FILM];
 
+/// Stops that an exposure may have.
+pub(crate) const EXPOSURE: Bounds = Bounds::new(Dim::EV, "EV", -64.0, 64.0);
+
 const FILM: TypeSchema = TypeSchema {
     kind: Kind::Film,
     name: "",
@@ -54,11 +57,37 @@ const FILM: TypeSchema = TypeSchema {
         ]),
         Field::new(
             "exposure",
-            FieldType::Number(Bounds::new(Dim::EV, "EV", -64.0, 64.0)),
+            FieldType::Number(EXPOSURE),
             Default::Number(0.0),
             "Stops: each doubles the brightness of the PNG.",
         )
-        .foreign(&[("iso", "pbrt"), ("imagingratio", "pbrt"), ("gain", "common use")]),
+        .foreign(&[("imagingratio", "pbrt"), ("gain", "common use")]),
+        Field::new(
+            "f_number",
+            FieldType::Number(Bounds::number(0.1, 1e6)),
+            Default::Absent("`exposure` decides"),
+            "Exposure as cameras have it, in place of `exposure`: with `shutter` and `iso` the PNG shows as middle grey, \
+             0.18, what a light meter calls right for them: the luminance 12.5 f_number^2 / (shutter iso) nit (ISO 2720, \
+             with its constant K = 12.5 of most makers). It changes no depth of field, which the camera has.",
+        )
+        .typical("1.4 to 22")
+        .foreign(&[("fstop", "common use"), ("aperture", "common use"), ("f_stop", "LuxCore")]),
+        Field::new(
+            "shutter",
+            FieldType::Number(Bounds::above(Dim::TIME, "ms", 0.0)),
+            Default::Absent("`exposure` decides"),
+            "Exposure time, beside `f_number`. It blurs nothing, which the `shutter` of the camera does.",
+        )
+        .typical("sun 4ms, a room 30ms, night 1s")
+        .foreign(&[("exposure_time", "common use"), ("shutter_time", "common use"), ("exposuretime", "pbrt")]),
+        Field::new(
+            "iso",
+            FieldType::Number(Bounds::number(1.0, 1e7)),
+            Default::Number(100.0),
+            "Sensitivity of the film, ISO 5800 or ISO 12232, beside `f_number`.",
+        )
+        .typical("100 to 6400")
+        .foreign(&[("sensitivity", "LuxCore")]),
         Field::new(
             "tone_map",
             FieldType::Word(ToneMap::WORDS),
