@@ -132,7 +132,9 @@ fn value_text(field: &Field) -> String {
 
 fn doc_text(field: &Field) -> String {
     let mut text = field.doc.to_owned();
-    if let FieldType::Word(words) | FieldType::Words(words) = field.ty {
+    if let FieldType::Word(words) | FieldType::Words(words) | FieldType::IntegerOr(_, _, words) =
+        field.ty
+    {
         let list: Vec<String> =
             words.iter().map(|(word, doc)| format!("`{word}`: {doc}")).collect();
         let _ = write!(text, " {}.", list.join("; "));

@@ -200,7 +200,10 @@ fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {
         ("sky", sky.to_owned()),
         ("atmosphere", Shown::new(scene).medium(render.atmosphere)),
         ("samples", render.samples.to_string()),
-        ("depth", render.max_depth.to_string()),
+        (
+            "depth",
+            render.max_depth.map_or_else(|| "unlimited".to_owned(), |depth| depth.to_string()),
+        ),
         ("roulette", render.roulette_depth.to_string()),
         ("seed", render.seed.to_string()),
         ("sampler", render.sampler.word().to_owned()),

@@ -257,6 +257,8 @@ pub enum FieldType {
     Quantity(&'static [(Dim, &'static str)]),
     /// A whole number without a unit, both ends included.
     Integer(u32, u32),
+    /// The same, or one of these words.
+    IntegerOr(u32, u32, &'static [Word]),
     /// Three numbers of one dimension; the text is the unit to suggest.
     Vector(Dim, &'static str),
     /// A number with a dimension for each of red, green and blue, or one for all.
@@ -397,7 +399,9 @@ pub fn unit_of(ty: FieldType) -> Option<(Dim, &'static str)> {
         | FieldType::Spectrum(b)
         | FieldType::Interval(b) => Some((b.dim, b.unit)),
         FieldType::Quantity(choices) => choices.first().copied(),
-        FieldType::Integer(..) | FieldType::Scale => Some((Dim::NONE, "")),
+        FieldType::Integer(..) | FieldType::IntegerOr(..) | FieldType::Scale => {
+            Some((Dim::NONE, ""))
+        }
         FieldType::Vector(dim, unit) => Some((dim, unit)),
         FieldType::Size(_) => Some((Dim::LENGTH, "m")),
         FieldType::Pixels => Some((Dim::PIXEL, "px")),
@@ -432,6 +436,7 @@ pub fn type_text(ty: FieldType) -> String {
             choices.iter().map(|(dim, _)| noun(*dim)).collect::<Vec<_>>().join(" or ")
         }
         FieldType::Integer(..) => "whole number".to_owned(),
+        FieldType::IntegerOr(_, _, words) => format!("whole number or {}", either(words)),
         FieldType::Vector(Dim::NONE, _) => "three numbers".to_owned(),
         FieldType::Spectrum(b) => format!("{}, or three", noun(b.dim)),
         FieldType::Vector(dim, _) => dim.several(3),
@@ -441,9 +446,7 @@ pub fn type_text(ty: FieldType) -> String {
         FieldType::ColorSlot(_) => "colour or texture".to_owned(),
         FieldType::ScalarSlot(_) => "number or texture channel".to_owned(),
         FieldType::NormalSlot => "texture".to_owned(),
-        FieldType::Word(words) => {
-            words.iter().map(|(word, _)| format!("`{word}`")).collect::<Vec<_>>().join(" or ")
-        }
+        FieldType::Word(words) => either(words),
         FieldType::Words(_) => "list of words".to_owned(),
         FieldType::Name(kind) => format!("name of {}", kind.with_article()),
         FieldType::Shape => "shape, object, or list of objects".to_owned(),
@@ -457,6 +460,11 @@ pub fn type_text(ty: FieldType) -> String {
     }
 }
 
+/// `` `box` or `tent` ``.
+fn either(words: &[Word]) -> String {
+    words.iter().map(|(word, _)| format!("`{word}`")).collect::<Vec<_>>().join(" or ")
+}
+
 /// The allowed range in words, or empty.
 #[must_use]
 pub fn range_text(ty: FieldType) -> String {
@@ -467,7 +475,9 @@ pub fn range_text(ty: FieldType) -> String {
         }
         FieldType::Spectrum(b) => format!("each {}", b.described()),
         FieldType::Quantity(_) => "at least 0".to_owned(),
-        FieldType::Integer(min, max) => format!("between {min} and {max}"),
+        FieldType::Integer(min, max) | FieldType::IntegerOr(min, max, _) => {
+            format!("between {min} and {max}")
+        }
         FieldType::Size(_) => "each above 0m".to_owned(),
         FieldType::Pixels => format!("each between 1px and {MAX_FILM_SIDE}px"),
         FieldType::Color(max) | FieldType::ColorSlot(max) if max.is_finite() => {

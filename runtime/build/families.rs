@@ -20,7 +20,7 @@ pub(crate) const MATERIALS: usize = 0;
 pub(crate) const MEDIA: usize = 1;
 
 /// All families.
-pub(crate) fn all() -> [Family; 15] {
+pub(crate) fn all() -> [Family; 16] {
     [
         materials(),
         media(),
@@ -31,6 +31,7 @@ pub(crate) fn all() -> [Family; 15] {
         normals(),
         samplers(),
         filters(),
+        lengths(),
         tints(),
         choices(),
         layers(),
@@ -122,6 +123,11 @@ fn normals() -> Family {
 /// Whether anything moves.
 fn motion() -> Family {
     alone(bit::MOTION, |motion| FeatureSet { motion, ..FeatureSet::full() })
+}
+
+/// Whether paths may have any length.
+fn lengths() -> Family {
+    alone(bit::UNLIMITED, |unlimited| FeatureSet { unlimited, ..FeatureSet::full() })
 }
 
 /// Whether meshes have instances.

@@ -45,6 +45,8 @@ pub struct FeatureSet {
     pub lens: bool,
     /// The opening of the lens has corners; only with `lens`.
     pub blades: bool,
+    /// Paths may have any length.
+    pub unlimited: bool,
     /// Where random numbers come from. A scene has exactly one, the full kernel knows all.
     pub samplers: BTreeSet<SamplerKind>,
     /// Formats of the textures.
@@ -146,6 +148,7 @@ impl FeatureSet {
             cameras: [CameraKind::Perspective].into(),
             lens: false,
             blades: false,
+            unlimited: false,
             samplers: [SamplerKind::Sobol].into(),
             textures: BTreeSet::new(),
             alpha_clip: false,
@@ -186,6 +189,7 @@ impl FeatureSet {
             cameras: CameraKind::ALL.into(),
             lens: true,
             blades: true,
+            unlimited: true,
             samplers: SamplerKind::ALL.into(),
             textures: TextureFormat::ALL.into(),
             alpha_clip: true,

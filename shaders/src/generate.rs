@@ -14,6 +14,7 @@ mod records;
 mod sampler;
 mod sky;
 mod start;
+mod survival;
 mod texture;
 mod traversal;
 mod wgsl;
@@ -52,6 +53,7 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/dispatch_tint.wgsl", choice::tint(features)),
         ("scene/layers.wgsl", principled::layers(features)),
         ("scene/leaf.wgsl", traversal::leaf(features)),
+        ("scene/lookup.wgsl", texture::lookup(features)),
         ("scene/model.wgsl", bsdf::model(features)),
         ("scene/motion.wgsl", motion::text(features)),
         ("scene/nodes.wgsl", traversal::nodes(features)),
@@ -66,7 +68,7 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/shadow.wgsl", media::shadow(features)),
         ("scene/start.wgsl", start::start(features)),
         ("scene/straight.wgsl", bsdf::straight(features)),
-        ("scene/lookup.wgsl", texture::lookup(features)),
+        ("scene/survival.wgsl", survival::text(features)),
         ("scene/texel.wgsl", texture::texel(features)),
         ("scene/texture.wgsl", texture::texture(features)),
         ("scene/through.wgsl", media::through(features)),

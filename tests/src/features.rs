@@ -64,6 +64,10 @@ pub const CASES: &[Case] = &[
         ..case("Blackman-Harris filter", &[GRADIENT, CLAY, BALL, FLOOR])
     },
     Case { film: ", filter = tent", ..case("tent filter of the sky", &[GRADIENT]) },
+    Case {
+        render: ", depth = unlimited",
+        ..case("unlimited depth", &[SKY, LAMP, PANEL, CLAY, BALL, FLOOR])
+    },
     // The other sampler, at everything that draws numbers, and in the kernel without geometry.
     Case { camera: LENS_AND_SHUTTER, render: PCG, ..case("independent samples", DRAWS) },
     Case { render: PCG, ..case("independent samples of the sky", &[GRADIENT]) },
@@ -242,7 +246,7 @@ pub const CASES: &[Case] = &[
             &[WEAR, PAINT, LACE_LAMP, MOVING_PANEL, CLAY, MOVING_BALL, FLOOR],
         )
     },
-    Case { camera: BLADES_AND_SHUTTER, ..case("all", ALL) },
+    Case { camera: BLADES_AND_SHUTTER, render: ", depth = unlimited", ..case("all", ALL) },
 ];
 
 const ALL: &[&str] = &[
@@ -646,6 +650,7 @@ fn with(case: &Case, how: (Instancing, Layout), change: impl FnOnce(&mut Scene))
     let things = parts.concat();
     let air = ["mist", "smoke"].into_iter().find(|air| things.contains(&format!("medium {air}:")));
     let air = air.map_or(String::new(), |air| format!(", atmosphere = {air}"));
+    let depth = if render.contains("depth") { "" } else { ", depth = 8" };
     let text = format!(
         "rts 1\n{things}
 camera eye: {kind} {{
@@ -654,7 +659,7 @@ camera eye: {kind} {{
   {seen}
 {camera}}}
 film small {{ size = (40, 30)px{film} }}
-render main: path {{ camera = eye, film = small, samples = 8, depth = 8, seed = 7{render}{air} }}\n",
+render main: path {{ camera = eye, film = small, samples = 8{depth}, seed = 7{render}{air} }}\n",
     );
     crate::scene::compile_shared(dir.path(), &text, how, change)
 }

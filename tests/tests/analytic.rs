@@ -8,6 +8,8 @@
 
 #[path = "analytic/media.rs"]
 mod media;
+#[path = "analytic/unlimited.rs"]
+mod unlimited;
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
 use std::fmt::Write as _;

@@ -83,6 +83,14 @@ const CASES: &[Case] = &[
         words: &["box_offset", "load_frame_filter_width"],
     },
     Case {
+        name: "paths of limited length",
+        idle: "",
+        without: "",
+        busy: "RENDER depth = unlimited\n",
+        bits: bit::UNLIMITED,
+        words: &["unlimited_survival"],
+    },
+    Case {
         name: "a normal map of strength 0",
         idle: "texture bumps = image(\"holes.png\", space: data)\nMATERIAL normal = bumps.rgb, normal.strength = 0\n",
         without: "",
@@ -182,7 +190,8 @@ fn text(lines: &str) -> String {
         let found = take(place);
         if found.is_empty() { found } else { format!(", {found}") }
     };
-    let places = ["AIR ", "CAMERA ", "FILM ", "THING ", "MATERIAL ", "LIGHT ", "SKY ", "MORE "];
+    let places =
+        ["AIR ", "CAMERA ", "FILM ", "RENDER ", "THING ", "MATERIAL ", "LIGHT ", "SKY ", "MORE "];
     let own = lines.split('\n').filter(|line| !places.iter().any(|place| line.starts_with(place)));
     let declared = own.collect::<Vec<_>>().join("\n");
     let sky = take("SKY ");
@@ -196,6 +205,8 @@ fn text(lines: &str) -> String {
             "material n: {more}\ninstance other {{ shape = sphere(radius: 40cm), material = n, at = (1.2, 0.4, 1.5)m }}\n"
         )
     };
+    let depth = take("RENDER ");
+    let depth = if depth.is_empty() { "depth = 6".to_owned() } else { depth };
     let air = take("AIR ");
     let air = if air.is_empty() { air } else { format!(", atmosphere = {air}") };
     format!(
@@ -206,7 +217,7 @@ instance crate {{ shape = box(size: (1, 1, 1)m), material = m, at = (0, 0.7, 0)m
 light bulb: sphere {{ center = (2, 4, 2)m, radius = 50cm, strength = 20{} }}
 camera eye: perspective {{ from = (0, 1, 5)m, to = (0, 0.7, 0)m, fov.vertical = 40deg{} }}
 film tiny {{ size = (24, 18)px{} }}
-render main: path {{ camera = eye, film = tiny, samples = 8, depth = 6, seed = 3{air} }}\n",
+render main: path {{ camera = eye, film = tiny, samples = 8, {depth}, seed = 3{air} }}\n",
         fields("MATERIAL "),
         fields("THING "),
         fields("LIGHT "),

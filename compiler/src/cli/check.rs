@@ -67,7 +67,7 @@ fn holds(compiled: &Compiled) -> Value {
     json!({
         "image": render.image_size,
         "samples": render.samples,
-        "depth": render.max_depth,
+        "depth": render.depth(),
         "triangles": counters.triangles,
         "triangles_shown": counters.shown,
         "spheres": counters.spheres,

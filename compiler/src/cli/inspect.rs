@@ -131,7 +131,7 @@ fn table(pack: &Pack<Checked>) -> String {
         "render id   {}\nimage       {width} x {height} px, {} samples, depth {}\nnodes       {}\nstack need  {}\nholds       {features}\n{}\n",
         hex(&pack.render_id()),
         render.samples,
-        render.max_depth,
+        render.depth().map_or_else(|| "unlimited".to_owned(), |depth| depth.to_string()),
         nodes(pack),
         render.stack_need,
         instances(pack),

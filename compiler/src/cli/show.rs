@@ -58,6 +58,6 @@ fn summary(scene: &lang::scene::Scene) -> String {
         scene.sky.as_ref().map_or("none", |sky| sky.name.text.as_str()),
         scene.camera.name.text,
         scene.render.samples,
-        scene.render.max_depth,
+        scene.render.max_depth.map_or_else(|| "unlimited".to_owned(), |depth| depth.to_string()),
     )
 }

@@ -109,7 +109,7 @@ pub(super) fn settings(
     abi::RenderSettings {
         image_size: scene.film.size,
         samples: scene.render.samples,
-        max_depth: scene.render.max_depth,
+        max_depth: scene.render.max_depth.unwrap_or(abi::UNLIMITED_DEPTH),
         roulette_depth: scene.render.roulette_depth,
         seed: scene.render.seed,
         exposure: scene.film.exposure as f32,

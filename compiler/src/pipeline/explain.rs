@@ -260,6 +260,8 @@ impl Explain<'_> {
         let pcg = self.features.samplers.contains(&SamplerKind::Pcg);
         let chosen = by("its sampler".to_owned(), &render.name);
         let sobol = by("its sampler is another".to_owned(), &render.name);
+        let endless = by("its depth is unlimited".to_owned(), &render.name);
+        let limited = by("its depth is limited".to_owned(), &render.name);
         let kind = |kind: CameraKind| {
             let kept = self.features.cameras.contains(&kind);
             let seen = by("the camera".to_owned(), &camera.name);
@@ -281,6 +283,12 @@ impl Explain<'_> {
             kind(CameraKind::Panoramic),
             Self::row(name_of(bit::LENS), self.features.lens, Some(open), Some(point)),
             Self::row(name_of(bit::BLADES), self.features.blades, Some(corners), Some(round)),
+            Self::row(
+                name_of(bit::UNLIMITED),
+                self.features.unlimited,
+                Some(endless),
+                Some(limited),
+            ),
             Self::row(name_of(bit::SAMPLER_PCG), pcg, Some(chosen), Some(sobol)),
         ]
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use pack::abi::{
     CameraKind, FilterKind, LightKind, Material, MaterialKind, NONE, SamplerKind, SkyKind,
-    TRI_SMOOTH, TextureFormat, material_flag,
+    TRI_SMOOTH, TextureFormat, UNLIMITED_DEPTH, material_flag,
 };
 use shaders::{FeatureSet, NodeLayout, WINDOW_WORDS, Windows};
 
@@ -42,6 +42,7 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
         cameras: CameraKind::from_tag(lowered.camera.kind).into_iter().collect(),
         blades: lowered.camera.lens_radius > 0.0 && lowered.camera.blades > 0,
         lens: lowered.camera.lens_radius > 0.0,
+        unlimited: lowered.render.max_depth == UNLIMITED_DEPTH,
         samplers: SamplerKind::from_tag(lowered.render.sampler).into_iter().collect(),
         textures: TextureFormat::ALL
             .into_iter()

@@ -5,9 +5,11 @@ use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::eval::value::Value;
 use crate::eval::{Evaluator, Scope, with_unit_fix};
 use crate::resolve::{did_you_mean, quoted_list};
-use crate::schema::{Bounds, Default, Field, FieldType, Kind, MAX_FILM_SIDE, TypeSchema, Word};
+use crate::schema::{
+    Bounds, Default, Field, FieldType, Kind, MAX_FILM_SIDE, TypeSchema, Word, type_text,
+};
 use crate::source::Span;
-use crate::syntax::{Entry, Expr, ExprKind, Ident};
+use crate::syntax::{Entry, Expr, ExprKind, Ident, Path};
 use crate::units::{self, Dim};
 
 /// Where a value is going.
@@ -70,7 +72,7 @@ impl Evaluator<'_> {
                 let text = format!("{} cannot be `none`", slot.name());
                 self.fault(Diagnostic::error(Code("E0305"), text).at(expr.span, "needs a value"))
             }
-            ExprKind::Path(path) if path.segments.len() == 1 && wants_word(field.ty) => {
+            ExprKind::Path(path) if self.wants_word(slot, path) => {
                 self.word(slot, &path.segments[0])
             }
             ExprKind::Path(path)
@@ -103,9 +105,26 @@ impl Evaluator<'_> {
         }
     }
 
+    /// Whether a name is a word to its field, known or not, and no name of something else.
+    fn wants_word(&self, slot: Slot<'_>, path: &Path) -> bool {
+        let [name] = path.segments.as_slice() else { return false };
+        match slot.field.ty {
+            FieldType::Word(_) | FieldType::Words(_) | FieldType::LengthUnit | FieldType::Axis => {
+                true
+            }
+            FieldType::IntegerOr(_, _, words) => {
+                words.iter().any(|(word, _)| *word == name.text)
+                    || self.program.lookup(slot.module, path).is_none()
+            }
+            _ => false,
+        }
+    }
+
     fn word(&mut self, slot: Slot<'_>, name: &Ident) -> Value {
         match slot.field.ty {
-            FieldType::Word(words) | FieldType::Words(words) => self.one_of(slot, words, name),
+            FieldType::Word(words)
+            | FieldType::Words(words)
+            | FieldType::IntegerOr(_, _, words) => self.one_of(slot, words, name),
             FieldType::Axis => {
                 let known = ["x", "y", "z"].contains(&name.text.as_str());
                 let error =
@@ -151,7 +170,11 @@ impl Evaluator<'_> {
         let all: Vec<String> = words.iter().map(|(word, _)| (*word).to_owned()).collect();
         let error = Diagnostic::error(Code("E0308"), text);
         let error = did_you_mean(error, name, words.iter().map(|(word, _)| *word));
-        self.fault(error.with_note(format!("it is one of {}", quoted_list(&all))))
+        let is = match slot.field.ty {
+            FieldType::IntegerOr(..) => format!("a {}", type_text(slot.field.ty)),
+            _ => format!("one of {}", quoted_list(&all)),
+        };
+        self.fault(error.with_note(format!("it is {is}")))
     }
 
     /// A list of words; every one that is none is reported.
@@ -189,7 +212,9 @@ impl Evaluator<'_> {
         match slot.field.ty {
             FieldType::Number(bounds) => self.fit_number(slot, value, bounds),
             FieldType::Quantity(choices) => self.fit_quantity(slot, value, choices),
-            FieldType::Integer(min, max) => self.fit_integer(slot, &value, [min, max]),
+            FieldType::Integer(min, max) | FieldType::IntegerOr(min, max, _) => {
+                self.fit_integer(slot, &value, [min, max])
+            }
             FieldType::Vector(dim, unit) => self.fit_vector(slot, value, (dim, unit), 3),
             FieldType::Spectrum(bounds) => self.fit_spectrum(slot, value, bounds),
             FieldType::Size(n) => self.fit_size(slot, value, n),
@@ -496,10 +521,6 @@ impl Evaluator<'_> {
         }
         Value::Vector(values, Dim::NONE)
     }
-}
-
-fn wants_word(ty: FieldType) -> bool {
-    matches!(ty, FieldType::Word(_) | FieldType::Words(_) | FieldType::LengthUnit | FieldType::Axis)
 }
 
 /// No limit but those of the language; the lower end is zero.

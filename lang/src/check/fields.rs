@@ -33,7 +33,9 @@ pub(crate) fn default_value(field: &Field) -> Option<Value> {
     Some(match field.default {
         Default::Required | Default::Absent(_) => return None,
         #[expect(clippy::cast_possible_truncation, reason = "defaults of integers are whole")]
-        Default::Number(value) if matches!(field.ty, FieldType::Integer(..)) => {
+        Default::Number(value)
+            if matches!(field.ty, FieldType::Integer(..) | FieldType::IntegerOr(..)) =>
+        {
             Value::Integer(value as u32)
         }
         Default::Number(value) if matches!(field.ty, FieldType::Scale) => {

@@ -53,7 +53,10 @@ impl Checker {
             // Its index is known when all media in use are.
             atmosphere: None,
             samples: fields.integer("samples")?,
-            max_depth: fields.integer("depth")?,
+            max_depth: match fields.word("depth") {
+                Some(_) => None,
+                None => Some(fields.integer("depth")?),
+            },
             roulette_depth: fields.integer("roulette")?,
             seed: fields.integer("seed")?,
             sampler: Sampler::of(fields.word("sampler")?)?,

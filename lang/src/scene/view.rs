@@ -182,8 +182,8 @@ pub struct Render {
     pub atmosphere: Option<usize>,
     /// Samples per pixel.
     pub samples: u32,
-    /// Longest path in segments.
-    pub max_depth: u32,
+    /// Longest path in segments; `None`: of any length.
+    pub max_depth: Option<u32>,
     /// Bounce from which Russian roulette may end a path.
     pub roulette_depth: u32,
     /// Seed of the image.

@@ -1,9 +1,15 @@
 //! The render: `render NAME: path { ... }`.
 
-use super::{Default, Field, FieldType, Kind, TypeSchema};
+use super::{Default, Field, FieldType, Kind, TypeSchema, Word};
 use crate::scene::{Layer, Sampler};
 
 pub(super) const TYPES: &[&TypeSchema] = &[&PATH];
+
+const UNLIMITED: &[Word] = &[(
+    "unlimited",
+    "paths end by Russian roulette alone, so no light is missing; from bounce 1024 on with a chance of 1 in 1024 at least, \
+     which also ends those that lose nothing",
+)];
 
 const PATH: TypeSchema = TypeSchema {
     kind: Kind::Render,
@@ -54,7 +60,7 @@ const PATH: TypeSchema = TypeSchema {
         ]),
         Field::new(
             "depth",
-            FieldType::Integer(1, 1024),
+            FieldType::IntegerOr(1, 1024, UNLIMITED),
             Default::Number(12.0),
             "Longest path, in segments; 1 sees only what gives off light.",
         )
@@ -68,7 +74,7 @@ const PATH: TypeSchema = TypeSchema {
             "roulette",
             FieldType::Integer(0, 1024),
             Default::Number(4.0),
-            "Bounce from which weak paths may end early; 1024 never ends one.",
+            "Bounce from which weak paths may end early; 1024 never ends one, unless `depth` is `unlimited`.",
         )
         .foreign(&[("rr_depth", "Mitsuba"), ("rrthreshold", "pbrt-v3")]),
         Field::new(

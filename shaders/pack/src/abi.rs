@@ -42,7 +42,9 @@ pub use light_node::{LIGHT_LEAF, LightNode, MAX_LIGHT_DEPTH};
 pub use material::{Lobes, Material, MaterialKind, Number, Traits, material_flag};
 pub use medium::Medium;
 pub use object::Object;
-pub use render::{FilterKind, RenderSettings, SamplerKind, ToneMap, f64_bits, f64_from_bits};
+pub use render::{
+    FilterKind, RenderSettings, SamplerKind, ToneMap, UNLIMITED_DEPTH, f64_bits, f64_from_bits,
+};
 pub use sky::{Sky, SkyKind, sky_table_values};
 pub use texture::{Texture, TextureFormat, Wrap};
 pub use texture_op::{MAX_TEXTURE_OPS, MAX_TEXTURE_STACK, TextureOp, TextureOpKind};

@@ -6,7 +6,7 @@
 
 use crate::abi::{
     CameraKind, FilterKind, LightKind, MaterialKind, NONE, Object, SamplerKind, SkyKind,
-    TextureFormat, material_flag,
+    TextureFormat, UNLIMITED_DEPTH, material_flag,
 };
 use crate::contents::Contents;
 
@@ -35,6 +35,8 @@ features! {
     OBJECTS = 18 "objects",
     /// And it has no inside: a thin sheet.
     SHEETS = 19 "see-through sheets",
+    /// Paths may have any length.
+    UNLIMITED = 22 "unlimited depth",
     /// Has a material with a normal map.
     NORMAL_MAPS = 21 "normal maps",
     /// Its nodes are wide.
@@ -162,6 +164,7 @@ pub(crate) fn of(contents: &Contents<'_>) -> u64 {
     set(CameraKind::from_tag(contents.camera.kind).map_or(0, CameraKind::feature), true);
     set(SamplerKind::from_tag(contents.render.sampler).map_or(0, SamplerKind::feature), true);
     set(FilterKind::from_tag(contents.render.filter).map_or(0, FilterKind::feature), true);
+    set(UNLIMITED, contents.render.max_depth == UNLIMITED_DEPTH);
     set(LIGHT_CHOICE, contents.lights.len() > 1);
     set(LIGHT_TREE, !contents.light_nodes.is_empty());
     set(INSTANCES, !contents.instances.is_empty());

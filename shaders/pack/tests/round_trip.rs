@@ -155,6 +155,7 @@ fn features_are_those_of_the_contents() {
         | features::WIDE_NODES
         | features::SAMPLER_PCG
         | features::BLADES
+        | features::UNLIMITED
         | CameraKind::Orthographic.feature()
         | CameraKind::Panoramic.feature()
         | FilterKind::ALL.into_iter().map(FilterKind::feature).sum::<u64>();
@@ -164,6 +165,10 @@ fn features_are_those_of_the_contents() {
     let mut scene = Scene::empty();
     assert_eq!(Pack::from_bytes(scene.bytes()).unwrap().features(), features::LENS);
     scene.camera.blades = 5;
+    scene.render.max_depth = pack::abi::UNLIMITED_DEPTH;
+    let endless = Pack::from_bytes(scene.bytes()).unwrap().features();
+    assert_eq!(endless, features::LENS | features::BLADES | features::UNLIMITED);
+    scene.render.max_depth = 8;
     let bladed = Pack::from_bytes(scene.bytes()).unwrap().features();
     assert_eq!(bladed, features::LENS | features::BLADES);
     scene.camera.lens_radius = 0.0;

@@ -63,6 +63,7 @@ const OTHERS: &[Other] = &[
         f.lens = true;
         f.blades = true;
     }),
+    ("unlimited", |f| f.unlimited = true),
     ("alpha clip", |f| f.alpha_clip = true),
     ("tangents", |f| f.tangents = true),
     ("objects", |f| f.objects = true),

@@ -19,6 +19,7 @@
 #import "scene/probe.wgsl"
 #import "scene/sampler.wgsl"
 #import "scene/start.wgsl"
+#import "scene/survival.wgsl"
 #import "surface/surface.wgsl"
 #import "trace/ray.wgsl"
 
@@ -133,7 +134,7 @@ fn vertex_roulette(path: ptr<function, Path>, key: SampleKey) -> bool {
     if (key.bounce < load_frame_roulette_depth()) {
         return true;
     }
-    let q = min(largest * (*path).eta_scale, 1.0);
+    let q = dispatch_survival(key.bounce, min(largest * (*path).eta_scale, 1.0));
     if (sample_1d(key, PURPOSE_ROULETTE) >= q) {
         return false;
     }

@@ -27,7 +27,7 @@ pub(super) fn document(
         "output": manifest.output,
         "image": render.image_size,
         "samples": render.samples,
-        "depth": render.max_depth,
+        "depth": render.depth(),
         "stack_need": render.stack_need,
         "nodes": {
             "binary": pack.records::<Node>().len(),

@@ -17,7 +17,7 @@ abi_struct! {
         pub sample_count: u32,
         /// Seed of the whole image; a coordinate of every random number.
         pub seed: u32,
-        /// Longest path in segments; 1 sees emission only.
+        /// Longest path in segments; 1 sees emission only, `NONE` is no limit.
         pub max_depth: u32,
         /// Bounce from which Russian roulette may end a path.
         pub roulette_depth: u32,

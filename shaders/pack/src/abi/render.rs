@@ -41,6 +41,9 @@ tags! {
     }
 }
 
+/// `max_depth` of paths of any length: they end by Russian roulette.
+pub const UNLIMITED_DEPTH: u32 = u32::MAX;
+
 abi_struct! {
     /// The RENDER section: exactly one element, 112 bytes.
     pub struct RenderSettings {
@@ -48,7 +51,7 @@ abi_struct! {
         pub image_size: [u32; 2],
         /// Samples per pixel.
         pub samples: u32,
-        /// Longest path in segments, >= 1.
+        /// Longest path in segments, >= 1, or `UNLIMITED_DEPTH`.
         pub max_depth: u32,
         /// Bounce from which Russian roulette may end a path.
         pub roulette_depth: u32,
@@ -89,6 +92,12 @@ abi_struct! {
 }
 
 impl RenderSettings {
+    /// Longest path in segments; `None`: of any length.
+    #[must_use]
+    pub fn depth(&self) -> Option<u32> {
+        (self.max_depth != UNLIMITED_DEPTH).then_some(self.max_depth)
+    }
+
     /// `normalised = (world - center) * scale`; a power of two in a checked pack.
     #[must_use]
     pub fn scale(&self) -> f64 {

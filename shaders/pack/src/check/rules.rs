@@ -7,7 +7,7 @@ use crate::abi::{
     Camera, CameraKind, FilterKind, Instance, Light, LightKind, LightNode, LightSurface, MOVES,
     Material, MaterialKind, Medium, Node, OBJECT_OF_INSTANCE, Object, RenderSettings, SamplerKind,
     Sky, SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap, TriShade, Triangle,
-    WideNode, Wrap, material_flag,
+    UNLIMITED_DEPTH, WideNode, Wrap, material_flag,
 };
 use crate::contents::Contents;
 use crate::fault::ElementFault;
@@ -50,12 +50,12 @@ macro_rules! rules {
 }
 
 rules! { pack;
-    // `samples` has no upper bound, `roulette_depth` and `seed` are free; `root` and `stack_need`
+    // `samples` has no upper bound, `roulette_depth` (unless paths may have any length) and `seed` are free; `root` and `stack_need`
     // are the tree's, `n_lights` was compared with LIGHT.
-    RenderSettings {
+    RenderSettings and render {
         image_size: count(1, 65_536),
         samples: at_least_one(),
-        max_depth: at_least_one_at_most(65_535),
+        max_depth: depth(),
         exposure: finite(),
         tone_map: tag(ToneMap::ALL.len()),
         scale_bits: power_of_two(),
@@ -293,12 +293,15 @@ fn at_least_one(value: u32) -> Option<ElementFault> {
     count([value], 1, u32::MAX)
 }
 
-fn at_least_one_at_most(value: u32, max: u32) -> Option<ElementFault> {
-    count([value], 1, max)
-}
-
 fn at_most(value: u32, max: u32) -> Option<ElementFault> {
     count([value], 0, max)
+}
+
+/// Longest path in segments that a pack may ask for, beside those of any length.
+const MAX_DEPTH: u32 = 65_535;
+
+fn depth(value: u32) -> Option<ElementFault> {
+    if value == UNLIMITED_DEPTH { None } else { count([value], 1, MAX_DEPTH) }
 }
 
 fn dimension(value: u32) -> Option<ElementFault> {
@@ -329,6 +332,14 @@ fn material(record: &Material, pack: &Contents<'_>) -> Option<Broken> {
         return Some(("ior", fault));
     }
     not_negative(record.ior_minus_1).map(|fault| ("ior_minus_1", fault))
+}
+
+/// Paths of any length end by Russian roulette, which must begin.
+fn render(record: &RenderSettings, _: &Contents<'_>) -> Option<Broken> {
+    if record.max_depth != UNLIMITED_DEPTH {
+        return None;
+    }
+    at_most(record.roulette_depth, MAX_DEPTH).map(|fault| ("roulette_depth", fault))
 }
 
 /// Only perspective cameras have a lens.
