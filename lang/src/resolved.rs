@@ -18,6 +18,11 @@ use crate::schema::color_text;
 use crate::shape::MeshEdit;
 use crate::units::{self, Dim};
 
+/// What fields may refer to.
+fn shown(scene: &Scene) -> Shown<'_> {
+    Shown::new(&scene.textures, &scene.expressions, &scene.media)
+}
+
 /// Every declaration of the scene, sorted by kind and name.
 #[must_use]
 pub fn resolved(scene: &Scene) -> String {
@@ -50,7 +55,7 @@ fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
         )?;
     }
     for material in &scene.materials {
-        let mut shown = Shown::new(scene);
+        let mut shown = shown(scene);
         let kind = material.model.show(&mut shown);
         let mut fields = shown.lines;
         if let Some(map) = &material.normal {
@@ -198,7 +203,7 @@ fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {
         ("camera", camera.name.text.clone()),
         ("film", film.name.text.clone()),
         ("sky", sky.to_owned()),
-        ("atmosphere", Shown::new(scene).medium(render.atmosphere)),
+        ("atmosphere", shown(scene).medium(render.atmosphere)),
         ("samples", render.samples.to_string()),
         (
             "depth",

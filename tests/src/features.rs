@@ -545,7 +545,7 @@ const MANY: &str = "material m: principled {
 }\n";
 const ALL_THINGS: &str = "material brass: metal { color = linear(0.9, 0.7, 0.4), fuzz = 0.3 }
 material glass: dielectric { ior = 1.5 }
-material clay: diffuse { color = paint.rgb }
+material clay: diffuse { color = mix(paint.rgb, linear(0.5), checker(4)) }
 material steel: conductor { color = linear(0.8), roughness = 0.3, anisotropy = 0.8 }
 material frosted: dielectric { roughness = 0.4 }
 material lacquer: clearcoat { color = linear(0.7, 0.1, 0.1) }

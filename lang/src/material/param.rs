@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::check::Fields;
 use crate::eval::value::Value;
 use crate::resolve::ItemId;
-use crate::scene::{Medium, Rgb, Scene, Texture};
+use crate::scene::{Medium, Rgb, Texture};
 use crate::schema::{self, Field, FieldType, color_text};
 use crate::source::Span;
 use crate::texture::TextureExpression;
@@ -126,8 +126,11 @@ pub(crate) struct Shown<'a> {
 }
 
 impl<'a> Shown<'a> {
-    pub(crate) fn new(scene: &'a Scene) -> Self {
-        let Scene { textures, expressions, media, .. } = scene;
+    pub(crate) fn new(
+        textures: &'a [Texture],
+        expressions: &'a [TextureExpression<usize>],
+        media: &'a [Medium],
+    ) -> Self {
         Self { textures, expressions, media, lines: Vec::new() }
     }
 
