@@ -330,6 +330,13 @@ fn relation_cases() -> Vec<Case> {
             }),
             "TEXTURE[3] at byte 0x60: width is 65, expected 1 to 64",
         ),
+        (
+            Parts(|d| {
+                d.section(Kind::TEXEL).extend([0; 3 * 48]);
+                put32(d.section(Kind::TEXTURE), 0x64, 2);
+            }),
+            "TEXTURE[3] at byte 0x64: height is 2, expected 1 to 1",
+        ),
         (Parts(|d| d.remove(Kind::RENDER)), "section RENDER is missing"),
         (Parts(|d| d.remove(Kind::CAMERA)), "section CAMERA is missing"),
         (Parts(|d| d.remove(Kind::KERNEL)), "section KERNEL is missing"),
