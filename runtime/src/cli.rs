@@ -15,6 +15,7 @@ mod denoise;
 mod denoise_args;
 mod exit;
 mod guard;
+mod job;
 mod layer_args;
 mod layers;
 mod measure;
@@ -33,10 +34,12 @@ use self::console::Console;
 use self::exit::Exit;
 use self::outputs::{Claim, prove, save};
 use crate::output;
+use crate::region::SampleRange;
 use crate::signals::Observer;
 use clap::Parser as _;
 use files::ShowPath as _;
 use std::ffi::OsString;
+use std::path::Path;
 use std::process::ExitCode;
 
 /// Runs `rtr` with these arguments, the program's name first. May be called several times in one
@@ -64,6 +67,7 @@ pub fn run_observed(
         Some(Command::Bench(bench)) => bench.threads,
         Some(Command::Check(check)) => check.threads,
         Some(Command::View(view)) => view.threads,
+        Some(Command::Job(job)) => job.threads,
         None => args.render.threads,
     };
     if let Err(error) = host::start_pool(wanted) {
@@ -74,6 +78,7 @@ pub fn run_observed(
         Some(Command::Bench(bench)) => bench::command(bench),
         Some(Command::Check(args)) => check::command(args),
         Some(Command::View(args)) => view::command(args),
+        Some(Command::Job(args)) => job::command(args),
         None if args.render.list_devices => list_devices(),
         None if args.render.ablate.is_some() => ablate::command(&args.render),
         None if args.render.pick.is_some() => pick::command(&args.render),
@@ -143,6 +148,18 @@ fn merge_command(args: &MergeArgs) -> Exit {
             return console.fail(&error, Exit::World);
         }
     };
+    if let Some(whole) = args.samples {
+        let ranges = &picture.film.ranges;
+        let missing = output::missing(ranges, whole);
+        if !missing.is_empty() {
+            return missing_parts(&console, args, &missing);
+        }
+        if ranges.as_slice() != [whole] {
+            let found = ranges.iter().map(ToString::to_string).collect::<Vec<_>>().join(",");
+            console.warn(&format!("error: the parts have samples {found}, more than {whole}"));
+            return Exit::World;
+        }
+    }
     let mut exit = Exit::Done;
     if let Some(denoiser) = &denoiser {
         exit = denoise::denoise(&console, denoiser, &mut picture).err().unwrap_or(exit);
@@ -155,4 +172,19 @@ fn merge_command(args: &MergeArgs) -> Exit {
         exit = save(&console, path, &bytes).err().unwrap_or(exit);
     }
     exit
+}
+
+/// Says which samples no part has, and the command that renders them.
+fn missing_parts(console: &Console, args: &MergeArgs, missing: &[SampleRange]) -> Exit {
+    let text = missing.iter().map(ToString::to_string).collect::<Vec<_>>().join(",");
+    console.warn(&format!("error: samples {text} are missing"));
+    let folder = args.parts.first().and_then(|part| part.parent()).unwrap_or(Path::new(""));
+    for range in missing {
+        let part = folder.join(format!("samples-{}-{}.exr", range.start, range.end));
+        console.warn(&format!(
+            "help: render them with the flags of the other parts: rtr SCENE.pack --samples {range} -o {}",
+            part.shown()
+        ));
+    }
+    Exit::World
 }

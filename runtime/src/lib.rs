@@ -28,6 +28,7 @@ mod control;
 pub mod convergence;
 mod cpu;
 pub mod denoise;
+pub mod farm;
 mod film;
 mod gather;
 #[cfg(feature = "gpu")]

@@ -13,7 +13,7 @@ mod png;
 
 pub(crate) use self::exr::parse_bad;
 pub use self::exr::{encode_exr, read_exr};
-pub use self::merge::{Identity, MergeError, merge};
+pub use self::merge::{Identity, MergeError, is_whole, merge, missing};
 pub use self::picture::{Denoised, Meta, OutputError, Picture};
 pub(crate) use self::picture::{parse_ranges, ranges_text};
 pub(crate) use self::png::encode_rgb;

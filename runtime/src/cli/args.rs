@@ -3,6 +3,7 @@
 use super::denoise_args::DenoiseArgs;
 use super::layer_args::LayerArgs;
 use crate::convergence::Goal;
+use crate::layers::Layer;
 use crate::output::Format;
 use crate::region::{Rect, SampleRange};
 use clap::{Parser, Subcommand, ValueEnum};
@@ -17,6 +18,7 @@ Examples:
   rtr scene.pack --samples 0..32 -o a.exr one half of the samples here ...
   rtr scene.pack --samples 32..64 -o b.exr   ... the other half there,
   rtr merge a.exr b.exr -o c.exr -o c.png    merged
+  rtr job scene.pack --format slurm       ... or on many machines
   rtr scene.pack -o a.png --resume        resume after Ctrl-C, a crash or a power cut
   rtr scene.pack -o a.png --resume=a.png.checkpoint.1   ... from a checkpoint of an earlier run
   rtr scene.pack -o a.png --write-every 2s    look at the picture while it is rendered
@@ -77,6 +79,77 @@ pub(super) enum Command {
     /// Show a scene in a browser while it renders: look around, ask what is seen, adjust the exposure.
     #[command(after_help = VIEW_EXAMPLES)]
     View(ViewArgs),
+    /// Write a job that renders a picture on many machines: for Open Job Description, Slurm or GNU parallel.
+    #[command(after_help = JOB_EXAMPLES)]
+    Job(JobArgs),
+}
+
+const JOB_EXAMPLES: &str = "\
+Examples:
+  rtr job scene.pack --format openjd            scene.openjd.yaml, to be run with
+    openjd run scene.openjd.yaml --extensions TASK_CHUNKING --step Render
+    openjd run scene.openjd.yaml --extensions TASK_CHUNKING --step Merge
+  rtr job scene.pack --format slurm             scene.render.sbatch and scene.merge.sbatch:
+    render=$(sbatch --parsable scene.render.sbatch)
+    sbatch --dependency=afterok:$render scene.merge.sbatch
+  rtr job scene.pack --format sh --chunk 4      scene.job.sh, four batches a task:
+    seq 0 15 | parallel --sshloginfile nodes --workdir . sh ./scene.job.sh task
+    sh ./scene.job.sh merge
+
+Parts merge to the bits of one run. Tasks may be killed at any time and run twice (docs/farm.md).";
+
+/// What a job is written for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum JobFormat {
+    /// Open Job Description, 2023-09, with TASK_CHUNKING.
+    Openjd,
+    /// An array job for Slurm, and the merge that waits for it.
+    Slurm,
+    /// A shell script, for GNU parallel over ssh or one machine.
+    Sh,
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct JobArgs {
+    /// The pack to render. Tasks open it by this name, so all machines must see it there.
+    #[arg(value_name = "SCENE.pack")]
+    pub(super) pack: PathBuf,
+    /// What the job is written for.
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub(super) format: JobFormat,
+    /// Folder for the files of the job [default: the working folder].
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(super) output: Option<PathBuf>,
+    /// Samples per pixel [default: those of the scene].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) spp: Option<u32>,
+    /// Image size in pixels [default: that of the scene].
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub(super) size: Option<[u32; 2]>,
+    /// Seed of the image [default: that of the scene].
+    #[arg(long, value_name = "N")]
+    pub(super) seed: Option<u32>,
+    /// Device of the tasks, as for rendering.
+    #[arg(long, default_value = "auto", value_name = "DEVICE")]
+    pub(super) device: String,
+    /// Layers of the picture, as for rendering.
+    #[arg(long, value_name = "LAYER,...", value_delimiter = ',', value_enum)]
+    pub(super) layers: Vec<Layer>,
+    /// Batches of 16 samples that a task renders [default: what takes --task-time here].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) chunk: Option<u32>,
+    /// How long a task should take.
+    #[arg(long, default_value = "10m", value_name = "TIME", value_parser = parse_duration)]
+    pub(super) task_time: Duration,
+    /// Render for so long here to learn how long a batch takes.
+    #[arg(long, default_value = "20s", value_name = "TIME", value_parser = parse_duration, conflicts_with = "chunk")]
+    pub(super) measure: Duration,
+    /// Threads of the measurement [default: one for each logical CPU].
+    #[arg(long, value_name = "N", value_parser = parse_threads)]
+    pub(super) threads: Option<usize>,
+    /// Print errors only.
+    #[arg(long)]
+    pub(super) quiet: bool,
 }
 
 #[derive(Debug, clap::Args)]
@@ -91,6 +164,9 @@ pub(super) struct MergeArgs {
     /// standard output, pipes and devices].
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub(super) format: Option<Format>,
+    /// What the parts must add up to; missing samples are an error, with the command that renders them.
+    #[arg(long, value_name = "A..B", value_parser = parse_samples)]
+    pub(super) samples: Option<SampleRange>,
     /// Print errors only.
     #[arg(long)]
     pub(super) quiet: bool,
@@ -322,6 +398,10 @@ pub(super) struct RenderArgs {
     #[arg(conflicts_with_all = MEASURING)]
     #[expect(clippy::option_option, reason = "what clap calls a flag with an optional value")]
     pub(super) resume: Option<Option<PathBuf>>,
+    /// Leave the pictures alone if they are there already: every EXR holds all samples of this run, of this very pack.
+    /// For tasks that may run twice.
+    #[arg(long, conflicts_with = "watch", conflicts_with_all = MEASURING)]
+    pub(super) skip_complete: bool,
     /// Render again whenever the pack changes, until Ctrl-C. Unfinished pictures are not continued, broken packs
     /// reported.
     #[arg(long, conflicts_with = "resume", conflicts_with_all = MEASURING)]

@@ -18,7 +18,7 @@ use crate::denoise::Denoiser;
 use crate::job::{Job, Precision};
 use crate::mark::Mark;
 use crate::outcome::Outcome;
-use crate::output::Format;
+use crate::output::{self, Format, read_exr};
 use crate::region::SampleRange;
 use crate::render::{DeviceChoice, RenderError, render_session};
 use crate::saver::{Keep, Session};
@@ -97,6 +97,13 @@ pub(super) fn command(
     if let Err(exit) = prove_all(args, &console, &job, &outputs, &checkpoint) {
         return exit;
     }
+    if args.skip_complete {
+        match complete(&console, &scene, &job, &outputs) {
+            Ok(false) => {}
+            Ok(true) => return Exit::Done,
+            Err(exit) => return exit,
+        }
+    }
     let load = began.elapsed();
     let resumed = args.resume.as_ref().and_then(|_| Mark::of(&checkpoint));
     let from = match earlier(args, &console, &checkpoint, &scene, &job) {
@@ -121,6 +128,26 @@ pub(super) fn command(
     let plan =
         Plan { args, observer, console, scene, guard, job, pictures, watching, load, resumed };
     run(&plan, Session { from, keep })
+}
+
+/// Whether all pictures are there already; says so. What is no whole picture of this run is rendered again.
+fn complete(console: &Console, scene: &Scene, job: &Job, outputs: &[Output]) -> Result<bool, Exit> {
+    let mut pictures = outputs.iter().filter(|output| output.format == Format::Exr).peekable();
+    if pictures.peek().is_none() {
+        console.warn(
+            "error: --skip-complete needs an .exr output: other pictures do not say whose they are",
+        );
+        return Err(Exit::Usage);
+    }
+    let is_whole = |output: &Output| {
+        read_exr(&output.path).is_ok_and(|picture| output::is_whole(&picture, scene, job))
+    };
+    let all = pictures.all(is_whole) && outputs.iter().all(|output| output.path.exists());
+    if all {
+        let names: Vec<String> = outputs.iter().map(|o| o.path.shown().to_string()).collect();
+        console.note(&format!("{} complete already", names.join(", ")));
+    }
+    Ok(all)
 }
 
 /// Sets what is wanted beside radiance; gives the denoiser, if one is.

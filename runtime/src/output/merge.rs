@@ -3,7 +3,7 @@
 use super::picture::{Meta, Picture, clamp_text, ranges_text};
 use crate::job::Job;
 use crate::layers::Wanted;
-use crate::region::{Rect, insert_range};
+use crate::region::{Rect, SampleRange, insert_range};
 use crate::scene::Scene;
 use thiserror::Error;
 
@@ -137,6 +137,33 @@ fn layers_text(picture: &Picture) -> String {
     let groups =
         if groups.is_empty() { String::new() } else { format!(", groups {}", groups.join(" ")) };
     format!("{} ({}{sky}{groups})", layers.wanted.text(), names.name())
+}
+
+/// Whether `picture` is all that `job` makes of `scene`.
+#[must_use]
+pub fn is_whole(picture: &Picture, scene: &Scene, job: &Job) -> bool {
+    let layers = picture.layers.as_ref().map(|layers| &layers.wanted);
+    let wanted = (!job.wanted.is_empty()).then_some(&job.wanted);
+    picture.meta.complete
+        && picture.meta.coarse_block.is_none()
+        && picture.film.is_even()
+        && picture.film.replicates() == 1
+        && picture.film.ranges == [job.samples]
+        && layers == wanted
+        && Identity::of_picture(picture) == Identity::of(scene, job)
+}
+
+/// Samples of `whole` that none of these ranges has, in order. The ranges are sorted and disjoint.
+#[must_use]
+pub fn missing(ranges: &[SampleRange], whole: SampleRange) -> Vec<SampleRange> {
+    let mut gaps = Vec::new();
+    let mut next = whole.start;
+    for range in ranges {
+        gaps.extend(SampleRange::new(next, range.start.min(whole.end)));
+        next = next.max(range.end);
+    }
+    gaps.extend(SampleRange::new(next, whole.end));
+    gaps
 }
 
 /// What parts of one picture share, and what a run that goes on shares with the one before.

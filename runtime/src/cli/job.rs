@@ -1,0 +1,156 @@
+//! `rtr job scene.pack`: writes the files of a job that renders a picture on many machines.
+
+use super::args::{JobArgs, JobFormat, Verify};
+use super::console::{Console, Watched, is_interrupted, reset_interrupts};
+use super::exit::Exit;
+use super::guard::Guard;
+use super::open::{How, is_stdin, open};
+use super::outputs::{Claim, Use, prove, save};
+use super::progress::{Wanted, duration_text};
+use crate::control::Control;
+use crate::farm::{self, Engine, Plan, chunk_for};
+use crate::job::Job;
+use crate::region::SampleRange;
+use crate::render::{DeviceChoice, render};
+use crate::scene::Scene;
+use pack::abi::BATCH;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// More samples than any measurement takes.
+const ENDLESS: SampleRange = SampleRange { start: 0, end: 1 << 28 };
+
+pub(super) fn command(args: &JobArgs) -> Exit {
+    let console = Console::with_progress(args.quiet);
+    reset_interrupts();
+    match write(args, &console) {
+        Ok(()) => Exit::Done,
+        Err(exit) => exit,
+    }
+}
+
+fn write(args: &JobArgs, console: &Console) -> Result<(), Exit> {
+    let path = &args.pack;
+    if is_stdin(path) {
+        console.warn("error: the tasks of a job open the pack by its name: name a file");
+        return Err(Exit::Usage);
+    }
+    let pack = open(path, How::Map).map_err(|e| console.fail_about(path, &e, Exit::World))?;
+    let scene = Scene::new(pack);
+    let guard = Guard::new(console, path, scene.pack(), Verify::First)?;
+    let mut job = Job::of_scene(&scene);
+    if let Some(size) = args.size {
+        job.resize(size);
+    }
+    job.seed = args.seed.unwrap_or(job.seed);
+    job.threads = args.threads;
+    let samples = args.spp.unwrap_or(job.samples.count());
+    job.check().map_err(|error| console.fail(&error, Exit::Usage))?;
+    let batches = samples.div_ceil(BATCH);
+    let chunk = if let Some(chunk) = args.chunk {
+        chunk.min(batches)
+    } else {
+        let batch = measured(args, console, (&scene, &guard), job)?;
+        let chunk = chunk_for(batch, args.task_time, batches);
+        console.note(&format!(
+            "a batch of {BATCH} samples takes about {} here, {chunk} of them {}",
+            duration_text(batch),
+            duration_text(batch * chunk)
+        ));
+        if batch > args.task_time * 2 {
+            console.warn(
+                "warning: no task can be shorter than a batch; one that is killed loses at most a minute, \
+                 the time between checkpoints",
+            );
+        }
+        chunk
+    };
+    let plan = plan(args, samples, chunk);
+    let (files, commands) = farm::files(&plan, engine(args.format));
+    let folder = args.output.clone().unwrap_or_default();
+    let paths: Vec<PathBuf> = files.iter().map(|file| folder.join(&file.name)).collect();
+    let claims: Vec<_> = paths.iter().map(|path| Claim::new(path, "the job", 0)).collect();
+    prove(console, &[Use { path, what: "the pack" }], &claims)?;
+    for (path, file) in paths.iter().zip(&files) {
+        save(console, path, file.text.as_bytes())?;
+    }
+    console.note(&format!(
+        "{} tasks of {} samples; submit them with",
+        plan.tasks(),
+        plan.samples_of_task()
+    ));
+    for line in commands {
+        console.note(&format!("  {line}"));
+    }
+    Ok(())
+}
+
+fn engine(format: JobFormat) -> Engine {
+    match format {
+        JobFormat::Openjd => Engine::OpenJd,
+        JobFormat::Slurm => Engine::Slurm,
+        JobFormat::Sh => Engine::Shell,
+    }
+}
+
+fn plan(args: &JobArgs, samples: u32, chunk: u32) -> Plan {
+    let mut flags = Vec::new();
+    if let Some([width, height]) = args.size {
+        flags.extend(["--size".to_owned(), format!("{width}x{height}")]);
+    }
+    if let Some(seed) = args.seed {
+        flags.extend(["--seed".to_owned(), seed.to_string()]);
+    }
+    if args.device != "auto" {
+        flags.extend(["--device".to_owned(), args.device.clone()]);
+    }
+    if !args.layers.is_empty() {
+        let names: Vec<&str> = args.layers.iter().map(|layer| layer.name()).collect();
+        flags.extend(["--layers".to_owned(), names.join(",")]);
+    }
+    let name = args.pack.file_stem().map_or_else(|| "job".into(), |stem| stem.to_string_lossy());
+    Plan { name: name.into_owned(), pack: args.pack.display().to_string(), samples, chunk, flags }
+}
+
+/// What a batch of the whole frame takes on this machine.
+fn measured(
+    args: &JobArgs,
+    console: &Console,
+    (scene, guard): (&Scene, &Guard),
+    mut job: Job,
+) -> Result<Duration, Exit> {
+    job.samples = ENDLESS;
+    job.time_limit = Some(args.measure);
+    let (control, over) = (Control::default(), AtomicBool::new(false));
+    let watched = Watched { wanted: Wanted::of(&job), change: None };
+    let rescue = || {
+        if control.is_cancelled() {
+            console.give_up();
+        }
+    };
+    let outcome = std::thread::scope(|scope| {
+        let watcher = scope.spawn(|| console.watch(&control, &watched, &over, &rescue));
+        let choice = DeviceChoice::parse(&args.device);
+        let outcome = guard.during(&control, || render(scene, &job, &choice, &control));
+        over.store(true, Ordering::Relaxed);
+        watcher.thread().unpark();
+        outcome
+    });
+    let outcome = outcome?.map_err(|error| console.fail(&error, Exit::World))?;
+    if is_interrupted() {
+        return Err(Exit::Interrupted);
+    }
+    if let Some(error) = &outcome.device_error {
+        console.warn(&format!("error: {error}"));
+        return Err(Exit::World);
+    }
+    let mean = outcome.film().total_samples() as f64 / job.crop.pixels() as f64;
+    if mean <= 0.0 {
+        console.warn(
+            "error: the measurement was too short for one sample; give it more with --measure 60s",
+        );
+        return Err(Exit::World);
+    }
+    Ok(Duration::from_secs_f64(outcome.elapsed.as_secs_f64() * f64::from(BATCH) / mean))
+}
