@@ -104,7 +104,8 @@ pub fn lower(
     thick::check(scene, files.assets(), diagnostics);
     let look = seen::Look { scene, bodies: &bodies, materials: &materials, stages };
     seen::check(&look, diagnostics)?;
-    let world = World { bodies: &bodies, materials: &materials, stages, trees, inside };
+    let n_far = scene.directional.iter().filter(|light| power::shines(light)).count();
+    let world = World { bodies: &bodies, materials: &materials, stages, trees, inside, n_far };
     let progress = world.begin()?;
     let frame = progress.frame();
     let boundaries = inside.then(|| progress.boundaries());
@@ -112,15 +113,26 @@ pub fn lower(
 
     // What gives light.
     let flux = sky.as_ref().and_then(sky::LoweredSky::flux);
-    let mut emitters = progress.emitters();
-    let n_emitters = emitters.len();
+    let far = progress.sky_area().unwrap_or(1.0);
+    let mut emitters: Vec<_> = (0..)
+        .zip(&scene.directional)
+        .map(|(index, light)| power::directional(index, light, far))
+        .collect();
+    let first = emitters.len();
+    emitters.extend(progress.emitters());
+    let surfaces = first..emitters.len();
     emitters.extend(flux.and(progress.sky_area()).map(power::sky));
     let choices = light::choices(&power::powers(&emitters, &materials, flux));
     let ids = light::ids(&choices);
 
     // Triangles, spheres and the tree over them.
-    let (sections, times, has_geometry) = world.finish(progress, &ids[..n_emitters])?;
-    let mut lights = light::table(&emitters, &choices, &sections.lights);
+    let (sections, times, has_geometry) = world.finish(progress, &ids[surfaces])?;
+    let first = scene.instances.len() + scene.lights.len();
+    let far: Vec<abi::Light> = (first..)
+        .zip(&scene.directional)
+        .map(|(object, light)| light::directional(light, object))
+        .collect();
+    let mut lights = light::table(&emitters, &choices, &far, &sections.lights);
     let motions = motion::displacements(&bodies.things, &frame);
     let motion = |light: &abi::Light| displacement(light, &sections, &motions);
     let hidden = if trees.visibility == Visibility::Auto && motions.is_empty() && lights.len() > 1 {
@@ -221,7 +233,7 @@ fn around_camera(
 
 /// How far a light comes while the shutter is open; `motions` is empty where nothing moves.
 fn displacement(light: &abi::Light, sections: &Sections, motions: &[[f32; 3]]) -> DVec3 {
-    if motions.is_empty() || light.kind == abi::LightKind::Sky as u32 {
+    if motions.is_empty() || !light.has_surface() {
         return DVec3::ZERO;
     }
     let primitive = light.primitive as usize;

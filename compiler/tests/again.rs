@@ -209,6 +209,13 @@ fn what_does_not_move_is_taken_over() {
         // One place more of a mesh that is stored once, and one less.
         ("near[i in 0..4]", "near[i in 0..5]"),
         ("near[i in 0..5]", "near[i in 0..3]"),
+        // A light at infinity, which is before all others in the table of lights, and none again.
+        (
+            "sky dusk: gradient",
+            "light sun: directional { direction = (1, 1, 0), illuminance = 9W/m2 }\nsky dusk: gradient",
+        ),
+        ("illuminance = 9W/m2", "illuminance = 5W/m2"),
+        ("illuminance = 5W/m2", "illuminance = 0W/m2"),
         // A thing before all others.
         (
             "instance hill",

@@ -12,7 +12,8 @@ use std::fmt::{self, Write as _};
 
 use crate::material::Shown;
 use crate::scene::{
-    AssetFormat, Axis, Camera, FileFrame, Instance, Light, Projection, Scene, Shape, Wrap,
+    AssetFormat, Axis, Camera, Directional, FileFrame, Instance, Light, Projection, Scene, Shape,
+    Wrap,
 };
 use crate::schema::color_text;
 use crate::shape::MeshEdit;
@@ -72,6 +73,10 @@ fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
         let (kind, fields) = light_fields(light);
         block(out, &format!("light {}: {kind}", light.name.text), &fields)?;
     }
+    for light in &scene.directional {
+        let fields = directional_fields(light);
+        block(out, &format!("light {}: directional", light.name.text), &fields)?;
+    }
     for medium in &scene.media {
         let (kind, fields) = medium.shown();
         block(out, &format!("medium {}: {kind}", medium.name.text), &fields)?;
@@ -111,6 +116,17 @@ fn light_fields(light: &Light) -> (&'static str, Vec<(&'static str, String)>) {
     }
     fields.extend(group(light.group.as_ref()));
     (kind, fields)
+}
+
+fn directional_fields(light: &Directional) -> Vec<(&'static str, String)> {
+    let mut fields = vec![
+        ("direction", vector(light.direction, "")),
+        ("angular_diameter", units::show(2.0 * light.half_angle, Dim::ANGLE)),
+        ("color", color_text(light.radiance)),
+        ("strength", "1".to_owned()),
+    ];
+    fields.extend(group(light.group.as_ref()));
+    fields
 }
 
 /// A declaration with its fields, one on each line.

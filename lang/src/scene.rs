@@ -17,7 +17,7 @@ mod view;
 pub use common::{Name, Rgb};
 pub use file::{Asset, AssetFormat, Axis, ColorSpace, FileFrame, Texture, Wrap};
 pub use instance::Instance;
-pub use light::{Beam, Light, Tint};
+pub use light::{Beam, Directional, Light, Tint};
 pub use view::{
     Camera, Film, Filter, Fit, Layer, Lens, Projection, Render, Sampler, Side, ToneMap,
 };
@@ -47,6 +47,8 @@ pub struct Scene {
     pub instances: Vec<Instance>,
     /// Sphere lights declared with `light`, sorted by name.
     pub lights: Vec<Light>,
+    /// Lights at infinity, sorted by name.
+    pub directional: Vec<Directional>,
     /// What is seen where nothing is; `None` is black.
     pub sky: Option<Sky>,
     /// The camera that `render` names.

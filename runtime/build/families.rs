@@ -253,7 +253,8 @@ fn geometry() -> Family {
                 let possible = lights.iter().all(|kind| match kind.surface() {
                     Some(LightSurface::Sphere) => spheres,
                     Some(LightSurface::Triangles) => triangles,
-                    None => triangles || spheres,
+                    // The camera sees a directional light where nothing else is.
+                    None => triangles || spheres || *kind == LightKind::Directional,
                 });
                 if !possible {
                     continue;

@@ -41,6 +41,7 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/dispatch.wgsl", path::dispatch(features)),
         ("scene/dispatch_bsdf.wgsl", bsdf::dispatch()),
         ("scene/dispatch_choice.wgsl", choice::text(features)),
+        ("scene/directional.wgsl", path::directional(features)),
         ("scene/dispatch_light.wgsl", light::dispatch(features)),
         ("scene/dispatch_pattern.wgsl", bsdf::pattern(features)),
         ("scene/before.wgsl", media::before(features)),

@@ -150,6 +150,14 @@ pub const CASES: &[Case] = &[
     case("tinted light", &[TINTED, SKY, PLASTIC, BALL, FLOOR]),
     case("spot light", &[SPOT, PLASTIC, BALL, FLOOR]),
     case("spot light and other lights", &[SPOT, TINTED, LAMP, PANEL, SKY, FUZZY, BALL, FLOOR]),
+    case("directional light alone", &[SUN_AHEAD]),
+    case("directional light behind a sky", &[GRADIENT, SUN_AHEAD]),
+    case("directional light", &[SUN, PLASTIC, BALL, FLOOR]),
+    case("directional lights over an image sky", &[PANORAMA, SUN, SUN_AHEAD, FUZZY, BALL, FLOOR]),
+    case(
+        "directional lights, a tree of lights and the sky",
+        &[PANORAMA, SUN, SUN_AHEAD, LAMP, PANEL, MANY_LAMPS, SPARKS, FUZZY, BALL, FLOOR],
+    ),
     case("tree of lights", &[LAMP, MANY_LAMPS, PLASTIC, BALL, FLOOR]),
     case(
         "tree of lights of every kind and the sky",
@@ -253,6 +261,7 @@ const ALL: &[&str] = &[
     GRADIENT,
     TINTED,
     SPOT,
+    SUN,
     LAMP,
     MOVING_PANEL,
     MANY_LAMPS,
@@ -308,6 +317,9 @@ const TINTED: &str = "light bulb: sphere {
   tint.angle = 14deg
 }\n";
 const SPOT: &str = "light stage: spot { at = (1, 4, 2)m, to = (0, 0.5, 0)m, cone = 20deg, edge = 8deg, radius = 20cm, power = 4000lm }\n";
+const SUN: &str = "light sun: directional { direction = (1, 2, 1), angular_diameter = 4deg, illuminance = 4W/m2, temperature = 4500K }\n";
+/// Where the camera looks, and half the sky wide.
+const SUN_AHEAD: &str = "light ahead: directional { direction = (-0.2, -0.1, -1), angular_diameter = 30deg, color = linear(0.3, 0.4, 0.9), strength = 0.5 }\n";
 const MANY_LAMPS: &str = "asset canopy = obj(\"tent.obj\", unit: m, up: +y)
 instance shade[i in 0..6] { shape = canopy, material = lamp, at = (i - 2.5, 2.2 + 0.3 * i, 0.5)m, scale = 0.4 }\n";
 const SPARKS: &str = "instance spark[i in 0..5] { shape = sphere(radius: 5cm), material = lamp, at = (i - 2, 0.3, 2)m }\n";

@@ -269,6 +269,91 @@ fn declared_lights_give_what_their_units_say() {
     ]);
 }
 
+/// A directional light of 683 pi lux, `tilt` degrees off the zenith, `diameter` degrees wide.
+fn sun(tilt: f64, diameter: f64) -> String {
+    let (sine, cosine) = tilt.to_radians().sin_cos();
+    format!(
+        "light sun: directional {{ direction = ({sine:.12}, {cosine:.12}, 0), illuminance = {:.12}lx, angular_diameter = {diameter}deg }}",
+        683.0 * PI
+    )
+}
+
+#[test]
+fn directional_lights_give_their_illuminance_times_the_cosine() {
+    let tilts = [(0.0, 0.53), (60.0, 0.53), (60.0, 0.01), (89.0, 0.1), (45.0, 40.0), (0.0, 90.0)];
+    let mut checks: Vec<Check> = tilts
+        .into_iter()
+        .map(|(tilt, diameter): (f64, f64)| {
+            let name = format!("sun, {diameter} deg wide, {tilt} deg off the zenith");
+            lit_floor(&name, tilt.to_radians().cos(), &sun(tilt, diameter))
+        })
+        .collect();
+    // Half of the disc is below the horizon: sin(elevation) over a half disc, 2/3 s^3 for small ones.
+    let radius = 5.0_f64.to_radians();
+    let cut = (radius - radius.sin() * radius.cos()) / radius.sin().powi(2) / PI;
+    checks.push(lit_floor("sun that sets", cut, &sun(90.0, 10.0)).samples(1024));
+    checks.push(lit_floor("sun below the ground", 0.0, &sun(120.0, 10.0)));
+    // The choice of one light: by the table, and beside a tree and a sky.
+    let second = sun(60.0, 1.0).replace("sun:", "moon:");
+    let two = format!("{}\n{second}", sun(0.0, 20.0));
+    checks.push(lit_floor("two suns", 1.5, &two).samples(1024));
+    let lamps = "light a: point { at = (1, 2, 0)m, intensity = 683cd }
+light b: point { at = (-1, 2, 0)m, intensity = 683cd }
+light c: point { at = (0, 2, 1)m, intensity = 683cd }\n";
+    let lamp = (1.0 / PI) * 2.0 / 5.0_f64.powf(1.5);
+    let all_of_them = format!("{two}\n{lamps}sky s: constant {{ color = linear(0.5) }}");
+    checks.push(lit_floor("suns, lamps and a sky", 2.0 + 3.0 * lamp, &all_of_them).samples(4096));
+    all(&checks);
+}
+
+/// Paths find the disc by scattering, too: on a rough mirror neither way does it alone.
+#[test]
+fn directional_lights_are_the_same_by_either_way_of_finding_them() {
+    let lit = |light: &str| {
+        format!(
+            "rts 1
+material m: conductor {{ color = linear(0.9), roughness = 0.2 }}
+instance floor {{ shape = rectangle(size: (4, 4)m), material = m }}
+{light}
+{}",
+            view([-3.0, 3.0, 0.0], [0.0; 3], 2)
+        )
+    };
+    let means: Vec<f64> = [
+        // Nothing but the cone, once as a light and once as a ball that fills it.
+        sun(45.0, 30.0),
+        format!(
+            "light sun: sphere {{ direction = (1, 1, 0), distance = 1000m, angular_radius = 15deg, strength = {:.12} }}",
+            1.0 / 15.0_f64.to_radians().sin().powi(2)
+        ),
+    ]
+    .iter()
+    .map(|light| {
+        let outcome = picture::cpu(scene::pack(&lit(light)), |job| {
+            job.resize([16, 16]);
+            job.samples = runtime::SampleRange { start: 0, end: 4096 };
+        });
+        Estimate::of(&channel(outcome.film(), 1)).mean
+    })
+    .collect();
+    assert!((means[0] / means[1] - 1.0).abs() < 3e-3, "{means:?}");
+}
+
+#[test]
+fn the_camera_sees_the_disc_of_a_directional_light() {
+    let seen = |name: &str, to: [f64; 3], expected: f64| {
+        let light = "light sun: directional { direction = (0, 1, 0), angular_diameter = 2deg, strength = 3 }";
+        let eye = view([0.0, 1.0, 0.0], to, 2);
+        Check::new(name, expected, format!("{WHITE_FLOOR}{light}\n{eye}"))
+    };
+    let (inside, outside) = (0.95_f64.to_radians().tan(), 1.05_f64.to_radians().tan());
+    all(&[
+        seen("disc, its middle", [0.0, 2.0, 1e-9], 3.0),
+        seen("disc, its rim", [inside, 2.0, 0.0], 3.0),
+        seen("disc, beside it", [0.0, 2.0, outside], 0.0),
+    ]);
+}
+
 #[test]
 fn a_rectangle_light_gives_its_form_factor() {
     let lamp = |height: f64, strength: f64| {

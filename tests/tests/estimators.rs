@@ -159,6 +159,15 @@ fn all_estimators_agree_in_media() {
     agree((SMOKE, SMOKE_DEPTH), &[0, 1, 2]);
 }
 
+/// Suns that two of the ways find, over a sky, among lamps of a tree.
+#[test]
+fn all_estimators_agree_under_directional_lights() {
+    let suns = "light sun: directional { direction = (0.3, 0.6, 1), angular_diameter = 30deg, strength = 5 }
+light moon: directional { direction = (-0.5, 0.4, 1), angular_diameter = 50deg, strength = 0.7 }
+sky dim";
+    agree((&ROOM.replace("sky dim", suns), SHEETS_DEPTH), &ESTIMATORS.map(|row| row.1));
+}
+
 /// At the full depth, and where the longest path ends at the first thing behind a sheet.
 #[test]
 fn all_estimators_agree_behind_sheets() {

@@ -155,6 +155,14 @@ const CASES: &[Case] = &[
         words: &["spot_radiance", "FLAG_EMIT_SPOT"],
     },
     Case {
+        name: "a black light at infinity",
+        idle: "light far: directional { direction = (0, 1, 0), color = linear(0), strength = 3 }\n",
+        without: "",
+        busy: "light far: directional { direction = (0, 1, 0), strength = 3 }\n",
+        bits: bit::LIGHT_CHOICE | pack::abi::LightKind::Directional.feature(),
+        words: &["directional_miss", "LIGHT_DIRECTIONAL", "directional_count"],
+    },
+    Case {
         name: "a gradient of one colour",
         idle: "SKY gradient { zenith = linear(0.5), middle = linear(0.5), horizon = linear(0.5), ground = linear(0.5) }\n",
         without: "SKY constant { color = linear(0.5) }\n",

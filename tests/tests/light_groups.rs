@@ -259,6 +259,28 @@ fn a_group_converges_to_the_picture_without_the_other_lights() {
 }
 
 #[test]
+fn a_ray_that_sees_sky_and_sun_gives_each_its_own_light() {
+    let text = "rts 1
+material black: diffuse { color = linear(0) }
+instance behind { shape = sphere(radius: 1m), material = black, at = (0, 0, 9)m }
+sky day: constant { color = linear(0.5) }
+light sun: directional { direction = (0, 0, -1), angular_diameter = 90deg, strength = 2, group = \"sun\" }
+light moon: directional { direction = (0, 0.1, -1), angular_diameter = 90deg, strength = 0.25 }
+camera eye: perspective { from = (0, 0, 0)m, to = (0, 0, -1)m, fov.vertical = 10deg }
+film small { size = (8, 8)px }
+render main: path { camera = eye, film = small, samples = 16, depth = 2, seed = 3 }
+";
+    let outcome = render(text, |_| {});
+    adds_up(&outcome.picture);
+    for (name, expected) in [("sun", 2.0), ("rest", 0.25), ("sky", 0.5)] {
+        let group = lights(&outcome).iter().find(|group| group.name == name);
+        for sum in &group.expect("the group is there").sums {
+            assert!((sum[1] / 16.0 - expected).abs() < 1e-6, "{name}: {sum:?}");
+        }
+    }
+}
+
+#[test]
 fn what_names_no_group_is_in_sky_or_rest() {
     let text = BOX.replace(", group = \"key\"", "").replace(", group = \"bulbs\"", "");
     let outcome = render(&text, |_| ());

@@ -1,7 +1,6 @@
 //! `rtc show --assets`: what is in the mesh files of a scene, and their lights and cameras as text to paste.
 
 use std::collections::BTreeSet;
-use std::f64::consts::PI;
 use std::fmt::Write as _;
 
 use lang::Analysis;
@@ -21,8 +20,6 @@ use crate::report::Reporter;
 const LUMENS_PER_WATT: f64 = 683.0;
 /// Radius of the ball that stands for a point, metres.
 const POINT: f64 = 0.02;
-/// Half the angle that the sun fills, degrees.
-const SUN: f64 = 0.265;
 
 /// The text; what is wrong with a file is reported and becomes an exit code.
 pub(super) fn assets(
@@ -161,11 +158,10 @@ fn light_text(light: &FileLight, name: &str, size: f64) -> String {
         }
         LightKind::Directional => {
             let towards = vector(light.along.map(|x| -x), 1.0);
-            let sine = libm::sin(SUN.to_radians());
-            let strength = number(watts / (PI * sine * sine));
             format!(
-                "light {name}: sphere {{ direction = {towards}, distance = 1km, angular_radius = {SUN}deg, \
-                 color = linear({color}), strength = {strength} }}"
+                "light {name}: directional {{ direction = {towards}, color = linear({color}), \
+                 illuminance = {}W/m2 }}",
+                number(watts)
             )
         }
     }
@@ -212,6 +208,7 @@ fn length(v: [f64; 3]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
 
     fn light(kind: LightKind) -> FileLight {
         let (color, at, along) = ([1.0, 0.5, 0.25], [2.0, 2.0, -2.0], [0.0, -1.0, 0.0]);
@@ -230,9 +227,8 @@ mod tests {
         assert!(
             light_text(&light(sharp), "k", 4.0).ends_with("cone = 22.5deg, edge = 0.0225deg }")
         );
-        // One W/m2 at a right angle: pi sin^2(0.265 deg) times the radiance.
-        let sun = "light k: sphere { direction = (0, 1, 0), distance = 1km, angular_radius = 0.265deg, \
-                   color = linear(1, 0.5, 0.25), strength = 14880 }";
+        let sun = "light k: directional { direction = (0, 1, 0), color = linear(1, 0.5, 0.25), \
+                   illuminance = 1W/m2 }";
         assert_eq!(light_text(&light(LightKind::Directional), "k", 4.0), sun);
     }
 

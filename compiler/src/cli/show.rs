@@ -54,7 +54,7 @@ fn summary(scene: &lang::scene::Scene) -> String {
         scene.materials.len(),
         scene.textures.len(),
         scene.assets.len(),
-        scene.lights.len(),
+        scene.lights.len() + scene.directional.len(),
         scene.sky.as_ref().map_or("none", |sky| sky.name.text.as_str()),
         scene.camera.name.text,
         scene.render.samples,

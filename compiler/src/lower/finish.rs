@@ -39,8 +39,7 @@ pub(super) fn light_tree(
         key.number(is_faint(i));
         let light = abi::Light { trail: 0, primitive: 0, ..*light };
         key.bytes(bytemuck::bytes_of(&light)).floats(&motion(&light).to_array());
-        let is_sky = light.kind == abi::LightKind::Sky as u32;
-        key.number(!is_sky && both_sides(light.material));
+        key.number(light.has_surface() && both_sides(light.material));
     }
     let key = key.end();
     if let Some(((), pack)) = stages.in_pack(key) {

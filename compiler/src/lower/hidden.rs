@@ -85,8 +85,7 @@ pub(super) fn lights(scene: &Scene<'_>, sections: &Sections) -> Vec<bool> {
             .map(|(i, light)| {
                 let flags = records.get(light.material as usize).map_or(0, |m| m.flags);
                 let both_sides = flags & material_flag::EMIT_BOTH_SIDES != 0;
-                light.kind != LightKind::Sky as u32
-                    && !seen(i as u32, light, both_sides, &paths, &occluders)
+                light.has_surface() && !seen(i as u32, light, both_sides, &paths, &occluders)
             })
             .collect();
         let power = |light: &abi::Light| f64::from(light.pmf);

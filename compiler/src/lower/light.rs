@@ -11,9 +11,9 @@ use pack::abi::{self, LightKind, NONE};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Emitter {
     pub(super) kind: LightKind,
-    /// Index of its first primitive among all triangles, or among all spheres.
+    /// Index of its first primitive among all triangles, or among all spheres; of a light at infinity among those.
     pub(super) primitive: u32,
-    /// Triangles it consists of; 1 for spheres, 0 for the sky.
+    /// Triangles it consists of; 1 for spheres, 0 for what is no surface.
     pub(super) count: u32,
     pub(super) material: u32,
     /// Area, less the share that leaves the scene, see `power::weigh`: times `MaterialTable::glow` of the material,
@@ -102,20 +102,39 @@ pub(super) fn ids(choices: &[Option<[f32; 2]>]) -> Vec<u32> {
     choices.iter().map(|choice| choice.and_then(|_| next.next()).unwrap_or(NONE)).collect()
 }
 
-/// The records: `of_primitives` are those of the emitters that have a choice, the sky left out, without it.
+/// The records: `directional` are all lights at infinity, `of_primitives` those of the surfaces that have a choice,
+/// without it.
 pub(super) fn table(
     emitters: &[Emitter],
     choices: &[Option<[f32; 2]>],
+    directional: &[abi::Light],
     of_primitives: &[abi::Light],
 ) -> Vec<abi::Light> {
     let mut of_primitives = of_primitives.iter();
     let record = |(emitter, choice): (&Emitter, &Option<[f32; 2]>)| {
         let [pmf, cdf] = (*choice)?;
-        let sky = emitter.kind == LightKind::Sky;
-        let base = if sky { without_primitive(emitter) } else { *of_primitives.next()? };
+        let base = match emitter.kind {
+            LightKind::Sky => without_primitive(emitter),
+            LightKind::Directional => *directional.get(emitter.primitive as usize)?,
+            LightKind::Sphere | LightKind::Rectangle | LightKind::Triangle => {
+                *of_primitives.next()?
+            }
+        };
         Some(abi::Light { pmf, cdf, trail: 0, ..base })
     };
     emitters.iter().zip(choices).filter_map(record).collect()
+}
+
+/// The record of a light at infinity whose object has the number `object`, without how it is chosen.
+pub(super) fn directional(light: &scene::Directional, object: usize) -> abi::Light {
+    abi::Light {
+        kind: LightKind::Directional as u32,
+        origin: light.direction.map(|c| c as f32),
+        edge1: light.radiance.map(|c| c as f32),
+        edge2: [light.rim() as f32, 0.0, 0.0],
+        primitive: object as u32,
+        ..Default::default()
+    }
 }
 
 /// The record of an emitter, without what a primitive says.
@@ -136,7 +155,7 @@ impl Geometry<'_> {
     /// The record of an emitter, without how it is chosen.
     pub(super) fn light(&self, emitter: &Emitter) -> abi::Light {
         let base = without_primitive(emitter);
-        if emitter.kind == LightKind::Sky {
+        if emitter.kind.surface().is_none() {
             return base;
         }
         if emitter.kind == LightKind::Sphere {

@@ -2,8 +2,8 @@
 //!
 //! A node knows a ball around its lights, a cone of the directions that they face, and their power. Lights are
 //! split where the sum of power times surface times solid angle is least (Conty Estevez & Kulla 2018, "Importance
-//! Sampling of Many Lights with Adaptive Tree Splitting", HPG), over 12 bins along each axis. The sky is not in
-//! the tree. Each light remembers the turns from the root to itself, so that the probability of a light that a
+//! Sampling of Many Lights with Adaptive Tree Splitting", HPG), over 12 bins along each axis. Sky and lights
+//! at infinity are not in the tree. Each light remembers the turns from the root to itself, so that the probability of a light that a
 //! path has found by chance can be worked out.
 
 use std::f64::consts::PI;
@@ -110,7 +110,7 @@ pub(super) fn tree(
 ) -> (Vec<abi::LightNode>, Vec<u32>) {
     let mut entries: Vec<(u32, Bound)> = (0..)
         .zip(lights)
-        .filter(|(_, light)| light.kind != LightKind::Sky as u32)
+        .filter(|(_, light)| light.has_surface())
         .map(|(index, light)| {
             let bound = Bound::of(light, both_sides(light.material)).swept(motion(light));
             (index, Bound { power: bound.power * factor(index as usize), ..bound })

@@ -54,7 +54,7 @@ pub(super) struct Sections {
     pub(super) shades: Rows<abi::TriShade>,
     pub(super) spheres: Vec<abi::Sphere>,
     pub(super) instances: Vec<abi::Instance>,
-    /// Of emitters that are lights, the sky left out: their records without how they are chosen.
+    /// Of surfaces that are lights: their records without how they are chosen.
     pub(super) lights: Vec<abi::Light>,
     /// Root of the tree, and the stack that it needs.
     pub(super) entry: (u32, u32),
@@ -70,6 +70,8 @@ pub(super) struct World<'a> {
     pub(super) trees: &'a Trees<'a>,
     /// Light must know what it is inside of.
     pub(super) inside: bool,
+    /// Lights before those of surfaces in the table of lights, whose numbers primitives know.
+    pub(super) n_far: usize,
 }
 
 /// A world on its way.
@@ -94,6 +96,9 @@ impl<'a> World<'a> {
     pub(super) fn key(&self) -> Key {
         let mut key = KeyOf::stage("world");
         key.text(&self.trees.recipe()).number(self.inside);
+        if self.n_far > 0 {
+            key.number(self.n_far as u64);
+        }
         self.bodies.read(self.materials, &mut key);
         key.end()
     }
@@ -264,7 +269,6 @@ impl Placed {
 impl Outline {
     fn sections(self, pack: &Arc<Pack>, trees: &Trees<'_>) -> Sections {
         let lights: &[abi::Light] = pack.records();
-        let is_sky = |light: &abi::Light| light.kind == LightKind::Sky as u32;
         let render = pack.render();
         Sections {
             nodes: Rows::kept(pack, Kind::NODE, Pack::records),
@@ -273,7 +277,7 @@ impl Outline {
             shades: Rows::kept(pack, Kind::TRISHADE, Pack::records),
             spheres: pack.records().to_vec(),
             instances: pack.records().to_vec(),
-            lights: lights.iter().filter(|light| !is_sky(light)).copied().collect(),
+            lights: lights.iter().filter(|light| light.has_surface()).copied().collect(),
             entry: (render.root, render.stack_need),
             counters: self.counters,
             trees: BuildReport {

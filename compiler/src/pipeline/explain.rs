@@ -190,6 +190,11 @@ impl Explain<'_> {
         if light.kind == LightKind::Sky as u32 {
             return self.scene.sky.as_ref().map(|sky| declared(&sky.name));
         }
+        if light.kind == LightKind::Directional as u32 {
+            let before = self.scene.instances.len() + self.scene.lights.len();
+            let light = self.scene.directional.get(light.primitive as usize - before);
+            return light.map(|light| declared(&light.name));
+        }
         self.material_name(light.material)
     }
 

@@ -51,7 +51,13 @@ impl Context<'_> {
             instances: scene.instances.iter().map(|i| self.declared(&i.name)).collect(),
             shown: scene.instances.iter().map(|i| self.shown(i)).collect(),
             textures: scene.textures.iter().map(|t| self.declared(&t.name)).collect(),
-            lights: scene.lights.iter().map(|l| self.declared(&l.name)).collect(),
+            lights: scene
+                .lights
+                .iter()
+                .map(|l| &l.name)
+                .chain(scene.directional.iter().map(|l| &l.name))
+                .map(|name| self.declared(name))
+                .collect(),
             groups: groups(scene),
             cameras: vec![self.declared(&scene.camera.name)],
             features_kept,
@@ -150,12 +156,14 @@ impl Context<'_> {
     }
 }
 
-/// The light groups that the scene names, and the objects of the pack that are in each: instances first, then lights.
+/// The light groups that the scene names, and the objects of the pack that are in each: instances first, then lights,
+/// those at infinity last.
 fn groups(scene: &Scene) -> Vec<Group> {
     let instances = scene.instances.iter().map(|instance| instance.group.as_ref());
     let lights = scene.lights.iter().map(|light| light.group.as_ref());
+    let far = scene.directional.iter().map(|light| light.group.as_ref());
     let mut runs: BTreeMap<&str, Vec<(u32, u32)>> = BTreeMap::new();
-    for (object, group) in (0..).zip(instances.chain(lights)) {
+    for (object, group) in (0..).zip(instances.chain(lights).chain(far)) {
         let Some(group) = group else { continue };
         let runs = runs.entry(group).or_default();
         match runs.last_mut() {

@@ -15,15 +15,17 @@ use crate::units::Dim;
 pub(super) const EFFICACY: f64 = 683.0;
 
 /// What says how bright a light is, in the order of the reference.
-const FIELDS: [&str; 3] = ["strength", "intensity", "power"];
+const FIELDS: [&str; 4] = ["strength", "intensity", "power", "illuminance"];
 
 /// An evenly glowing surface: what it gives off for each W/(m2 sr) of radiance.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Emitter {
     /// In all directions: m2 sr.
     pub(super) flux: f64,
     /// In the direction in which it is strongest: m2.
     pub(super) intensity: f64,
+    /// On a plane that faces it: sr. Of lights at infinity, which have no size.
+    pub(super) irradiance: f64,
 }
 
 /// Reports a light that says its brightness or its colour twice.
@@ -48,6 +50,7 @@ pub(super) fn radiance(
     let per_radiance = match field {
         Some("power") => emitter.flux,
         Some("intensity") => emitter.intensity,
+        Some("illuminance") => emitter.irradiance,
         _ => 1.0,
     };
     let mut scale = value / per_radiance;
@@ -69,7 +72,7 @@ pub(super) fn radiance(
 }
 
 fn is_luminous(dim: Dim) -> bool {
-    [Dim::LUMINOUS_FLUX, Dim::LUMINOUS_INTENSITY, Dim::LUMINANCE].contains(&dim)
+    [Dim::LUMINOUS_FLUX, Dim::LUMINOUS_INTENSITY, Dim::ILLUMINANCE, Dim::LUMINANCE].contains(&dim)
 }
 
 fn black(ev: &mut Evaluator<'_>, fields: &Fields, field: &str) -> Option<Rgb> {

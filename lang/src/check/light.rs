@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::material::{Color, Emissive};
 use crate::resolve::ItemId;
-use crate::scene::{Beam, Light, MaterialModel, Name, Rgb, Shape, Tint};
+use crate::scene::{Beam, Directional, Light, MaterialModel, Name, Rgb, Shape, Tint};
 use crate::schema::light::LightType;
 use std::f64::consts::PI;
 
@@ -16,6 +16,8 @@ use std::f64::consts::PI;
 pub(super) enum Lit {
     /// A sphere light.
     Ball(Box<Light>),
+    /// A light at infinity.
+    Directional(Box<Directional>),
     /// A thing that glows.
     Panel(Box<Panel>),
 }
@@ -40,13 +42,27 @@ pub(super) fn check_light(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
             check_facing(ev, fields);
             check_edge(ev, fields);
         }
+        LightType::Directional => {
+            check_named_brightness(ev, id, fields, ["illuminance", "strength"]);
+            check_direction(ev, fields, "direction");
+        }
         LightType::Rectangle => check_facing(ev, fields),
     }
 }
 
 fn check_brightness(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
-    if fields.span("intensity").or(fields.span("power")).is_none() {
-        let text = format!("`{}` is missing `power` or `intensity`", ev.program.name(id));
+    check_named_brightness(ev, id, fields, ["power", "intensity"]);
+}
+
+/// Reports a light that has neither of two fields, where nothing is a good default.
+fn check_named_brightness(
+    ev: &mut Evaluator<'_>,
+    id: ItemId,
+    fields: &Fields,
+    [one, other]: [&'static str; 2],
+) {
+    if fields.span(one).or(fields.span(other)).is_none() {
+        let text = format!("`{}` is missing `{one}` or `{other}`", ev.program.name(id));
         let error = Diagnostic::error(Code("E0207"), text)
             .at(ev.program.name_span(id), "how bright is it?")
             .with_help(format!("for example: {}", fields.schema.example));
@@ -181,8 +197,20 @@ pub(super) fn light(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Opti
             let (inner, outer) = (libm::cos(cone - edge), libm::cos(cone).max(0.0));
             ball(ev, name, fields, place, (None, Some(Beam { direction, inner, outer })))
         }
+        LightType::Directional => directional(ev, name, fields),
         LightType::Rectangle => panel(ev, name, fields).map(|panel| Lit::Panel(Box::new(panel))),
     }
+}
+
+fn directional(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Option<Lit> {
+    let direction = unit(fields.vector("direction")?)?;
+    let half_angle = 0.5 * fields.number("angular_diameter")?;
+    // The integral of the cosine over a cone around the normal.
+    let sine = libm::sin(half_angle);
+    let emitter = Emitter { irradiance: PI * sine * sine, ..Emitter::default() };
+    let radiance = brightness::radiance(ev, &name, fields, emitter)?;
+    let group = fields.text("group");
+    Some(Lit::Directional(Box::new(Directional { name, direction, half_angle, radiance, group })))
 }
 
 fn ball(
@@ -195,7 +223,7 @@ fn ball(
     // A disk of radiance L seen from everywhere.
     let (flux, intensity) = (4.0 * PI * PI * radius * radius, PI * radius * radius);
     let flux = flux * beam.map_or(1.0, |beam| beam.share());
-    let emitter = Emitter { flux, intensity };
+    let emitter = Emitter { flux, intensity, ..Emitter::default() };
     let radiance = brightness::radiance(ev, &name, fields, emitter)?;
     let velocity = fields.vector("velocity")?;
     let group = fields.text("group");
@@ -217,7 +245,8 @@ fn panel(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Option<Panel> {
     let both_sides = fields.word("sides")? == "both";
     // A side of radiance L gives off pi L watts for each square metre.
     let flux = PI * area * if both_sides { 2.0 } else { 1.0 };
-    let radiance = brightness::radiance(ev, &name, fields, Emitter { flux, intensity: area })?;
+    let emitter = Emitter { flux, intensity: area, ..Emitter::default() };
+    let radiance = brightness::radiance(ev, &name, fields, emitter)?;
     let at = fields.vector::<3>("at")?;
     let pose = Pose {
         matrix: transform::facing(at, facing(fields, at)?, fields.number("spin")?),

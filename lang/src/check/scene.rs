@@ -13,8 +13,8 @@ use crate::eval::value::ShapeValue;
 use crate::material::Reader;
 use crate::resolve::ItemId;
 use crate::scene::{
-    Asset, Instance, Light, Material, MaterialModel, Medium, Name, Scene, Shape, Texture,
-    TextureExpression,
+    Asset, Directional, Instance, Light, Material, MaterialModel, Medium, Name, Scene, Shape,
+    Texture, TextureExpression,
 };
 use crate::schema::Kind;
 use crate::shape::{MeshEdit, Parts};
@@ -23,7 +23,7 @@ impl Checker {
     /// Builds the scene, as far as it is sound.
     pub(super) fn build(mut self, ev: &mut Evaluator<'_>) -> Option<Scene> {
         let view = self.view(ev);
-        let (lights, panels) = self.lights(ev);
+        let Lights { lights, directional, panels } = self.lights(ev);
         if ev.diagnostics.iter().any(Diagnostic::is_error) {
             return None;
         }
@@ -79,6 +79,7 @@ impl Checker {
             media: self.media(&medium_order)?,
             instances: instances(placed, &material_at, &index(&asset_order))?,
             lights,
+            directional,
             sky: view.sky,
             camera: view.camera,
             film: view.film,
@@ -96,21 +97,23 @@ impl Checker {
         Some(scene)
     }
 
-    /// Lamps and panels of the world, both sorted by name.
-    fn lights(&self, ev: &mut Evaluator<'_>) -> (Vec<Light>, Vec<Panel>) {
-        let (mut lights, mut panels) = (Vec::new(), Vec::new());
+    /// Lights of the world.
+    fn lights(&self, ev: &mut Evaluator<'_>) -> Lights {
+        let Lights { mut lights, mut directional, mut panels } = Lights::default();
         for id in ids_of(ev.program, Kind::Light) {
             let name = name(ev, id);
             let built = self.sound(id).and_then(|fields| light::light(ev, name, fields));
             match built.filter(|_| is_in_world(ev.program, id)) {
                 Some(Lit::Ball(light)) => lights.push(*light),
+                Some(Lit::Directional(light)) => directional.push(*light),
                 Some(Lit::Panel(panel)) => panels.push(*panel),
                 None => {}
             }
         }
-        lights.sort_by(|a: &Light, b| a.name.text.cmp(&b.name.text));
-        panels.sort_by(|a: &Panel, b| a.name.text.cmp(&b.name.text));
-        (lights, panels)
+        lights.sort_by(|a, b| a.name.text.cmp(&b.name.text));
+        directional.sort_by(|a, b| a.name.text.cmp(&b.name.text));
+        panels.sort_by(|a, b| a.name.text.cmp(&b.name.text));
+        Lights { lights, directional, panels }
     }
 
     fn media(&self, order: &[(Name, ItemId)]) -> Option<Vec<Medium>> {
@@ -131,6 +134,14 @@ impl Checker {
             })
             .collect()
     }
+}
+
+/// What the lights of a scene are in it, each list sorted by name.
+#[derive(Default)]
+struct Lights {
+    lights: Vec<Light>,
+    directional: Vec<Directional>,
+    panels: Vec<Panel>,
 }
 
 /// Adds a flat light as an instance and a material of its name, after those that are declared.
@@ -254,6 +265,7 @@ fn nothing_in_the_air(ev: &mut Evaluator<'_>, scene: &Scene) {
 /// Reports a scene in which nothing gives off light. A mesh that brings its own materials may.
 fn no_light(ev: &mut Evaluator<'_>, scene: &Scene) {
     let lit = scene.lights.iter().any(|light| light.radiance.iter().any(|c| *c > 0.0))
+        || scene.directional.iter().any(|light| light.radiance.iter().any(|c| *c > 0.0))
         || scene.sky.as_ref().is_some_and(|sky| !sky::is_black(sky))
         || scene.instances.iter().any(|instance| {
             let emits = |material: usize| material::emits(&scene.materials[material].model);

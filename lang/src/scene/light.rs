@@ -23,6 +23,30 @@ pub struct Light {
     pub group: Option<String>,
 }
 
+/// A light at infinity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Directional {
+    /// Declared name.
+    pub name: Name,
+    /// Unit vector towards the middle of the light, world frame.
+    pub direction: [f64; 3],
+    /// Half the angle that it fills, radians, > 0.
+    pub half_angle: f64,
+    /// Radiance, the same everywhere in its cone, W/(m2 sr) up to the scene's own scale.
+    pub radiance: Rgb,
+    /// Its light group, if it names one.
+    pub group: Option<String>,
+}
+
+impl Directional {
+    /// 1 less the cosine of `half_angle`, without the cancellation.
+    #[must_use]
+    pub fn rim(&self) -> f64 {
+        let sine = libm::sin(0.5 * self.half_angle);
+        2.0 * sine * sine
+    }
+}
+
 /// A cone of light. Between the angles the light falls off smoothly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Beam {

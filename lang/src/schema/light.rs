@@ -4,13 +4,23 @@ use super::instance::{GROUP, VELOCITY};
 use super::{ANY, Bounds, Default, Field, FieldType, Kind, TypeSchema, WHITE, Word};
 use crate::units::Dim;
 
-types!(LightType { Sphere = SPHERE, Point = POINT, Spot = SPOT, Rectangle = RECTANGLE });
+types!(LightType {
+    Sphere = SPHERE,
+    Point = POINT,
+    Spot = SPOT,
+    Directional = DIRECTIONAL,
+    Rectangle = RECTANGLE
+});
 
 /// 80 degrees: at 90 the origin of the world would touch the light.
 const MAX_ANGULAR_RADIUS: f64 = 80.0 * std::f64::consts::PI / 180.0;
 
 /// Half a degree: cosines in single precision tell narrower cones apart badly.
 const LEAST_CONE: f64 = 0.5 * std::f64::consts::PI / 180.0;
+
+/// The narrowest light at infinity: the kernel compares chords of directions, which single precision knows to 1e-7;
+/// below a hundredth of a degree that is more than a thousandth of the chord.
+const LEAST_DIAMETER: f64 = 0.01 * std::f64::consts::PI / 180.0;
 
 /// Which sides of a flat light shine.
 const SIDES: &[Word] =
@@ -25,6 +35,10 @@ const POWERS: FieldType =
 /// The same in one direction.
 const INTENSITIES: FieldType =
     FieldType::Quantity(&[(Dim::LUMINOUS_INTENSITY, "cd"), (Dim::INTENSITY, "W/sr")]);
+
+/// What arrives of it at a plane that faces it.
+const ILLUMINANCES: FieldType =
+    FieldType::Quantity(&[(Dim::ILLUMINANCE, "lx"), (Dim::IRRADIANCE, "W/m2")]);
 
 /// The same of each part of its surface.
 const RADIANCES: FieldType =
@@ -277,6 +291,80 @@ const SPOT: TypeSchema = TypeSchema {
         GROUP,
     ],
     foreign: &[("spotlight", "common use")],
+};
+
+const DIRECTIONAL: TypeSchema = TypeSchema {
+    kind: Kind::Light,
+    name: "directional",
+    doc: "The sun: a disc of even brightness infinitely far away, which shines from the same direction everywhere. \
+          `direction` points towards it. The camera sees the disc too. How bright it is says `illuminance`, what \
+          arrives at a surface that faces it whatever its diameter, or `strength`, its radiance.",
+    example: "light sun: directional { direction = (0.3, 0.8, 0.4), illuminance = 100klx, temperature = 5800K }",
+    fields: &[
+        Field::new(
+            "direction",
+            FieldType::Vector(Dim::NONE, ""),
+            Default::Required,
+            "From anywhere towards the light, against the way that its light travels; its length does not matter.",
+        )
+        .foreign(&[
+            ("sundir", "LuxCore"),
+            ("dir", "LuxCore"),
+            ("sun_direction", "Mitsuba and Blender"),
+            ("from", "pbrt"),
+            ("towards", "common use"),
+        ]),
+        Field::new(
+            "angular_diameter",
+            FieldType::Number(Bounds {
+                dim: Dim::ANGLE,
+                unit: "deg",
+                min: LEAST_DIAMETER,
+                above_min: false,
+                max: std::f64::consts::FRAC_PI_2,
+            }),
+            Default::Number(0.53 * std::f64::consts::PI / 180.0),
+            "The angle that it fills; larger means softer shadows.",
+        )
+        .typical("sun and moon 0.53deg")
+        .foreign(&[
+            ("angle", "Blender"),
+            ("theta", "LuxCore"),
+            ("angular_radius", "the type `sphere`, half of it"),
+            ("sun_size", "Blender"),
+        ]),
+        COLOR,
+        TEMPERATURE,
+        Field::new(
+            "illuminance",
+            ILLUMINANCES,
+            Default::Absent("`strength` decides"),
+            "What arrives at a surface that faces the light: lux, or watts per square metre for a white light.",
+        )
+        .typical("the sun at noon 100klx, through thin cloud 20klx, the full moon 0.25lx")
+        .foreign(&[
+            ("irradiance", "Mitsuba"),
+            ("energy", "Blender"),
+            ("intensity", "glTF, in lux"),
+            ("power", "pbrt"),
+            ("lux", "common use"),
+        ]),
+        Field {
+            default: Default::Absent("`illuminance` decides"),
+            doc: "Factor on `color`: the radiance of its disc, or with a unit of luminance its luminance.",
+            typical: "the sun at noon 1.6e9nit",
+            foreign: &[("scale", "pbrt"), ("gain", "LuxCore"), ("luminance", "common use")],
+            ..STRENGTH
+        },
+        GROUP,
+    ],
+    foreign: &[
+        ("distant", "pbrt and USD"),
+        ("sun", "Blender"),
+        ("sunlight", "common use"),
+        ("parallel", "common use"),
+        ("infinite", "common use"),
+    ],
 };
 
 const RECTANGLE: TypeSchema = TypeSchema {

@@ -101,6 +101,7 @@ impl<'a> LightGroups<'a> {
             Some(Some(LightSurface::Triangles)) => {
                 self.of_emitter(Emitter::Triangle(light.primitive, NONE))
             }
+            Some(None) if kind == Some(LightKind::Directional) => self.of_object(light.primitive),
             Some(None) => self.sky,
             None => self.rest,
         }

@@ -41,6 +41,26 @@ macro_rules! precision {
                 }
             }
 
+            /// Light of a ray that has left the scene, which may come from the sky and from lights at infinity at once.
+            fn outside(
+                kernel: &mut k::Kernel<'_>,
+                path: &k::Path,
+                lights: &LightGroups<'_>,
+                sample: &mut Sample,
+                emitted: [f64; 3],
+            ) {
+                let n = kernel.directional_count();
+                if n == 0 {
+                    return sample.take(lights.of_emitter(Emitter::Sky), emitted);
+                }
+                for i in 0..n {
+                    let found = path.throughput * kernel.directional_found(i, path.dir, path.pdf);
+                    sample.take(lights.of_emitter(Emitter::Light(i)), $double(found));
+                }
+                let sky = path.throughput * kernel.dispatch_sky_miss(path.dir, path.pdf);
+                sample.take(lights.of_emitter(Emitter::Sky), $double(sky));
+            }
+
             /// Takes a path to its end. Whether it has met nothing but the sky.
             fn walk(
                 kernel: &mut k::Kernel<'_>,
@@ -62,7 +82,10 @@ macro_rules! precision {
                     };
                     let (emitted, glow) = ($double(found.emitted), $double(found.glow));
                     if emitted.iter().any(|x| *x != 0.0) {
-                        sample.take(lights.of_emitter(emitter), emitted);
+                        match emitter {
+                            Emitter::Sky => outside(kernel, path, lights, sample, emitted),
+                            _ => sample.take(lights.of_emitter(emitter), emitted),
+                        }
                     }
                     sample.take(lights.rest, glow);
                     met |= found.met;

@@ -18,7 +18,7 @@ mod tree;
 
 use rayon::prelude::*;
 
-use crate::abi::TextureFormat;
+use crate::abi::{self, LightKind, TextureFormat};
 use crate::contents::Contents;
 use crate::error::PackError;
 use crate::fault::{ElementFault, HeaderFault};
@@ -118,7 +118,7 @@ fn each<R: Ruled>(records: &[R], contents: &Contents<'_>) -> Result<(), PackErro
     broken.map_or(Ok(()), |(index, broken)| Err(element::<R>(index, broken)))
 }
 
-/// Cumulative probabilities rise and end at 1.
+/// Cumulative probabilities rise and end at 1, and directional lights come first.
 fn light_table(contents: &Contents<'_>) -> Result<(), PackError> {
     let fault = |index, fault| Err(element::<crate::abi::Light>(index, ("cdf", fault)));
     for (index, pair) in contents.lights.windows(2).enumerate() {
@@ -126,6 +126,11 @@ fn light_table(contents: &Contents<'_>) -> Result<(), PackError> {
         if found < before {
             return fault(index + 1, ElementFault::Falling { found, before });
         }
+    }
+    let directional = LightKind::Directional as u32;
+    let behind = |pair: &[abi::Light]| pair[0].kind != directional && pair[1].kind == directional;
+    if let Some(index) = contents.lights.windows(2).position(behind) {
+        return Err(element::<abi::Light>(index + 1, ("kind", ElementFault::NotFirst)));
     }
     match contents.lights {
         [.., last] if last.cdf.to_bits() != 1.0f32.to_bits() => {

@@ -380,6 +380,9 @@ pub enum ElementFault {
     /// No leaf holds a light.
     #[error("leads nowhere: no leaf of the light tree holds this light")]
     LightLost,
+    /// A directional light behind one of another kind.
+    #[error("is directional, but the light before it is not")]
+    NotFirst,
     /// A light of kind sky that is not the sky's own.
     #[error("is sky, but the light of SKY is {}", index_or_none(*.0))]
     NotOfSky(u32),

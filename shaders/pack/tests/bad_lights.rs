@@ -5,7 +5,7 @@
 mod common;
 
 use common::{Draft, Scene, put32};
-use pack::abi::{LIGHT_LEAF, LightNode};
+use pack::abi::{LIGHT_LEAF, Light, LightKind, LightNode};
 use pack::{Kind, Pack, features};
 
 #[test]
@@ -87,4 +87,59 @@ fn lights_without_a_leaf_and_trees_deeper_than_a_trail_are_refused() {
     scene.sky_table.clear();
     let error = scene.writer().to_bytes().unwrap_err().to_string();
     assert_eq!(error, "LIGHTNOD[64] at byte 0xc28: child leads deeper than 32 levels");
+}
+
+/// A directional light, then the three lights of the example.
+fn with_directional() -> Scene {
+    let mut scene = Scene::full();
+    let sun = Light {
+        kind: LightKind::Directional as u32,
+        origin: [0.0, 1.0, 0.0],
+        edge1: [2.0; 3],
+        edge2: [1e-5, 0.0, 0.0],
+        pmf: 0.25,
+        cdf: 0.25,
+        ..Light::default()
+    };
+    for light in &mut scene.lights {
+        light.pmf *= 0.75;
+        light.cdf = (0.25 + 0.75 * light.cdf).min(1.0);
+    }
+    scene.lights.insert(0, sun);
+    for index in scene.shades.iter_mut().map(|shade| &mut shade.light) {
+        *index = if *index == pack::abi::NONE { *index } else { *index + 1 };
+    }
+    for index in scene.spheres.iter_mut().map(|sphere| &mut sphere.light) {
+        *index = if *index == pack::abi::NONE { *index } else { *index + 1 };
+    }
+    scene.render.n_lights = 4;
+    scene
+}
+
+#[test]
+fn directional_lights_come_first_and_have_a_solid_angle() {
+    let scene = with_directional();
+    let pack = Pack::from_bytes(scene.bytes()).unwrap();
+    assert_ne!(pack.features() & LightKind::Directional.feature(), 0);
+    let check = |at: usize, value: f32, expected: &str| {
+        let mut draft = Draft::new(&scene.bytes());
+        put32(draft.section(Kind::LIGHT), at, value.to_bits());
+        assert_eq!(Pack::from_bytes(draft.seal()).unwrap_err().to_string(), expected);
+    };
+    let above = "expected a finite number greater than 0";
+    check(0x20, 0.0, &format!("LIGHT[0] at byte 0x20: edge2 is 0, {above}"));
+    check(0x20, 1.5, "LIGHT[0] at byte 0x20: edge2 is 1.5, expected 0 to 1");
+    check(0x4, 2.0, "LIGHT[0] at byte 0x0: origin has length 2, expected 1");
+    check(0x14, -1.0, "LIGHT[0] at byte 0x10: edge1 is -1, expected a finite number, 0 or more");
+    // The first is a sphere, the second directional.
+    let mut late = Draft::new(&scene.bytes());
+    let lights = late.section(Kind::LIGHT);
+    put32(lights, 0x0c, LightKind::Sphere as u32);
+    put32(lights, 0x4c, LightKind::Directional as u32);
+    put32(lights, 0x44, 1.0_f32.to_bits());
+    put32(lights, 0x60, 1e-3_f32.to_bits());
+    assert_eq!(
+        Pack::from_bytes(late.seal()).unwrap_err().to_string(),
+        "LIGHT[1] at byte 0x4c: kind is directional, but the light before it is not"
+    );
 }

@@ -487,9 +487,10 @@ fn damage_that_the_rules_allow_is_found_by_the_hashes() {
 }
 
 /// Rules of lights and skies, which have tests of their own.
-const LIGHTS: [&str; 9] = [
+const LIGHTS: [&str; 10] = [
     "Rising",
     "Edge",
+    "NotFirst",
     "NotOfSky",
     "NotASky",
     "LightOrder",

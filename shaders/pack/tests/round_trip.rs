@@ -148,6 +148,7 @@ fn features_are_those_of_the_contents() {
     let absent = SkyKind::Constant.feature()
         | SkyKind::Image.feature()
         | LightKind::Sky.feature()
+        | LightKind::Directional.feature()
         | features::LIGHT_TREE
         | features::TINT
         | features::SPOT

@@ -36,16 +36,19 @@ fn chosen(features: &FeatureSet, text: &mut String) {
     ];
     let (mut choose, mut pmf) = (String::new(), String::new());
     if features.light_tree {
-        modules.push("light/tree.wgsl");
+        modules.extend(["light/tree.wgsl", "scene/directional.wgsl"]);
         choose += "    if (load_frame_light_tree_at() != NONE) {\n";
         pmf += "    if (load_frame_light_tree_at() != NONE) {\n        return ";
-        // The sky keeps its share of the table; the tree has the rest.
-        choose += "        let sky = tree_sky();\n        \
-                   if (u < sky.pmf) {\n            return LightChoice(sky.index, sky.pmf, light_choice_unit(u / sky.pmf));\n        }\n        \
-                   let rest = 1.0 - sky.pmf;\n        \
-                   let choice = tree_choose(p, receiver, light_choice_unit((u - sky.pmf) / rest));\n        \
+        // Lights without a surface keep their shares of the table; the tree has the rest. All shares are multiples of
+        // 2^-24, as `u` is, so that differences are exact.
+        choose += "        let far = dispatch_directional_share();\n        \
+                   if (u < far) {\n            return choose_from_table(dispatch_n_directional(), u);\n        }\n        \
+                   let sky = tree_sky();\n        \
+                   if (u - far < sky.pmf) {\n            return LightChoice(sky.index, sky.pmf, light_choice_unit((u - far) / sky.pmf));\n        }\n        \
+                   let rest = (1.0 - far) - sky.pmf;\n        \
+                   let choice = tree_choose(p, receiver, light_choice_unit(((u - far) - sky.pmf) / rest));\n        \
                    return LightChoice(choice.index, choice.pmf * rest, choice.rest);\n    }\n";
-        pmf += "(1.0 - tree_sky().pmf) * tree_pmf(index, p, receiver);\n    }\n";
+        pmf += "((1.0 - dispatch_directional_share()) - tree_sky().pmf) * tree_pmf(index, p, receiver);\n    }\n";
     }
     choose += "    return choose_from_table(n_lights, u);\n";
     let table = "    return load_light_pmf(index);\n";

@@ -22,11 +22,14 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
         "trace/alpha.wgsl",
     ]);
     text += &imports(files.iter().map(String::as_str));
-    let sample = cases(features, |surface, stem| match surface {
-        None => Some(format!("{stem}_light_sample(u)")),
-        Some(_) => Some(format!("{stem}_light_sample(light, p, u)")),
+    let sample = cases(features, |kind, stem| match kind {
+        LightKind::Sky => Some(format!("{stem}_light_sample(u)")),
+        LightKind::Directional => Some(format!("{stem}_light_sample(light, u)")),
+        LightKind::Sphere | LightKind::Rectangle | LightKind::Triangle => {
+            Some(format!("{stem}_light_sample(light, p, u)"))
+        }
     });
-    let pdf = cases(features, |surface, stem| match surface? {
+    let pdf = cases(features, |kind, stem| match kind.surface()? {
         LightSurface::Sphere => Some(format!("{stem}_light_pdf(light, p)")),
         LightSurface::Triangles => Some(format!("{stem}_light_pdf(light, p, x, cos_l)")),
     });
@@ -49,18 +52,18 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
 /// to do.
 fn cases(
     features: &FeatureSet,
-    call: impl Fn(Option<LightSurface>, &str) -> Option<String>,
+    call: impl Fn(LightKind, &str) -> Option<String>,
 ) -> Vec<(String, String)> {
     let case = |kind: &LightKind| {
         let stem = kind.stem();
-        Some((tag("LIGHT", &stem), call(kind.surface(), &stem)?))
+        Some((tag("LIGHT", &stem), call(*kind, &stem)?))
     };
     features.lights.iter().filter_map(case).collect()
 }
 
 /// Where a light is.
 fn shift(features: &FeatureSet) -> String {
-    let cases = cases(features, |surface, _| match surface? {
+    let cases = cases(features, |kind, _| match kind.surface()? {
         LightSurface::Sphere => {
             features.spheres.then(|| "dispatch_sphere_shift(light.primitive, time)".to_owned())
         }
@@ -79,7 +82,7 @@ fn shift(features: &FeatureSet) -> String {
 fn surface(features: &FeatureSet) -> String {
     let sphere = "sphere_uv(vector_unit_or(x - light.origin, vec3f(0.0, 1.0, 0.0)))";
     let flat = "triangle_uv(light.primitive, triangle_weights(light.primitive, x))";
-    let cases = cases(features, |surface, _| match surface? {
+    let cases = cases(features, |kind, _| match kind.surface()? {
         LightSurface::Sphere => Some(sphere.to_owned()),
         LightSurface::Triangles => features.triangles.then(|| flat.to_owned()),
     });

@@ -43,8 +43,16 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
     if features.normal_maps {
         modules.push("surface/normal_map.wgsl");
     }
-    if !features.lights.is_empty() {
+    let directional = features.lights.contains(&LightKind::Directional);
+    if features.geometry() && !features.lights.is_empty() {
         modules.push("kernel/direct.wgsl");
+    }
+    if directional {
+        modules.push(if features.geometry() {
+            "kernel/directional.wgsl"
+        } else {
+            "light/directional.wgsl"
+        });
     }
     text += &imports(modules);
     text += &film(features);
@@ -224,17 +232,52 @@ pub(crate) fn place(features: &FeatureSet) -> String {
 
 /// What a ray sees that hits nothing; weighted where the sky is sampled, too.
 fn miss(features: &FeatureSet) -> String {
-    let body = if features.lights.contains(&LightKind::Sky) {
-        "    let radiance = dispatch_sky(dir);\n    \
-         if (vector_max(radiance) <= 0.0) {\n        return radiance;\n    }\n    \
-         return radiance * direct_sky_weight(dir, pdf);\n"
+    let sky_is_sampled = features.geometry() && features.lights.contains(&LightKind::Sky);
+    let plus = match (features.lights.contains(&LightKind::Directional), features.geometry()) {
+        (false, _) => "",
+        (true, true) => " + directional_miss(dir, pdf)",
+        // Every ray is the camera's.
+        (true, false) => " + directional_backdrop(dir)",
+    };
+    let sky = if sky_is_sampled { "dispatch_sky_miss(dir, pdf)" } else { "dispatch_sky(dir)" };
+    let weighted = "    let radiance = dispatch_sky(dir);\n    \
+                    if (vector_max(radiance) <= 0.0) {\n        return radiance;\n    }\n    \
+                    return radiance * direct_sky_weight(dir, pdf);\n";
+    let alone = format!(
+        "\n// What is of the sky in `dispatch_miss`.\n\
+         fn dispatch_sky_miss(dir: vec3f, pdf: f32) -> vec3f {{\n{}}}\n",
+        if sky_is_sampled { weighted } else { "    return dispatch_sky(dir);\n" }
+    );
+    let (alone, body) = if plus.is_empty() {
+        (
+            String::new(),
+            if sky_is_sampled { weighted.to_owned() } else { format!("    return {sky};\n") },
+        )
     } else {
-        "    return dispatch_sky(dir);\n"
+        (alone, format!("    return {sky}{plus};\n"))
     };
     format!(
-        "\n// Radiance found by a direction that was sampled with density `pdf` and hits nothing.\n\
+        "{alone}\n// Radiance found by a direction that was sampled with density `pdf` and hits nothing.\n\
          fn dispatch_miss(dir: vec3f, pdf: f32) -> vec3f {{\n{body}}}\n"
     )
+}
+
+/// `scene/directional.wgsl`: how many lights are directional, and their share of the table. A module of its own, so that
+/// the choice of a light does not depend on their kinds.
+pub(crate) fn directional(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: whether lights of this scene are directional.\n\n");
+    let there = features.lights.contains(&LightKind::Directional);
+    let (count, share) =
+        if there { ("directional_count()", "directional_share()") } else { ("0u", "0.0") };
+    text += &imports(there.then_some("light/directional.wgsl"));
+    let _ = write!(
+        text,
+        "\n// Number of directional lights, which come first in the table.\n\
+         fn dispatch_n_directional() -> u32 {{\n    return {count};\n}}\n\
+         \n// Sum of their probabilities.\n\
+         fn dispatch_directional_share() -> f32 {{\n    return {share};\n}}\n"
+    );
+    text
 }
 
 fn direct(features: &FeatureSet) -> String {

@@ -40,23 +40,25 @@ pub(crate) fn sky(features: &FeatureSet) -> String {
 /// Radiance of a sampled light.
 pub(crate) fn radiance(features: &FeatureSet) -> String {
     let mut modules = vec!["abi/light.wgsl", "light/light_sample.wgsl", "scene/constants.wgsl"];
-    let mut body = String::new();
-    let has_sky = features.lights.contains(&LightKind::Sky);
-    if has_sky {
+    // Each kind without a surface, and all surfaces as one.
+    let mut calls = Vec::new();
+    if features.lights.contains(&LightKind::Sky) {
         modules.push("scene/dispatch_sky.wgsl");
+        calls.push(("LIGHT_SKY", "dispatch_sky(to.wi)"));
     }
-    let (sky, surface) = ("dispatch_sky(to.wi)", "surface_light_radiance(light, p, to)");
+    if features.lights.contains(&LightKind::Directional) {
+        modules.push("light/directional.wgsl");
+        calls.push(("LIGHT_DIRECTIONAL", "light.edge1"));
+    }
     if features.surface_lights() {
         modules.push("light/surface_light.wgsl");
-        if has_sky {
-            let _ = write!(
-                body,
-                "    if (light.kind == LIGHT_SKY) {{\n        return {sky};\n    }}\n"
-            );
-        }
+        calls.push(("", "surface_light_radiance(light, p, to)"));
     }
-    let last = if features.surface_lights() { surface } else { sky };
-    let last = if features.lights.is_empty() { "vec3f(0.0)" } else { last };
+    let last = calls.pop().map_or("vec3f(0.0)", |(_, call)| call);
+    let mut body = String::new();
+    for (tag, call) in calls {
+        let _ = write!(body, "    if (light.kind == {tag}) {{\n        return {call};\n    }}\n");
+    }
     let mut text = String::from("// Generated: what the lights of this scene send.\n\n");
     text += &imports(modules);
     let _ = write!(

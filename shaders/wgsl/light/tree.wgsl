@@ -4,6 +4,7 @@
 #import "abi/light_node.wgsl"
 #import "light/light_choice.wgsl"
 #import "scene/constants.wgsl"
+#import "scene/directional.wgsl"
 #import "scene/records.wgsl"
 
 // Lights up to which each is weighed by itself: bounds of nodes are coarse where lights are near.
@@ -74,7 +75,7 @@ fn tree_few() -> u32 {
     if (n_lights > TREE_FEW + 1u) {
         return 0u;
     }
-    let n = n_lights - select(0u, 1u, tree_sky().pmf > 0.0);
+    let n = n_lights - select(0u, 1u, tree_sky().pmf > 0.0) - dispatch_n_directional();
     return select(0u, 2u * n - 1u, n <= TREE_FEW);
 }
 

@@ -29,8 +29,11 @@ const EYES: [DVec3; 4] = [
 /// Numbers of lights in a table.
 const TABLES: [usize; 4] = [2, 5, 64, 1000];
 
+/// Widths of lights at infinity, degrees.
+const DIAMETERS: [f64; 4] = [0.01, 0.53, 20.0, 90.0];
+
 /// Chi-square tests here.
-pub(crate) const CHECKS: usize = SPHERES.len() + 2 * EYES.len() + TABLES.len();
+pub(crate) const CHECKS: usize = SPHERES.len() + DIAMETERS.len() + 2 * EYES.len() + TABLES.len();
 
 /// Cells along each axis.
 const SIDE: usize = 20;
@@ -118,6 +121,51 @@ fn sphere_lights_fill_their_cone() {
             assert!((f64::from(to.pdf) / pdf - 1.0).abs() < 1e-4, "{ratio}: {} {pdf}", to.pdf);
         }
         check(&format!("sphere light, radius / distance {ratio}"), &counts);
+    }
+}
+
+#[test]
+fn directional_lights_fill_their_cone() {
+    let bench = Bench::new();
+    let (mut single, mut double) = (bench.single(), bench.double());
+    for (i, degrees) in DIAMETERS.into_iter().enumerate() {
+        let half = 0.5 * degrees.to_radians();
+        let rim = 2.0 * (0.5 * half).sin().powi(2);
+        let axis = DVec3::new(0.6, -0.64, -0.48);
+        let light = Light {
+            kind: LightKind::Directional as u32,
+            origin: axis.as_vec3().into(),
+            edge1: [1.0, 2.0, 3.0],
+            edge2: [rim as f32, 0.0, 0.0],
+            ..Light::default()
+        };
+        let (flat_light, truth) = (single_light(&light), double_light(&light));
+        let axis = truth.origin.normalize();
+        let side = axis.any_orthonormal_vector();
+        let pdf = double.directional_light_pdf(truth);
+        let solid = 2.0 * std::f64::consts::PI * rim;
+        assert!((pdf * solid - 1.0).abs() < 1e-6, "{degrees}: integrates to {}", pdf * solid);
+        let mut counts = Counts::new(vec![(N / SIDE / SIDE) as f64; SIDE * SIDE]);
+        for k in 0..N {
+            let u = single.sample_2d(key(1400 + i, k), single::PURPOSE_LIGHT_POINT);
+            let to = single.dispatch_light_sample(flat_light, Vec3::ZERO, u);
+            let wi = to.wi.as_dvec3().normalize();
+            let height = (wi - axis).length_squared() * 0.5 / rim;
+            // What is sampled is seen, but for the last bits at the rim.
+            let seen = single.directional_light_radiance(flat_light, to.wi);
+            let slack = 1e-6 / half;
+            assert!(height < 1.0 + slack, "{degrees}: {height}");
+            assert!(
+                seen == Vec3::new(1.0, 2.0, 3.0) || height > 1.0 - slack,
+                "{degrees}: {height}"
+            );
+            let turn = wi.dot(side.cross(axis)).atan2(wi.dot(side)) / std::f64::consts::TAU + 0.5;
+            counts.add(cell(height, turn));
+            assert!((f64::from(to.pdf) / pdf - 1.0).abs() < 1e-5, "{degrees}: {} {pdf}", to.pdf);
+        }
+        check(&format!("directional light, {degrees} deg wide"), &counts);
+        let outside = (axis * (1.01 * half).cos() + side * (1.01 * half).sin()).as_vec3();
+        assert_eq!(single.directional_light_radiance(flat_light, outside), Vec3::ZERO);
     }
 }
 

@@ -3,7 +3,7 @@
 //! The kernel walks down without looking: children must exist and come after their parents, and trails must
 //! end where the walk for their light ends.
 
-use crate::abi::{LIGHT_LEAF, Light, LightKind, LightNode, MAX_LIGHT_DEPTH};
+use crate::abi::{LIGHT_LEAF, Light, LightNode, MAX_LIGHT_DEPTH};
 use crate::contents::Contents;
 use crate::error::PackError;
 use crate::fault::ElementFault;
@@ -13,10 +13,8 @@ use super::broken::element;
 /// Checks the shape of the tree; fields of nodes have been checked. Scenes without a tree have no nodes.
 pub(super) fn check(contents: &Contents<'_>) -> Result<(), PackError> {
     let (nodes, lights) = (contents.light_nodes, contents.lights);
-    // Without a tree there are no ways, and the sky is in none.
-    let astray = |light: &Light| {
-        light.trail != 0 && (nodes.is_empty() || light.kind == LightKind::Sky as u32)
-    };
+    // Without a tree there are no ways, and only surfaces are in one.
+    let astray = |light: &Light| light.trail != 0 && (nodes.is_empty() || !light.has_surface());
     if let Some(index) = lights.iter().position(astray) {
         let fault = ElementFault::Trail { found: lights[index].trail, expected: 0 };
         return Err(element::<Light>(index, ("trail", fault)));
@@ -44,7 +42,7 @@ pub(super) fn check(contents: &Contents<'_>) -> Result<(), PackError> {
             continue;
         }
         let light = child & !LIGHT_LEAF;
-        let known = lights.get(light as usize).filter(|l| l.kind != LightKind::Sky as u32);
+        let known = lights.get(light as usize).filter(|l| l.has_surface());
         let Some(known) = known.filter(|_| !found[light as usize]) else {
             return fault(at, ElementFault::LightLeaf(light));
         };
@@ -57,9 +55,8 @@ pub(super) fn check(contents: &Contents<'_>) -> Result<(), PackError> {
     if next != nodes.len() {
         return fault(next, ElementFault::LightOrder);
     }
-    let lost = |(index, found): (usize, &bool)| {
-        (!found && lights[index].kind != LightKind::Sky as u32).then_some(index)
-    };
+    let lost =
+        |(index, found): (usize, &bool)| (!found && lights[index].has_surface()).then_some(index);
     match found.iter().enumerate().find_map(lost) {
         None => Ok(()),
         Some(index) => Err(element::<Light>(index, ("trail", ElementFault::LightLost))),

@@ -230,7 +230,6 @@ rules! { pack;
     }
     Light and light {
         kind: tag(LightKind::ALL.len()),
-        material: index(table(pack, Kind::MATERIAL)),
         origin: finite(),
         edge1: finite(),
         area: not_negative(),
@@ -364,8 +363,15 @@ fn sky(record: &Sky, pack: &Contents<'_>) -> Option<Broken> {
 
 /// What `primitive`, `edge1` and `area` mean depends on the kind.
 fn light(record: &Light, pack: &Contents<'_>) -> Option<Broken> {
-    // What a light without a surface is, `check::sky` compares with the sky.
-    let surface = LightKind::from_tag(record.kind)?.surface()?;
+    let kind = LightKind::from_tag(record.kind)?;
+    if kind == LightKind::Directional {
+        return directional(record);
+    }
+    // What a sky is as a light, `check::sky` compares with the sky.
+    let surface = kind.surface()?;
+    if let Some(fault) = index(record.material, table(pack, Kind::MATERIAL)) {
+        return Some(("material", fault));
+    }
     let target = match surface {
         LightSurface::Sphere => Kind::SPHERE,
         LightSurface::Triangles => Kind::TRIANGLE,
@@ -377,6 +383,18 @@ fn light(record: &Light, pack: &Contents<'_>) -> Option<Broken> {
         LightSurface::Sphere => positive(record.edge1[0]).map(|fault| ("edge1", fault)),
         LightSurface::Triangles => positive(record.area).map(|fault| ("area", fault)),
     }
+}
+
+/// The kernel divides by the solid angle, and samples around a unit vector.
+fn directional(record: &Light) -> Option<Broken> {
+    if let Some(fault) = direction(record.origin) {
+        return Some(("origin", fault));
+    }
+    if let Some(fault) = not_negative(record.edge1) {
+        return Some(("edge1", fault));
+    }
+    let [rim, ..] = record.edge2;
+    positive(rim).or_else(|| unit_range(rim)).map(|fault| ("edge2", fault))
 }
 
 /// The texels lie inside TEXEL.

@@ -30,7 +30,7 @@ pub(crate) fn assert_sound(pack: &Pack) {
         let count = match kind {
             LightKind::Sphere => n_spheres,
             LightKind::Rectangle | LightKind::Triangle => n_triangles,
-            LightKind::Sky => usize::MAX,
+            LightKind::Sky | LightKind::Directional => usize::MAX,
         };
         assert!((light.primitive as usize) < count && (light.material as usize) < n_materials);
     }

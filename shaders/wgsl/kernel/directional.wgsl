@@ -1,0 +1,39 @@
+// Directional lights found by rays that leave the scene, weighted against their being sampled.
+
+#import "kernel/direct.wgsl"
+#import "light/directional.wgsl"
+#import "math/vector.wgsl"
+#import "scene/dispatch_choice.wgsl"
+#import "scene/records.wgsl"
+
+// Radiance of all directional lights along `dir`, which was sampled with density `pb` per steradian, 0 for the camera
+// and delta lobes.
+fn directional_miss(dir: vec3f, pb: f32) -> vec3f {
+    let n = directional_count();
+    var radiance = vec3f(0.0);
+    for (var i = 0u; i < n; i += 1u) {
+        radiance += directional_found(i, dir, pb);
+    }
+    return radiance;
+}
+
+// The same of light `index` alone.
+fn directional_found(index: u32, dir: vec3f, pb: f32) -> vec3f {
+    let light = load_light(index);
+    let radiance = directional_light_radiance(light, dir);
+    if (vector_max(radiance) <= 0.0) {
+        return radiance;
+    }
+    return radiance * directional_weight(index, light, pb);
+}
+
+// As `direct_sky_weight`, for directional light `index`, which `dir` has found.
+fn directional_weight(index: u32, light: Light, pb: f32) -> f32 {
+    if (pb <= 0.0 || load_frame_estimator() == DIRECT_BSDF_ONLY) {
+        return 1.0;
+    }
+    if (load_frame_estimator() == DIRECT_LIGHT_ONLY) {
+        return 0.0;
+    }
+    return pb / direct_divisor(pb, dispatch_sky_pmf(index) * directional_light_pdf(light));
+}
