@@ -144,7 +144,7 @@ pub fn lower(
     };
     let light_nodes = finish::light_tree(&mut lights, &hidden, materials.records(), motion, stages);
     let (sky, sky_table) = finish::sky_records(sky, &lights);
-    diagnostics.extend(finish::darkness(scene, &lights, sky.as_ref()));
+    diagnostics.extend(finish::darkness(scene, &lights, &materials, sky.as_ref()));
 
     let moves = !motions.is_empty();
     let reused =

@@ -245,15 +245,15 @@ fn a_clear_coat_that_is_not_gltf_is_an_error() {
 }
 
 #[test]
-fn opaque_ignores_alpha_and_blend_is_cut_at_one_half() {
-    for (mode, expected) in [("OPAQUE", (1.0, None)), ("BLEND", (0.5, Some(0.5)))] {
+fn opaque_ignores_alpha_and_blend_is_coverage() {
+    for (mode, expected) in [("OPAQUE", (1.0, None)), ("BLEND", (0.5, None))] {
         let mut document = triangle();
         document.json["materials"] = json!([{"alphaMode": mode, "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.5]}}]);
         document.json["meshes"][0]["primitives"][0]["material"] = json!(0);
         let mesh = load(&document);
         let material = &mesh.materials[0];
         assert_eq!((material.alpha, material.alpha_clip), expected);
-        assert_eq!(mesh.report.warnings.len(), usize::from(mode == "BLEND"));
+        assert_eq!(mesh.report.warnings, []);
     }
 }
 

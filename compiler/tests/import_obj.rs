@@ -450,7 +450,7 @@ fn mtl_transparency_emission_and_images() {
     let [glass, leaf, lamp, odd] = &mesh.materials[..] else { panic!("{:?}", mesh.materials) };
     assert!((glass.transmission - 0.9).abs() < 1e-6 && (glass.ior - 1.45).abs() < 1e-6);
     assert_eq!(leaf.color, [1.0; 3], "black beside an image is white");
-    assert_eq!(leaf.alpha_clip, Some(0.5));
+    assert_eq!(leaf.alpha_clip, None, "a dissolve is a share");
     let (color, alpha) = (leaf.color_map.expect("map"), leaf.alpha_map.expect("map"));
     assert_ne!(color.image, alpha.image, "the mask has its brightness in alpha");
     let compiler::import::Pixels::Rgba8(mask) = &mesh.images[alpha.image as usize].image.data

@@ -380,7 +380,7 @@ materials! {
             emission_strength: f64 = [principled::EMISSION_STRENGTH],
             /// Coverage.
             alpha: Scalar = [fields::ALPHA],
-            /// Alpha below this is not there; `None` ignores alpha.
+            /// Alpha below this is not there; `None`: alpha is the share that is there.
             alpha_clip: Option<f64> = [fields::ALPHA_CLIP],
         }
         also: [fields::NORMAL, fields::NORMAL_STRENGTH],
@@ -473,7 +473,7 @@ materials! {
             color: Color = [sheet::COLOR],
             /// Coverage.
             alpha: Scalar = [fields::ALPHA],
-            /// Alpha below this is not there; `None` ignores alpha.
+            /// Alpha below this is not there; `None`: alpha is the share that is there.
             alpha_clip: Option<f64> = [fields::ALPHA_CLIP],
             /// Share of the light that goes through, 0 ..= 1.
             translucency: f64 = [sheet::LEAF_TRANSLUCENCY],
@@ -507,7 +507,7 @@ materials! {
             color: Color = [sheet::COLOR],
             /// Coverage.
             alpha: Scalar = [fields::ALPHA],
-            /// Alpha below this is not there; `None` ignores alpha.
+            /// Alpha below this is not there; `None`: alpha is the share that is there.
             alpha_clip: Option<f64> = [fields::ALPHA_CLIP],
             /// Share of the fuzz, 0 ..= 1.
             fuzz_weight: f64 = [sheet::PETAL_FUZZ_WEIGHT],

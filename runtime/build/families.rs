@@ -220,6 +220,13 @@ fn filters() -> Family {
     Family { mask: bit::FILTERS, members: members.into() }
 }
 
+/// Whether there are textures, and what they cut out; whether surfaces are there in part, and have tangents.
+fn coverages() -> impl Iterator<Item = ((bool, bool), [bool; 2])> {
+    let cut = [(false, false), (true, false), (true, true)];
+    let rest = [[false, false], [false, true], [true, false], [true, true]];
+    cut.into_iter().flat_map(move |cut| rest.map(|rest| (cut, rest)))
+}
+
 /// Shapes, lights, cut-outs, and whether there are textures at all. Any formats of textures stand
 /// for all: their own family covers them.
 fn geometry() -> Family {
@@ -236,19 +243,13 @@ fn geometry() -> Family {
         (true, false, true),
         (true, true, true),
     ] {
-        for (textures, alpha_clip, tangents) in [
-            (false, false, false),
-            (true, false, false),
-            (true, true, false),
-            (false, false, true),
-            (true, false, true),
-            (true, true, true),
-        ] {
+        for ((textures, alpha_clip), [alpha_blend, tangents]) in coverages() {
             for lights in subsets(&LightKind::ALL) {
                 let mut bits = lights.iter().map(|kind| kind.feature()).sum::<u64>();
                 bits |= if triangles { bit::TRIANGLES } else { 0 };
                 bits |= if spheres { bit::SPHERES } else { 0 };
                 bits |= if alpha_clip { bit::ALPHA_CLIP } else { 0 };
+                bits |= if alpha_blend { bit::ALPHA_BLEND } else { 0 };
                 bits |= if tangents { bit::TANGENTS } else { 0 };
                 let possible = lights.iter().all(|kind| match kind.surface() {
                     Some(LightSurface::Sphere) => spheres,
@@ -267,6 +268,7 @@ fn geometry() -> Family {
                     spheres,
                     lights,
                     alpha_clip,
+                    alpha_blend,
                     tangents,
                     textures: formats,
                     ..full
@@ -280,6 +282,7 @@ fn geometry() -> Family {
     let mask = bit::TRIANGLES
         | bit::SPHERES
         | bit::ALPHA_CLIP
+        | bit::ALPHA_BLEND
         | bit::TANGENTS
         | LightKind::ALL.into_iter().map(LightKind::feature).sum::<u64>()
         | TextureFormat::ALL.into_iter().map(TextureFormat::feature).sum::<u64>();

@@ -24,10 +24,18 @@ pub(crate) fn table() -> Result<String, Box<dyn Error>> {
     let families = families::all();
     let mut declarations: BTreeMap<String, Texts> = BTreeMap::new();
     for (f, family) in families.iter().enumerate() {
+        let mut last: Option<(&FeatureSet, Vec<(String, String)>)> = None;
         for (bits, features) in &family.members {
-            for (name, text) in declarations_of(features)? {
-                declarations.entry(name).or_default().entry(text).or_default().insert((f, *bits));
+            // Members that differ only in bits follow each other.
+            let linked = match last.take().filter(|(known, _)| *known == features) {
+                Some((_, linked)) => linked,
+                None => declarations_of(features)?,
+            };
+            for (name, text) in &linked {
+                let texts = declarations.entry(name.clone()).or_default();
+                texts.entry(text.clone()).or_default().insert((f, *bits));
             }
+            last = Some((features, linked));
         }
     }
     let mut rows: BTreeSet<(String, String)> = readers()?;
@@ -148,7 +156,8 @@ fn switches(switching: &[String]) -> Result<String, Box<dyn Error>> {
 fn readers() -> Result<BTreeSet<(String, String)>, Box<dyn Error>> {
     let full = FeatureSet::full();
     let triangles = FeatureSet { spheres: false, textures: BTreeSet::new(), ..full.clone() };
-    let triangles = FeatureSet { lights: BTreeSet::new(), alpha_clip: false, ..triangles };
+    let triangles =
+        FeatureSet { lights: BTreeSet::new(), alpha_clip: false, alpha_blend: false, ..triangles };
     let spheres = FeatureSet { triangles: false, spheres: true, ..triangles.clone() };
     let textured = FeatureSet { textures: full.textures.clone(), ..spheres.clone() };
     let with = |base: &FeatureSet, windows: Windows| FeatureSet { windows, ..base.clone() };

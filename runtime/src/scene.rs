@@ -66,7 +66,7 @@ fn tree_of(pack: &Pack<Checked>) -> Option<Tree> {
         triangles: pack.records(),
         instances: pack.records(),
         root: pack.render().root,
-        uncut: pack.features() & features::ALPHA_CLIP == 0,
+        uncut: pack.features() & (features::ALPHA_CLIP | features::ALPHA_BLEND) == 0,
     };
     (!nodes.is_empty()).then(|| Tree::new(&geometry))
 }

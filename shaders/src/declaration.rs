@@ -29,6 +29,8 @@ pub(crate) struct Declaration<'t> {
 /// A module taken apart.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Parts<'t> {
+    /// The whole module.
+    pub(crate) text: &'t str,
     pub(crate) imports: Vec<Import<'t>>,
     pub(crate) declarations: Vec<Declaration<'t>>,
 }
@@ -60,7 +62,7 @@ pub(crate) fn split<'t>(file: &str, text: &'t str) -> Result<Parts<'t>, ShaderEr
             words,
         });
     }
-    Ok(Parts { imports, declarations })
+    Ok(Parts { text, imports, declarations })
 }
 
 /// The place of byte `at` of module `file`.

@@ -53,6 +53,8 @@ pub struct FeatureSet {
     pub textures: BTreeSet<TextureFormat>,
     /// Some material has the flag `ALPHA_CLIP`.
     pub alpha_clip: bool,
+    /// Some material has the flag `ALPHA_BLEND`.
+    pub alpha_blend: bool,
     /// Some material has the flag `TANGENT`.
     pub tangents: bool,
     /// Some material has the flag `OBJECT`.
@@ -152,6 +154,7 @@ impl FeatureSet {
             samplers: [SamplerKind::Sobol].into(),
             textures: BTreeSet::new(),
             alpha_clip: false,
+            alpha_blend: false,
             tangents: false,
             objects: false,
             normal_maps: false,
@@ -193,6 +196,7 @@ impl FeatureSet {
             samplers: SamplerKind::ALL.into(),
             textures: TextureFormat::ALL.into(),
             alpha_clip: true,
+            alpha_blend: true,
             tangents: true,
             objects: true,
             normal_maps: true,

@@ -9,6 +9,7 @@ mod media;
 mod motion;
 mod path;
 mod principled;
+mod ray;
 mod receiver;
 mod records;
 mod sampler;
@@ -74,6 +75,9 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/texture.wgsl", texture::texture(features)),
         ("scene/through.wgsl", media::through(features)),
     ]);
+    if features.alpha_blend {
+        texts.push(("trace/ray.wgsl", ray::with_key()));
+    }
     Ok(texts)
 }
 

@@ -144,7 +144,9 @@ struct Walk<'t> {
 
 impl<'t> Walk<'t> {
     fn visit(&mut self, name: &'t str, text: &'t str) -> Result<(), ShaderError> {
-        let parts = match self.ready.get(name) {
+        // A generated module may take the place of one that is ready.
+        let ready = self.ready.get(name).filter(|parts| std::ptr::eq(parts.text, text));
+        let parts = match ready {
             Some(parts) => Cow::Borrowed(parts),
             None => Cow::Owned(declaration::split(name, text)?),
         };

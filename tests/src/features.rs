@@ -180,6 +180,24 @@ pub const CASES: &[Case] = &[
     // Cut out, mirrored, interpolated.
     case("alpha on spheres", &[SKY, WEAR, LACE, BALL, FLOOR]),
     case("alpha on triangles", &[GRADIENT, SPHERE_LIGHT, WEAR, LACE, TENT, FLOOR]),
+    case("partial coverage", &[GRADIENT, SPHERE_LIGHT, GAUZE, BALL, TENT, FLOOR]),
+    case("partial coverage on spheres", &[SKY, GAUZE, BALL]),
+    case(
+        "partial coverage from a picture, and holes",
+        &[GRADIENT, LAMP, PANEL, FADE, VEIL, LACE_SHEET, BALL, TENT, FLOOR],
+    ),
+    case("partial coverage in instances", &[SKY, SPHERE_LIGHT, FADE, VEIL, BEADS, FLOOR]),
+    case(
+        "lights of partial coverage",
+        &[FADE, PAINT, VEIL_LAMP, PANEL, GLOWING_TENT, CLAY, BALL, FLOOR],
+    ),
+    Case {
+        render: PCG,
+        ..case(
+            "partial coverage, independent samples",
+            &[GRADIENT, SPHERE_LIGHT, GAUZE, TENT, FLOOR],
+        )
+    },
     case("smooth normals", &[GRADIENT, SPHERE_LIGHT, PLASTIC, TENT, FLOOR]),
     case("mirrored instances", &[GRADIENT, SPHERE_LIGHT, PLASTIC, MIRRORED, FLOOR]),
     // Meshes that are stored once: mirrored, sheared, alone, and with everything that can be hit in the world.
@@ -541,6 +559,17 @@ const WORN: &str = "material m: principled { roughness = wear.g, metallic = wear
 const NEON: &str = "material m: emissive { color = glow.rgb, strength = 2 }\n";
 const LACE: &str =
     "material m: principled { color = linear(0.4, 0.7, 0.3), alpha = wear.a, alpha.clip = 50% }\n";
+const GAUZE: &str = "material m: principled { color = linear(0.4, 0.7, 0.3), alpha = 0.4 }\n";
+const FADE: &str = "texture fade = image(\"fade.png\", space: data)\n";
+const VEIL: &str = "material m: principled { color = linear(0.4, 0.7, 0.3), alpha = fade.a }\n";
+const LACE_SHEET: &str = "material lace: principled { color = linear(0.4), alpha = fade.a, alpha.clip = 50% }
+instance sheet { shape = rectangle(size: (2, 2)m), material = lace, at = (1, 1.5, 0)m, rotate = (50, 0, 0)deg }\n";
+const VEIL_LAMP: &str = "material lamp: principled {
+  color = linear(0.2)
+  emission.color = paint.rgb
+  emission.strength = 6
+  alpha = fade.a
+}\n";
 const MANY: &str = "material m: principled {
   color = paint.rgb
   normal = bumps.rgb
@@ -563,6 +592,7 @@ material frosted: dielectric { roughness = 0.4 }
 material lacquer: clearcoat { color = linear(0.7, 0.1, 0.1) }
 material maple: leaf { color = linear(0.5, 0.2, 0.1) }
 material sakura: petal { color = linear(0.9, 0.6, 0.7) }
+material gauze: principled { color = linear(0.7, 0.2, 0.3), alpha = 0.6 }
 asset tent = obj(\"tent.obj\", unit: m, up: +y)
 instance a { shape = sphere(radius: 60cm), material = glass, at = (-1.5, 0.6, 1)m, velocity = (20, 0, 0)m/s }
 instance b { shape = box(size: (1, 1, 1)m), material = clay, rotate = (0, 30, 0)deg, at = (1.8, 0.5, -1)m }
@@ -573,6 +603,7 @@ instance f { shape = sphere(radius: 30cm), material = steel, at = (0.8, 1.6, 0)m
 instance g { shape = sphere(radius: 30cm), material = frosted, at = (0.1, 0.3, 2)m }
 instance h { shape = sphere(radius: 30cm), material = lacquer, at = (-0.7, 0.3, 2)m }
 instance i { shape = sphere(radius: 30cm), material = maple, at = (-2.2, 0.3, -0.4)m }
+instance k { shape = box(size: (0.5, 0.5, 0.5)m), material = gauze, at = (-0.5, 1, 1)m, rotate = (0, 20, 30)deg }
 instance j { shape = tent, material = sakura, at = (-0.6, 0, 2.2)m, scale = (0.6, 0.8, 0.6) }\n";
 
 /// A four-sided tent with normals and texture coordinates.
@@ -694,6 +725,7 @@ fn write_files(dir: &Path) {
     save("paint.png", |x, y| [x * 19, y * 31, (x ^ y) * 16, 255]);
     save("bumps.png", |x, y| [50 + x * 14, 240 - y * 27, 150 + (x ^ y) * 7, 255]);
     save("wear.png", |x, y| [0, 60 + x * 12, y * 30, if (x + y) % 3 == 0 { 0 } else { 255 }]);
+    save("fade.png", |x, y| [255, 0, 0, 20 * x + y]);
     let glow = |x: usize, y: usize| (x as f32 * 0.25, y as f32 * 0.5, 1.5_f32);
     exr::prelude::write_rgb_file(dir.join("glow.exr"), 6, 5, glow)
         .expect("an image can be written");

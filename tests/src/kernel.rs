@@ -43,6 +43,7 @@ pub fn ray(origin: Vec3, dir: Vec3) -> single::Ray {
         light: NONE,
         time: 0.0,
         instance: NONE,
+        key: single::SampleKey { pixel: 0, sample: 0, bounce: 0, seed: 0 },
     }
 }
 
@@ -61,6 +62,7 @@ pub fn ray_double(origin: DVec3, dir: DVec3) -> double::Ray {
         light: NONE,
         time: 0.0,
         instance: NONE,
+        key: double::SampleKey { pixel: 0, sample: 0, bounce: 0, seed: 0 },
     }
 }
 

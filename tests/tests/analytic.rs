@@ -6,6 +6,8 @@
 //! points, and the spread of pixels says how good their mean is. Fixed seeds: a run that passes
 //! always passes.
 
+#[path = "analytic/coverage.rs"]
+mod coverage;
 #[path = "analytic/media.rs"]
 mod media;
 #[path = "analytic/unlimited.rs"]
@@ -29,6 +31,8 @@ struct Check {
     samples: u32,
     /// Relative error that rounding alone may make.
     rounding: f64,
+    /// As `Frame::estimator`.
+    estimator: u32,
 }
 
 impl Check {
@@ -40,6 +44,7 @@ impl Check {
             side: 16,
             samples: 256,
             rounding: 2e-6,
+            estimator: 0,
         }
     }
 
@@ -60,6 +65,7 @@ impl Check {
     fn judge(&self, pack: Pack<pack::Checked>) -> Result<(), String> {
         let outcome = picture::cpu(pack, |job| {
             job.resize([self.side, self.side]);
+            job.estimator = self.estimator;
             job.samples = runtime::SampleRange { start: 0, end: self.samples };
         });
         let found = Estimate::of(&channel(outcome.film(), 1));

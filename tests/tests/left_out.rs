@@ -123,6 +123,22 @@ const CASES: &[Case] = &[
         words: &["alpha_exists", "texel_words"],
     },
     Case {
+        name: "coverage of 1",
+        idle: "MATERIAL alpha = 1\n",
+        without: "",
+        busy: "MATERIAL alpha = 0.99\n",
+        bits: bit::ALPHA_BLEND,
+        words: &["coverage_", "PURPOSE_COVERAGE", "key: SampleKey,\n}", "sobol_of"],
+    },
+    Case {
+        name: "coverage of a picture that is 1 everywhere",
+        idle: "texture full = image(\"full.png\", space: data)\nMATERIAL alpha = full.a\n",
+        without: "",
+        busy: "texture full = image(\"holes.png\", space: data)\nMATERIAL alpha = full.a\n",
+        bits: bit::ALPHA_BLEND | bit::TEXTURE_RGBA8_LINEAR,
+        words: &["coverage_", "texel_words"],
+    },
+    Case {
         name: "a coat of weight 0",
         idle: "MATERIAL coat.weight = 0, coat.roughness = 0.3\n",
         without: "",

@@ -44,7 +44,14 @@ fn all_ways_give_the_same_bits_for_every_feature() {
 /// What the walk leaves to generated functions is in the cases: cut-outs, motion, spheres, shadow rays that go on.
 #[test]
 fn the_cases_have_what_is_rare_in_a_tree() {
-    for feature in ["alpha clipping", "motion", "spheres", "triangles", "see-through sheets"] {
+    for feature in [
+        "alpha clipping",
+        "partial coverage",
+        "motion",
+        "spheres",
+        "triangles",
+        "see-through sheets",
+    ] {
         let has = |case: &&Case| {
             let pack = Pack::from_bytes(scene::bytes(&compiled(case))).expect("readable");
             pack::features::names(pack.features()).contains(&feature)

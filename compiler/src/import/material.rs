@@ -120,7 +120,7 @@ pub struct ImportedMaterial {
     pub alpha: f64,
     /// The fourth channel of this image is a factor on `alpha`.
     pub alpha_map: Option<MapUse>,
-    /// Points with coverage below this do not exist; `None`: alpha is ignored.
+    /// Points with coverage below this do not exist, all others are opaque; `None`: coverage is the share that is there.
     pub alpha_clip: Option<f64>,
     /// Seen from both sides. The renderer shades both sides of every surface, so this is only a note.
     pub double_sided: bool,

@@ -7,6 +7,7 @@ use pack::abi::{self, material_flag};
 
 use super::hidden;
 use super::light_tree;
+use super::material::MaterialTable;
 use super::sky::LoweredSky;
 use super::sky_table::SkyTable;
 
@@ -76,9 +77,10 @@ pub(super) fn sky_records(
 pub(super) fn darkness(
     scene: &Scene,
     lights: &[abi::Light],
+    materials: &MaterialTable<'_>,
     sky: Option<&abi::Sky>,
 ) -> Option<Diagnostic> {
-    let dark = lights.is_empty() && sky.is_none();
+    let dark = lights.is_empty() && sky.is_none() && !materials.has_partial_glow();
     dark.then(|| {
         Diagnostic::error(Code("E0710"), "nothing in this scene gives light")
             .at(scene.render.name.span, "this picture would be black")

@@ -190,7 +190,10 @@ pub(super) fn place(
 impl Placement {
     fn add_sphere(&mut self, stage: &Stage<'_>, object: u32, ball: &Ball) {
         let Ball { center, radius, material, facing, share } = *ball;
-        if stage.materials.looks(material).glows {
+        let looks = stage.materials.looks(material);
+        // Where it is there in part a ray may meet either end, and one sample of a light would stand for both: only
+        // rays that are scattered find it.
+        if looks.glows && !looks.is_partial {
             let area = 4.0 * std::f64::consts::PI * radius * radius * share;
             self.emitters.push(Emitter {
                 kind: LightKind::Sphere,

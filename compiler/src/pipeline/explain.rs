@@ -157,6 +157,7 @@ impl Explain<'_> {
             Self::row(name_of(wanted), kept, why, why_not)
         };
         let clipped = self.materials("cut out by alpha", flag(material_flag::ALPHA_CLIP));
+        let partial = self.materials("alpha is its coverage", Material::is_partial);
         let tangents = self.materials("has a direction", flag(material_flag::TANGENT));
         let objects = self.materials("depends on the thing", flag(material_flag::OBJECT));
         let maps = self.materials("has one", |material| material.normal_texture != NONE);
@@ -174,6 +175,7 @@ impl Explain<'_> {
         let sheets = self.materials("light goes straight through it", Material::is_sheet);
         vec![
             row(bit::ALPHA_CLIP, features.alpha_clip, clipped, None),
+            row(bit::ALPHA_BLEND, features.alpha_blend, partial, None),
             row(bit::TANGENTS, features.tangents, tangents, None),
             row(bit::OBJECTS, features.objects, objects, None),
             row(bit::NORMAL_MAPS, features.normal_maps, maps, flat),

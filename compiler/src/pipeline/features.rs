@@ -49,6 +49,7 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
             .filter(|format| lowered.textures.iter().any(|t| t.format == *format as u32))
             .collect(),
         alpha_clip: materials.iter().any(|m| m.flags & material_flag::ALPHA_CLIP != 0),
+        alpha_blend: materials.iter().any(Material::is_partial),
         tangents: materials.iter().any(|m| m.flags & material_flag::TANGENT != 0),
         principled_specular: materials.iter().any(Material::has_specular),
         principled_coat: materials.iter().any(Material::has_coat),

@@ -117,15 +117,16 @@ pub(super) const ALPHA: Field = Field::new(
     "alpha",
     FieldType::ScalarSlot(UNIT),
     Default::Number(1.0),
-    "Coverage, compared with `alpha.clip`.",
+    "Coverage: the share of the surface that is there; the rest of the light goes straight on. With `alpha.clip` it is \
+     only compared with that.",
 )
 .foreign(&[("opacity", "Mitsuba"), ("d", "OBJ/MTL"), ("map_d", "OBJ/MTL"), ("Alpha", "Blender")]);
 
 pub(super) const ALPHA_CLIP: Field = Field::new(
     "alpha.clip",
     FieldType::Number(Bounds::new(Dim::NONE, "", 0.0, 1.0)),
-    Default::Absent("alpha is ignored"),
-    "Where `alpha` is below this, the surface is not there.",
+    Default::Absent("`alpha` is a share"),
+    "Where `alpha` is below this, the surface is not there; elsewhere it is there in full.",
 )
 .typical("50% for leaves and petals")
 .foreign(&[("alphaCutoff", "glTF"), ("alphaMode", "glTF")]);

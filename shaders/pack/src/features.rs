@@ -69,6 +69,8 @@ features! {
     LIGHT_CHOICE = 57 "several lights",
     /// Has a light that shines into a cone.
     SPOT = 60 "spot lights",
+    /// Has a material of partial coverage.
+    ALPHA_BLEND = 62 "partial coverage",
 }
 
 /// Has a sphere among its lights.
@@ -184,6 +186,7 @@ pub(crate) fn of(contents: &Contents<'_>) -> u64 {
         set(TINT, material.flags & material_flag::EMIT_TINT != 0);
         set(SPOT, material.flags & material_flag::EMIT_SPOT != 0);
         set(ALPHA_CLIP, material.flags & material_flag::ALPHA_CLIP != 0);
+        set(ALPHA_BLEND, material.is_partial());
         set(TANGENTS, material.flags & material_flag::TANGENT != 0);
         set(OBJECTS, material.flags & material_flag::OBJECT != 0);
         set(NORMAL_MAPS, material.normal_texture != NONE);

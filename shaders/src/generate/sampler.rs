@@ -27,5 +27,19 @@ pub(crate) fn text(features: &FeatureSet) -> String {
             switch("load_frame_sampler()", &cases, none)
         );
     }
+    let cases: Vec<(String, String)> = features
+        .samplers
+        .iter()
+        .map(|kind| {
+            let stem = kind.stem();
+            (tag("SAMPLER", &stem), format!("{stem}_of(key, purpose, id)"))
+        })
+        .collect();
+    let _ = write!(
+        text,
+        "\n// A number for `purpose`, in [0, 1 - 2^-24], independent of those for any other `id`.\n\
+         fn sample_of(key: SampleKey, purpose: u32, id: u32) -> f32 {{\n{}}}\n",
+        switch("load_frame_sampler()", &cases, "0.0")
+    );
     text
 }

@@ -52,7 +52,15 @@ pub(crate) fn radiance(features: &FeatureSet) -> String {
     }
     if features.surface_lights() {
         modules.push("light/surface_light.wgsl");
-        calls.push(("", "surface_light_radiance(light, p, to)"));
+        calls.push((
+            "",
+            if features.alpha_blend {
+                modules.push("light/light_coverage.wgsl");
+                "surface_light_radiance(light, p, to) * light_coverage(light, p, to)"
+            } else {
+                "surface_light_radiance(light, p, to)"
+            },
+        ));
     }
     let last = calls.pop().map_or("vec3f(0.0)", |(_, call)| call);
     let mut body = String::new();

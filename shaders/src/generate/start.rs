@@ -67,11 +67,17 @@ pub(crate) fn probe(features: &FeatureSet) -> String {
         "dispatch_probe_begin(path: ptr<function, Path>, s: Surface)",
         with("    smooth_probe_begin(path, s);\n", ""),
     );
+    let next = with("smooth_probe_ray(path, ray)", "ray");
+    let next = if features.alpha_blend {
+        format!("    var next = {next};\n    next.key = path.key;\n    return next;\n")
+    } else {
+        format!("    return {next};\n")
+    };
     function(
         &mut text,
         "The ray to trace next, if it is not `ray`.",
         "dispatch_probe_ray(path: Path, ray: Ray) -> Ray",
-        with("    return smooth_probe_ray(path, ray);\n", "    return ray;\n"),
+        &next,
     );
     function(
         &mut text,

@@ -19,21 +19,37 @@ pub(crate) fn candidate(features: &FeatureSet) -> String {
         "trace/alpha.wgsl",
         "trace/ray.wgsl",
     ]);
+    if features.alpha_blend {
+        text += &imports(["trace/coverage.wgsl"]);
+    }
     text += "\n// Triangle `i`, in the frame of `ray`, at barycentric weights `b`.\n\
              fn candidate_triangle(i: u32, b: vec2f, ray: Ray) -> bool {\n";
     if features.surface_lights() {
         text += "    if (ray.light != NONE && load_tri_shade_light(i) == ray.light) {\n        return false;\n    }\n";
     }
-    if features.alpha_clip {
-        text += "    let material = dispatch_placed_material(ray.instance, load_tri_shade_material(i));\n    \
-                 return alpha_is_plain(material) || alpha_exists(material, triangle_uv(i, b));\n}\n";
-    } else {
-        text += "    return true;\n}\n";
+    if features.alpha_clip || features.alpha_blend {
+        text += "    let material = dispatch_placed_material(ray.instance, load_tri_shade_material(i));\n";
     }
+    if features.alpha_blend {
+        text += "    if (coverage_is_partial(material)) {\n        \
+                 let coverage = coverage_at(material, triangle_uv(i, b));\n        \
+                 return coverage_meets(ray, coverage, coverage_triangle_id(i, ray.instance));\n    }\n";
+    }
+    text += if features.alpha_clip {
+        "    return alpha_is_plain(material) || alpha_exists(material, triangle_uv(i, b));\n}\n"
+    } else {
+        "    return true;\n}\n"
+    };
     text += "\n// A sphere at distance `t` of the ray, which starts at `origin` for a sphere that stands still.\n\
              fn candidate_sphere(sphere: Sphere, ray: Ray, origin: vec3f, t: f32) -> bool {\n";
     if features.surface_lights() {
         text += "    if (ray.light != NONE && sphere.light == ray.light) {\n        return false;\n    }\n";
+    }
+    if features.alpha_blend {
+        text += "    if (coverage_is_partial(sphere.material)) {\n        \
+                 let n = sphere_normal(sphere, origin, ray.dir, t);\n        \
+                 let coverage = coverage_at(sphere.material, sphere_uv(n));\n        \
+                 return coverage_meets(ray, coverage, coverage_sphere_id(sphere, dot(n, ray.dir) < 0.0));\n    }\n";
     }
     if features.alpha_clip {
         text += "    if (alpha_is_plain(sphere.material)) {\n        return true;\n    }\n    \

@@ -65,6 +65,7 @@ const OTHERS: &[Other] = &[
     }),
     ("unlimited", |f| f.unlimited = true),
     ("alpha clip", |f| f.alpha_clip = true),
+    ("alpha blend", |f| f.alpha_blend = true),
     ("tangents", |f| f.tangents = true),
     ("objects", |f| f.objects = true),
     ("normal maps", |f| f.normal_maps = true),

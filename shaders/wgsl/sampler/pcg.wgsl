@@ -14,6 +14,12 @@ fn pcg_2d(key: SampleKey, purpose: u32) -> vec2f {
     return vec2f(f32(v.x >> 8u), f32(v.y >> 8u)) * 5.9604645e-8; // 2^-24
 }
 
+// One number in [0, 1 - 2^-24] of a series of its own for each `id`.
+fn pcg_of(key: SampleKey, purpose: u32, id: u32) -> f32 {
+    let v = pcg_hash(pcg_words(key, purpose) ^ vec4u(id, 0u, 0u, 0u));
+    return f32(v.x >> 8u) * 5.9604645e-8; // 2^-24
+}
+
 fn pcg_words(key: SampleKey, purpose: u32) -> vec4u {
     return pcg_hash(vec4u(key.pixel, key.sample, sample_dimension(key, purpose), key.seed));
 }

@@ -24,6 +24,12 @@ fn sobol_2d(key: SampleKey, purpose: u32) -> vec2f {
     return vec2f(sobol_unit(first), sobol_unit(second));
 }
 
+// One number in [0, 1 - 2^-24] of a sequence of its own for each `id`.
+fn sobol_of(key: SampleKey, purpose: u32, id: u32) -> f32 {
+    let seeds = pcg_hash(vec4u(key.pixel, sample_dimension(key, purpose), key.seed, id));
+    return sobol_unit(sobol_scramble(sobol_index(key, seeds.x), seeds.y));
+}
+
 // The three scrambles of a pair. The sample is no part of them: they make one sequence of it.
 fn sobol_seeds(key: SampleKey, purpose: u32) -> vec3u {
     return pcg_hash(vec4u(key.pixel, sample_dimension(key, purpose), key.seed, 0u)).xyz;

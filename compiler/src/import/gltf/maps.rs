@@ -38,7 +38,6 @@ type Lookup = (u32, Option<UvTransform>);
 /// What is counted over all materials.
 #[derive(Default)]
 pub(super) struct Notes {
-    pub(super) blended: u64,
     pub(super) coat_normals: u64,
     pub(super) coats_on_maps: u64,
     pub(super) absorbing: u64,
@@ -49,7 +48,6 @@ pub(super) struct Notes {
 impl Notes {
     pub(super) fn report(&self, file: &str, report: &mut ImportReport) {
         let notes = [
-            (self.blended, "blend with what is behind them; coverage is cut at one half instead"),
             (self.coat_normals, "have coats with normal maps of their own, which are not used"),
             (self.coats_on_maps, "have coats that follow the normal map of what is under them"),
             (

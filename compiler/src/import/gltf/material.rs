@@ -86,24 +86,19 @@ fn convert_one(
     layers::convert(material, &mut out, maps, notes)?;
     notes.tinted_glass += u64::from(out.is_glass() && !out.is_plain_glass());
     let clip = match material.alpha_mode {
-        Checked::Valid(AlphaMode::Opaque) => None,
+        Checked::Valid(AlphaMode::Opaque) => return Ok(out),
         Checked::Valid(AlphaMode::Mask) => {
             Some(material.alpha_cutoff.map_or(0.5, |cutoff| unit(cutoff.0)))
         }
-        Checked::Valid(AlphaMode::Blend) => {
-            notes.blended += 1;
-            Some(0.5)
-        }
+        Checked::Valid(AlphaMode::Blend) => None,
         Checked::Invalid => {
             let document = maps.source.document;
             let message = "its alphaMode is not OPAQUE, MASK or BLEND";
             return Err(document.error(ErrorKind::Format, maps.what, message));
         }
     };
-    if clip.is_some() {
-        out.alpha = unit(a);
-        out.alpha_map = out.color_map;
-        out.alpha_clip = clip;
-    }
+    out.alpha = unit(a);
+    out.alpha_map = out.color_map;
+    out.alpha_clip = clip;
     Ok(out)
 }

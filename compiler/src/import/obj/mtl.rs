@@ -270,7 +270,7 @@ fn convert(
     out.alpha_map = maps.load(mtl.dissolve_texture.as_deref(), ColorSpace::Data, Alpha::Mask)?;
     set_colors(&mut out, mtl, &place, report);
     set_gloss(&mut out, mtl);
-    set_transparency(&mut out, mtl, &place, report);
+    set_transparency(&mut out, mtl);
     Ok(out)
 }
 
@@ -325,33 +325,17 @@ fn set_gloss(out: &mut ImportedMaterial, mtl: &tobj::Material) {
     }
 }
 
-fn set_transparency(
-    out: &mut ImportedMaterial,
-    mtl: &tobj::Material,
-    place: &str,
-    report: &mut ImportReport,
-) {
+fn set_transparency(out: &mut ImportedMaterial, mtl: &tobj::Material) {
     let tr = mtl.unknown_param.get("Tr").and_then(|s| s.parse::<f64>().ok());
     let coverage = mtl.dissolve.map(f64::from).or(tr.map(|tr| 1.0 - tr));
     let coverage = coverage.map(|d| d.clamp(0.0, 1.0));
     match (mtl.illumination_model, coverage) {
         (Some(6 | 7), None) => out.transmission = 1.0,
         (Some(4 | 6 | 7 | 9), Some(d)) => out.transmission = 1.0 - d,
-        (_, Some(d)) if d < 1.0 => {
-            out.alpha = d;
-            out.alpha_clip = Some(0.5);
-            if out.alpha_map.is_none() {
-                let fate = if d < 0.5 { "invisible" } else { "opaque" };
-                let message = format!("coverage {d} is cut at one half: its surfaces are {fate}");
-                report.warn(place, message);
-            }
-        }
+        (_, Some(d)) => out.alpha = d,
         _ => {}
     }
     out.solid = out.transmission > 0.0;
-    if out.alpha_map.is_some() {
-        out.alpha_clip = Some(0.5);
-    }
 }
 
 /// Finds and asks for the images of a material.

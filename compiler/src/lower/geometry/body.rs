@@ -238,7 +238,7 @@ fn read_looks(materials: &MaterialTable<'_>, index: u32, key: &mut KeyOf) {
     key.number(index);
     if index != NONE {
         let looks = materials.looks(index);
-        key.number(looks.glows).number(looks.has_inside);
+        key.number(looks.glows).number(looks.has_inside).number(looks.is_partial);
     }
 }
 

@@ -155,7 +155,7 @@ impl MaterialTable<'_> {
             g: leaf.g as f32,
             ..blank(MaterialKind::Leaf)
         };
-        self.clip(&mut record, leaf.alpha, leaf.alpha_clip);
+        self.cover(&mut record, leaf.alpha, leaf.alpha_clip);
         record
     }
 
@@ -176,7 +176,7 @@ impl MaterialTable<'_> {
             ..with_ior(blank(MaterialKind::Petal), petal.ior)
         };
         record.flags |= material_flag::TANGENT | material_flag::THROUGH;
-        self.clip(&mut record, petal.alpha, petal.alpha_clip);
+        self.cover(&mut record, petal.alpha, petal.alpha_clip);
         record
     }
 }

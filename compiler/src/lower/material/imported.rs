@@ -2,7 +2,7 @@
 
 use pack::abi::{self, MaterialKind, material_flag};
 
-use super::table::{MaterialTable, blank, cutting, image_of, set_normal_map, with_ior};
+use super::table::{MaterialTable, blank, covering, image_of, set_normal_map, with_ior};
 use crate::import::ImportedMaterial;
 
 impl MaterialTable<'_> {
@@ -24,8 +24,8 @@ impl MaterialTable<'_> {
         let alpha = from.alpha as f32;
         let least =
             from.alpha_map.map_or(1.0, |map| self.textures.least((image_of(asset, map), 3)));
-        if let Some(cutoff) = cutting(from.alpha_clip, alpha, least) {
-            record.flags |= material_flag::ALPHA_CLIP;
+        if let Some((flag, cutoff)) = covering(from.alpha_clip, alpha, least) {
+            record.flags |= flag;
             record.alpha_cutoff = cutoff;
             record.alpha = alpha;
             record.alpha_texture = self.map(asset, from.alpha_map);

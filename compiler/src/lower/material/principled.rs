@@ -3,7 +3,7 @@
 use lang::scene::{Color, ColorSpace, Placement, Principled, Scalar, TextureExpression, Wrap};
 use pack::abi::{self, MaterialKind, NONE, material_flag};
 
-use super::table::{MaterialTable, blank, channel, cutting, factor, image_of, switch, with_ior};
+use super::table::{MaterialTable, blank, channel, covering, factor, image_of, switch, with_ior};
 use crate::import::{ImportedMaterial, MapUse};
 use crate::lower::files::ImageRef;
 use crate::lower::texture::{Channel, expression};
@@ -36,15 +36,15 @@ impl MaterialTable<'_> {
             record.transmission_texture = self.scalars([from.transmission, ONE, ONE, ONE]);
             mark_straight(&mut record);
         }
-        self.clip(&mut record, from.alpha, from.alpha_clip);
+        self.cover(&mut record, from.alpha, from.alpha_clip);
         record
     }
 
-    /// Cuts out where `alpha` is below `cutoff`, if there is one.
-    pub(super) fn clip(&mut self, record: &mut abi::Material, alpha: Scalar, cutoff: Option<f64>) {
+    /// Cuts out where `alpha` is below `cutoff`; without one `alpha` is the share that is there.
+    pub(super) fn cover(&mut self, record: &mut abi::Material, alpha: Scalar, cutoff: Option<f64>) {
         let least = self.least(alpha);
-        let Some(cutoff) = cutting(cutoff, factor(alpha), least) else { return };
-        record.flags |= material_flag::ALPHA_CLIP;
+        let Some((flag, cutoff)) = covering(cutoff, factor(alpha), least) else { return };
+        record.flags |= flag;
         record.alpha_cutoff = cutoff;
         record.alpha = factor(alpha);
         record.alpha_texture = self.scalars([ONE, ONE, ONE, alpha]);

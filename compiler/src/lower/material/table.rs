@@ -87,13 +87,24 @@ impl<'a> MaterialTable<'a> {
         Looks {
             glows: self.glow(index) > 0.0,
             has_inside: has_inside(&self.records[index as usize]),
+            is_partial: self.records[index as usize].is_partial(),
         }
+    }
+
+    /// Whether a material of partial coverage gives light, of which the table of lights may have nothing.
+    pub(in crate::lower) fn has_partial_glow(&self) -> bool {
+        self.records
+            .iter()
+            .zip(&self.glows)
+            .any(|(record, glow)| record.is_partial() && *glow > 0.0)
     }
 
     /// Of each material, whether it stops light.
     pub(in crate::lower) fn opaque(&self) -> Vec<bool> {
         let stops = |material: &abi::Material| {
-            let holes = material.flags & (material_flag::ALPHA_CLIP | material_flag::THROUGH) != 0;
+            const HOLES: u32 =
+                material_flag::ALPHA_CLIP | material_flag::ALPHA_BLEND | material_flag::THROUGH;
+            let holes = material.flags & HOLES != 0;
             let kind = MaterialKind::from_tag(material.kind);
             // That principled materials may transmit is said by their flags.
             let transmits =
@@ -119,7 +130,17 @@ impl<'a> MaterialTable<'a> {
 
     fn glow_of(&mut self, record: &abi::Material) -> f64 {
         let sides = if record.flags & material_flag::EMIT_BOTH_SIDES != 0 { 2.0 } else { 1.0 };
-        sides * luminance(self.mean_emission(record))
+        sides * luminance(self.mean_emission(record)) * self.mean_coverage(record)
+    }
+
+    /// Mean share of a surface that is there.
+    fn mean_coverage(&mut self, record: &abi::Material) -> f64 {
+        if !record.is_partial() {
+            return 1.0;
+        }
+        let texture = record.alpha_texture;
+        let mean = if texture == NONE { 1.0 } else { self.textures.mean(texture)[3] };
+        (f64::from(record.alpha) * mean).clamp(0.0, 1.0)
     }
 
     /// Mean emitted radiance of a material, over its texture if it has one.
@@ -271,6 +292,8 @@ pub(in crate::lower) struct Looks {
     pub(in crate::lower) glows: bool,
     /// Light goes through it into an inside.
     pub(in crate::lower) has_inside: bool,
+    /// Only a share of it is there.
+    pub(in crate::lower) is_partial: bool,
 }
 
 /// A material of this kind without textures and layers, opaque, black, ior 1.5.
@@ -296,13 +319,21 @@ pub(in crate::lower) fn blank(kind: MaterialKind) -> abi::Material {
     with_ior(base, 1.5)
 }
 
-/// The least coverage that exists, where some of the surface does not: `alpha` times an image that is
-/// `least` at least lies below. What lies nowhere below needs no test, for any ray.
-pub(in crate::lower) fn cutting(cutoff: Option<f64>, alpha: f32, least: f32) -> Option<f32> {
-    let cutoff = cutoff? as f32;
+/// Whether a surface whose coverage is `alpha` times an image that is `least` at least lets some rays by, and how: where
+/// its coverage is below `cutoff`, or by chance. The flag, and the cutoff. What lies nowhere below needs no test, for any
+/// ray.
+pub(in crate::lower) fn covering(
+    cutoff: Option<f64>,
+    alpha: f32,
+    least: f32,
+) -> Option<(u32, f32)> {
+    let (flag, limit) = match cutoff {
+        Some(cutoff) => (material_flag::ALPHA_CLIP, cutoff as f32),
+        None => (material_flag::ALPHA_BLEND, 1.0),
+    };
     let everywhere = alpha * least;
     // A NaN in an image keeps the test.
-    (everywhere < cutoff || everywhere.is_nan()).then_some(cutoff)
+    (everywhere < limit || everywhere.is_nan()).then_some((flag, limit))
 }
 
 /// Gives the material a normal map, if there is one.

@@ -38,6 +38,7 @@ struct Rays {
     range: [[f32; 8]; 2],
     time: [f32; 8],
     ids: [[u32; 8]; 6],
+    key: [[u32; 8]; 4],
 }
 
 impl Rays {
@@ -45,6 +46,7 @@ impl Rays {
     fn of(ray: &kernel::Ray) -> Self {
         let three = |a: v::V3<v::F>| [v::f_to(a.x), v::f_to(a.y), v::f_to(a.z)];
         let [skip, last] = [ray.skip, ray.last];
+        let key = ray.key;
         let ids = [skip.x, skip.y, last.x, last.y, ray.light, ray.instance];
         let [a, b, c, d, e, f] = ids;
         Self {
@@ -52,6 +54,7 @@ impl Rays {
             dir: three(ray.dir),
             range: [v::f_to(ray.t_min), v::f_to(ray.t_max)],
             time: v::f_to(ray.time),
+            key: [v::u_to(key.pixel), v::u_to(key.sample), v::u_to(key.bounce), v::u_to(key.seed)],
             ids: [v::u_to(a), v::u_to(b), v::u_to(c), v::u_to(d), v::u_to(e), v::u_to(f)],
         }
     }
@@ -71,6 +74,12 @@ impl Rays {
             light: id(4),
             time: self.time[k],
             instance: id(5),
+            key: scalar::SampleKey {
+                pixel: self.key[0][k],
+                sample: self.key[1][k],
+                bounce: self.key[2][k],
+                seed: self.key[3][k],
+            },
         }
     }
 }

@@ -158,6 +158,8 @@ pub mod material_flag {
     pub const EMIT_TINT: u32 = 64;
     /// A light that shines into a cone, which its `Light` knows.
     pub const EMIT_SPOT: u32 = 128;
+    /// A share of the surface is there, its alpha: each ray decides on its own whether it meets it.
+    pub const ALPHA_BLEND: u32 = 256;
     /// Every bit.
     pub const ALL: u32 = EMIT_BOTH_SIDES
         | ALPHA_CLIP
@@ -166,7 +168,8 @@ pub mod material_flag {
         | INTERIOR
         | THROUGH
         | EMIT_TINT
-        | EMIT_SPOT;
+        | EMIT_SPOT
+        | ALPHA_BLEND;
 }
 
 abi_struct! {
@@ -295,6 +298,12 @@ impl Material {
     pub fn is_sheet(&self) -> bool {
         let both = material_flag::THROUGH | material_flag::INTERIOR;
         self.flags & both == material_flag::THROUGH
+    }
+
+    /// A surface of which a share is there.
+    #[must_use]
+    pub fn is_partial(&self) -> bool {
+        self.flags & material_flag::ALPHA_BLEND != 0
     }
 
     /// A principled surface that lets light through.
