@@ -4,6 +4,7 @@
 //! keeps two promises: the same inputs give the same bytes, and what a scene does not need is not
 //! in its pack. It does not know wgpu.
 
+mod atmosphere;
 pub mod bvh;
 pub mod cache;
 pub mod cli;

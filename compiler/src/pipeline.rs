@@ -139,6 +139,8 @@ pub fn compile_after(
         return Err(CompileError::Scene);
     }
     let scene = framed.as_ref().unwrap_or(scene);
+    let sunny = lower::with_sun(scene);
+    let scene = sunny.as_ref().unwrap_or(scene);
     let lowered = lower::lower(scene, &found, &options.trees, stages, diagnostics)?;
     drop(found);
     if diagnostics.iter().any(Diagnostic::is_error) {

@@ -27,7 +27,7 @@ pub use crate::material::{
 };
 pub use crate::medium::{Medium, MediumModel};
 pub use crate::shape::{EditOf, MeshEdit, Parts, Shape};
-pub use crate::sky::{Sky, SkyModel};
+pub use crate::sky::{Sky, SkyModel, SunSky};
 pub use crate::texture::{Placement, TextureExpression, TexturePattern};
 
 /// A whole checked scene.

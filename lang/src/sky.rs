@@ -5,9 +5,11 @@ use crate::check::Fields;
 use crate::check::light::{check_direction, scaled, unit};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
+use crate::eval::color::blackbody;
 use crate::resolved::{Declared, number, vector};
 use crate::scene::{Name, Rgb};
 use crate::schema::instance::GROUP;
+use crate::schema::light::LEAST_DIAMETER;
 use crate::schema::{
     ANY, Bounds, Default, Field, FieldType, Kind, TypeSchema, WHITE, color_text, types,
 };
@@ -70,7 +72,29 @@ pub enum SkyModel {
         /// Factor on the radiance in the image.
         strength: f64,
     },
+    /// A clear day.
+    SunSky(SunSky),
 }
+
+/// Air, sun and ground of a clear day.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SunSky {
+    /// Unit vector towards the sun, world frame.
+    pub sun_direction: [f64; 3],
+    /// Half the angle that the sun fills, radians, > 0.
+    pub half_angle: f64,
+    /// Colour of sunlight above the air, of luminance 1.
+    pub sun: Rgb,
+    /// Vertical optical depth of air and haze over that of air alone, >= 1.
+    pub turbidity: f64,
+    /// Share of light that the ground returns, 0 ..= 1.
+    pub ground: Rgb,
+    /// Factor on all of its light.
+    pub strength: f64,
+}
+
+/// Temperature of the sun as a black body, kelvin (IAU 2015, resolution B3: 5772 K).
+const SUN_TEMPERATURE: f64 = 5772.0;
 
 impl Sky {
     /// Name of its type, and its fields as they would be written.
@@ -119,6 +143,16 @@ impl Sky {
                 ];
                 ("image", fields)
             }
+            SkyModel::SunSky(sky) => {
+                let fields = vec![
+                    ("sun.direction", vector(sky.sun_direction, "")),
+                    ("sun.angular_diameter", units::show(2.0 * sky.half_angle, Dim::ANGLE)),
+                    ("turbidity", number(sky.turbidity)),
+                    ("ground.albedo", color_text(sky.ground)),
+                    ("strength", number(sky.strength)),
+                ];
+                ("sun_sky", fields)
+            }
         };
         fields.extend(self.group.iter().map(|group| ("group", format!("\"{group}\""))));
         (kind, fields)
@@ -129,6 +163,7 @@ impl Sky {
 pub(crate) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
     match SkyType::of(fields.schema) {
         SkyType::Gradient => {}
+        SkyType::SunSky => return check_direction(ev, fields, "sun.direction"),
         SkyType::Constant | SkyType::Image => return,
     }
     if !fields.has("sun.direction") {
@@ -159,6 +194,14 @@ pub(crate) fn read(name: Name, fields: &Fields) -> Option<Sky> {
             strength,
         },
         SkyType::Gradient => gradient(fields, strength)?,
+        SkyType::SunSky => SkyModel::SunSky(SunSky {
+            sun_direction: unit(fields.vector("sun.direction")?)?,
+            half_angle: 0.5 * fields.number("sun.angular_diameter")?,
+            sun: blackbody(SUN_TEMPERATURE),
+            turbidity: fields.number("turbidity")?,
+            ground: fields.color("ground.albedo")?,
+            strength,
+        }),
     };
     Some(Sky { name, model, group: fields.text("group") })
 }
@@ -196,11 +239,13 @@ pub(crate) fn is_black(sky: &Sky) -> bool {
         SkyModel::Gradient { zenith, middle, horizon, ground, glow, disc, .. } => {
             [zenith, middle, horizon, ground, glow, disc].into_iter().all(black)
         }
-        SkyModel::Image { strength, .. } => *strength <= 0.0,
+        SkyModel::Image { strength, .. } | SkyModel::SunSky(SunSky { strength, .. }) => {
+            *strength <= 0.0
+        }
     }
 }
 
-types!(SkyType { Constant = CONSTANT, Gradient = GRADIENT, Image = IMAGE });
+types!(SkyType { Constant = CONSTANT, Gradient = GRADIENT, Image = IMAGE, SunSky = SUN_SKY });
 
 const STRENGTH: Field = Field::new(
     "strength",
@@ -298,7 +343,7 @@ const GRADIENT: TypeSchema = TypeSchema {
         band("disc.color", [15.0, 12.75, 6.0], "Radiance added at the sun itself."),
         exponent("disc.power", 400.0, "The disc falls with this power of the cosine."),
     ],
-    foreign: &[("sunsky", "Mitsuba"), ("sky2", "LuxCore"), ("sky_texture", "Blender")],
+    foreign: &[],
 };
 
 const IMAGE: TypeSchema = TypeSchema {
@@ -336,5 +381,67 @@ const IMAGE: TypeSchema = TypeSchema {
         ("environment", "Blender"),
         ("hdri", "common use"),
         ("imagemap", "common use"),
+    ],
+};
+
+const SUN_SKY: TypeSchema = TypeSchema {
+    kind: Kind::Sky,
+    name: "sun_sky",
+    doc: "A clear day: blue sky, haze, the sun with the light that the air leaves it, and level ground below the \
+          horizon, after Hillaire 2020. The sun is a `directional` light. All is as bright as outdoors: a high sun \
+          gives 110 klx, and pictures want an `exposure` of about -5EV.",
+    example: "sky day: sun_sky { sun.direction = (0.3, 0.8, 0.4), turbidity = 2 }",
+    fields: &[
+        Field::new(
+            "sun.direction",
+            FieldType::Vector(Dim::NONE, ""),
+            Default::Required,
+            "Points towards the sun; its length does not matter. A sun below the horizon leaves twilight.",
+        )
+        .foreign(&[
+            ("sundir", "LuxCore"),
+            ("sun_direction", "Mitsuba and Blender"),
+            ("direction", "lights"),
+            ("sun_elevation", "Blender"),
+        ]),
+        Field::new(
+            "sun.angular_diameter",
+            FieldType::Number(Bounds {
+                dim: Dim::ANGLE,
+                unit: "deg",
+                min: LEAST_DIAMETER,
+                above_min: false,
+                max: std::f64::consts::FRAC_PI_2,
+            }),
+            Default::Number(0.53 * std::f64::consts::PI / 180.0),
+            "The angle that the sun fills; larger means softer shadows, and as much light.",
+        )
+        .foreign(&[("sun_size", "Blender"), ("angular_diameter", "lights")]),
+        Field::new(
+            "turbidity",
+            FieldType::Number(Bounds::number(1.0, 10.0)),
+            Default::Number(1.1),
+            "How hazy it is: the vertical optical depth of air and haze over that of air alone, in green.",
+        )
+        .typical("mountain air 1.1, a clear day 2, haze 4"),
+        Field::new(
+            "ground.albedo",
+            FieldType::Color(1.0),
+            Default::Color([0.3; 3]),
+            "Share of light that the ground returns, which the sky scatters again.",
+        )
+        .typical("sea 0.05, grass and earth 0.2, sand 0.4, snow 0.8")
+        .foreign(&[("ground_albedo", "Mitsuba and Blender"), ("albedo", "Mitsuba"), ("groundalbedo", "LuxCore")]),
+        Field { doc: "Factor on all of its light.", ..STRENGTH },
+        GROUP,
+    ],
+    foreign: &[
+        ("sunsky", "Mitsuba"),
+        ("sky2", "LuxCore"),
+        ("sky_texture", "Blender"),
+        ("nishita", "Blender"),
+        ("hosek", "common use"),
+        ("preetham", "common use"),
+        ("atmosphere", "common use"),
     ],
 };

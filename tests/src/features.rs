@@ -145,6 +145,7 @@ pub const CASES: &[Case] = &[
         "image sky and other lights",
         &[PANORAMA, SPHERE_LIGHT, LAMP, PANEL, PLASTIC, BALL, FLOOR],
     ),
+    case("clear sky and its sun", &[DAY, PLASTIC, BALL, FLOOR]),
     case("a picture as the sky, turned", &[POSTCARD, CLAY, BALL, FLOOR]),
     case("gradient sky without a sun", &[BANDS, PLASTIC, BALL, FLOOR]),
     case("tinted light", &[TINTED, SKY, PLASTIC, BALL, FLOOR]),
@@ -324,6 +325,8 @@ const GRADIENT: &str = "sky day: gradient {
 const BANDS: &str = "sky day: gradient { blend.high = 0.6, blend.low = 0.1, base = 2 }\n";
 /// A sun of one texel over a dim sky.
 const PANORAMA: &str = "sky garden: image { file = \"panorama.exr\", strength = 0.5 }\n";
+const DAY: &str =
+    "sky day: sun_sky { sun.direction = (0.8, 0.7, 0.3), turbidity = 2, strength = 0.02 }\n";
 const POSTCARD: &str = "sky card: image { file = \"paint.png\", rotate = 200deg }\n";
 
 const SPHERE_LIGHT: &str = "light bulb: sphere { center = (2, 4, 2)m, radius = 30cm, color = blackbody(3200K), strength = 20 }\n";

@@ -64,22 +64,36 @@ pub(super) fn sky(
             Some(LoweredSky { record, table })
         }
         SkyModel::Image { rotate, strength, .. } => {
-            let facts = files.environment().expect("the image of a sky has been read");
-            let mut key = KeyOf::stage("table of an image");
-            key.bytes(&facts.image.content).number(facts.image.is_radiance);
-            let cells = || Ok(image_cells(&*files.load_environment()?));
-            let Some(table) = table_of(stages, key.end(), cells)? else { return Ok(None) };
-            let flux = strength * facts.scale * table.flux;
-            let record = abi::Sky {
-                zenith: [(strength * facts.scale) as f32; 3],
-                kind: SkyKind::Image as u32,
-                texture: textures.environment(),
-                rotation: turns(*rotate),
-                ..blank()
-            };
-            Some(LoweredSky { record, table: Some(SkyTable { flux, ..table }) })
+            image((*rotate, *strength), (files, stages), textures)?
+        }
+        SkyModel::SunSky(day) => {
+            // Its image has the sun above the middle, which lies towards -z.
+            let [x, _, z] = day.sun_direction;
+            image((libm::atan2(-x, -z), 1.0), (files, stages), textures)?
         }
     })
+}
+
+/// An image, turned about +y by so many radians, times a factor; `None` if it is black.
+fn image(
+    (rotate, strength): (f64, f64),
+    (files, stages): (&dyn Files, &Stages),
+    textures: &mut TextureTable<'_>,
+) -> Result<Option<LoweredSky>, ImportError> {
+    let facts = files.environment().expect("the image of a sky has been read");
+    let mut key = KeyOf::stage("table of an image");
+    key.bytes(&facts.image.content).number(facts.image.is_radiance);
+    let cells = || Ok(image_cells(&*files.load_environment()?));
+    let Some(table) = table_of(stages, key.end(), cells)? else { return Ok(None) };
+    let flux = strength * facts.scale * table.flux;
+    let record = abi::Sky {
+        zenith: [(strength * facts.scale) as f32; 3],
+        kind: SkyKind::Image as u32,
+        texture: textures.environment(),
+        rotation: turns(rotate),
+        ..blank()
+    };
+    Ok(Some(LoweredSky { record, table: Some(SkyTable { flux, ..table }) }))
 }
 
 /// What is kept of a table beside its values, which the pack has.

@@ -247,7 +247,7 @@ impl Explain<'_> {
         let fits = |model: &SkyModel| match model {
             SkyModel::Constant(_) => kind == SkyKind::Constant,
             SkyModel::Gradient { .. } => kind == SkyKind::Gradient,
-            SkyModel::Image { .. } => kind == SkyKind::Image,
+            SkyModel::Image { .. } | SkyModel::SunSky(_) => kind == SkyKind::Image,
         };
         let text = match self.lowered.sky {
             Some(_) => "it has the same colour everywhere",

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use lang::diagnostic::{Code, Diagnostic, Fix};
-use lang::scene::{Asset, AssetFormat, Axis, FileFrame, Parts, Scene, Shape, SkyModel};
+use lang::scene::{Asset, AssetFormat, Axis, FileFrame, Parts, Scene, Shape, SkyModel, SunSky};
 use lang::source::{SourceSet, Span};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -17,6 +17,7 @@ use serde::de::DeserializeOwned;
 
 use super::options::Options;
 use super::session::Session;
+use crate::atmosphere;
 use crate::import::{
     Environment, EnvironmentFacts, ErrorKind, Image, ImageFacts, ImportError, ImportReport,
     MeshFacts, MeshFile, load_environment, load_gltf, load_image, load_obj, load_ply, load_stl,
@@ -131,8 +132,13 @@ impl<'a> SceneFiles<'a> {
         files.sort_by(|a, b| a.name.cmp(&b.name));
         files.dedup();
         let assets = known.0.into_iter().flatten().collect();
+        let mut environment = environment.map(|(_, (facts, _))| facts);
+        if let Some(day) = origin.day() {
+            let made = atmosphere::environment(day);
+            environment = Some(EnvironmentFacts::of(&made));
+            loaded.environment = Some(Arc::new(made));
+        }
         let (textures, loaded) = (known.1, Mutex::new(loaded));
-        let environment = environment.map(|(_, (facts, _))| facts);
         Ok(Some((Self { origin, assets, textures, environment, loaded }, files, counts)))
     }
 
@@ -194,6 +200,9 @@ impl Files for SceneFiles<'_> {
         if let Some(found) = &self.lock().environment {
             return Ok(Arc::clone(found));
         }
+        if let Some(day) = self.origin.day() {
+            return Ok(Arc::new(atmosphere::environment(day)));
+        }
         let (path, _, _) = self.origin.sky().expect("the scene has a sky of an image");
         let found = Arc::new(load_environment(&path, &self.origin.options.limits)?);
         unchanged(Some(EnvironmentFacts::of(&found)) == self.environment, &path)?;
@@ -223,6 +232,14 @@ impl Origin<'_> {
         let model = self.scene.sky.as_ref().map(|sky| &sky.model)?;
         let SkyModel::Image { path, path_span, .. } = model else { return None };
         Some((self.beside(*path_span, path), *path_span, path))
+    }
+
+    /// The clear sky, if the scene has one: its image is computed.
+    fn day(&self) -> Option<&SunSky> {
+        match &self.scene.sky.as_ref()?.model {
+            SkyModel::SunSky(day) => Some(day),
+            SkyModel::Constant(_) | SkyModel::Gradient { .. } | SkyModel::Image { .. } => None,
+        }
     }
 
     /// Begins the key of what is known of a file.

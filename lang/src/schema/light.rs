@@ -20,7 +20,7 @@ const LEAST_CONE: f64 = 0.5 * std::f64::consts::PI / 180.0;
 
 /// The narrowest light at infinity: the kernel compares chords of directions, which single precision knows to 1e-7;
 /// below a hundredth of a degree that is more than a thousandth of the chord.
-const LEAST_DIAMETER: f64 = 0.01 * std::f64::consts::PI / 180.0;
+pub(crate) const LEAST_DIAMETER: f64 = 0.01 * std::f64::consts::PI / 180.0;
 
 /// Which sides of a flat light shine.
 const SIDES: &[Word] =

@@ -39,6 +39,7 @@ fn brighten(scene: &mut Scene, factor: f64) {
             [zenith, middle, horizon, ground, glow, disc].into_iter().for_each(times);
         }
         Some(SkyModel::Image { strength, .. }) => *strength *= factor,
+        Some(SkyModel::SunSky(day)) => day.strength *= factor,
     }
 }
 
