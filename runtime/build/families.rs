@@ -19,6 +19,9 @@ pub(crate) const MATERIALS: usize = 0;
 /// Index of the family of [`media`].
 pub(crate) const MEDIA: usize = 1;
 
+/// Index of the family of [`geometry`].
+pub(crate) const GEOMETRY: usize = 2;
+
 /// All families.
 pub(crate) fn all() -> [Family; 16] {
     [

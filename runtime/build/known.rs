@@ -4,7 +4,7 @@
 //! its values. A declaration that always reads the same is known for every scene; one that varies
 //! within a family is known only for scenes with the same features of that group.
 
-use crate::families::{self, Family, MATERIALS, MEDIA};
+use crate::families::{self, Family, GEOMETRY, MATERIALS, MEDIA};
 use crate::pieces::{name_of, pieces};
 use pack::abi::MaterialKind;
 use pack::features as bit;
@@ -83,16 +83,46 @@ fn rows_of(
         let masks: Vec<u64> = varying.iter().map(|f| families[*f].mask).collect();
         return Err(format!("`{name}` depends on several groups of features: {masks:#x?}").into());
     };
-    let mask = literal(families[family].mask);
+    let of_family = |places: &BTreeSet<(usize, u64)>| {
+        places.iter().filter(|place| place.0 == family).map(|place| place.1).collect::<Vec<_>>()
+    };
+    let whole = families[family].mask;
+    // Its members are all combinations that there can be, and far too many to list for each text.
+    let mask =
+        if family == GEOMETRY { decisive(whole, texts.values().map(of_family)) } else { whole };
     let mut rows = Vec::new();
     for (text, places) in texts {
-        for (_, bits) in places.iter().filter(|place| place.0 == family) {
-            let bits = literal(*bits);
-            let condition = format!("Condition::Features {{ mask: {mask}, bits: {bits} }}");
-            rows.push((text.clone(), condition));
-        }
+        let all: BTreeSet<u64> = of_family(places).into_iter().map(|bits| bits & mask).collect();
+        let mask = literal(mask);
+        rows.extend(all.into_iter().map(|bits| {
+            let bits = literal(bits);
+            (text.clone(), format!("Condition::Features {{ mask: {mask}, bits: {bits} }}"))
+        }));
     }
     Ok(rows)
+}
+
+/// The bits of `mask` that tell texts apart; `texts` has, for each text, the bits of the members that have it. A family
+/// has many members, and most declarations depend on few of its features.
+fn decisive(mask: u64, texts: impl Iterator<Item = Vec<u64>>) -> u64 {
+    let mut found: BTreeMap<u64, BTreeSet<usize>> = BTreeMap::new();
+    for (text, members) in texts.enumerate() {
+        for bits in members {
+            found.entry(bits).or_default().insert(text);
+        }
+    }
+    let mut decisive = mask;
+    for bit in (0..64).map(|shift| 1_u64 << shift).filter(|bit| mask & bit != 0) {
+        let same = |(bits, texts): (&u64, &BTreeSet<usize>)| {
+            found.get(&(bits ^ bit)).is_none_or(|others| others == texts)
+        };
+        if found.iter().all(same) {
+            decisive &= !bit;
+            let kept = std::mem::take(&mut found);
+            found.extend(kept.into_iter().map(|(bits, texts)| (bits & !bit, texts)));
+        }
+    }
+    decisive
 }
 
 /// Hexadecimal Rust source, in groups of four digits.

@@ -53,12 +53,18 @@ fn line_of(module: &str, needle: &str) -> u32 {
 #[test]
 fn every_byte_of_a_kernel_has_its_place() {
     let linked = full_with("math/basis.wgsl", str::to_owned);
+    // What is generated in the place of a file has lines of its own.
+    let generated = shaders::generated_texts(&FeatureSet::full()).expect("all is generated");
     // Function names are unique, so each must be found at its own declaration.
     let mut n_found = 0;
     for (start, _) in linked.text.match_indices("\nfn ") {
         let at = linked.locate(start + 1);
         let declaration = linked.text[start + 1..].lines().next().expect("a line");
-        if let Some((_, text)) = module_texts().iter().find(|(name, _)| *name == at.file) {
+        let replaced =
+            generated.iter().find(|(name, _)| *name == at.file && !name.starts_with("scene/"));
+        let replaced = replaced.map(|(_, text)| text.as_str());
+        let file = module_texts().iter().find(|(name, _)| *name == at.file).map(|(_, text)| *text);
+        if let Some(text) = replaced.or(file) {
             let there = text.lines().nth(at.line as usize - 1).expect("the line exists");
             assert_eq!((there, at.column), (declaration, 1), "{at}");
             n_found += 1;

@@ -152,6 +152,7 @@ fn features_are_those_of_the_contents() {
         | features::LIGHT_TREE
         | features::TINT
         | features::SPOT
+        | features::ALPHA_BLEND
         | features::INSTANCES
         | features::WIDE_NODES
         | features::SAMPLER_PCG

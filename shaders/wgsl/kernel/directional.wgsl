@@ -1,5 +1,6 @@
 // Directional lights found by rays that leave the scene, weighted against their being sampled.
 
+#import "abi/light.wgsl"
 #import "kernel/direct.wgsl"
 #import "light/directional.wgsl"
 #import "math/vector.wgsl"
