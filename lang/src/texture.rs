@@ -249,6 +249,7 @@ impl Placement {
 
     /// The fields that say so, without those that say what is so anyway.
     #[must_use]
+    #[expect(clippy::float_cmp, reason = "what is exactly so anyway is not written")]
     pub(crate) fn fields(&self) -> String {
         let mut text = String::new();
         let numbers = [

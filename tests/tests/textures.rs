@@ -14,7 +14,7 @@ const TEXELS: [[u8; 4]; 4] =
 fn points() -> impl Iterator<Item = [f64; 2]> {
     // Steps without a common measure with the patterns, so that no point lies on an edge.
     (0..400)
-        .map(|i| f64::from(i))
+        .map(f64::from)
         .map(|i| [(i * 0.017_31).fract() * 3.1 - 1.05, (i * 0.031_7).fract() * 2.3 - 0.65])
 }
 

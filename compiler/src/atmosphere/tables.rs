@@ -34,7 +34,7 @@ impl Table {
             let first = (x as usize).min(n - 2);
             (first, x - first as f64)
         };
-        let x = (1.0 + mu.signum() * mu.abs().sqrt()) / 2.0;
+        let x = 0.5 + 0.5 * mu.signum() * mu.abs().sqrt();
         let y = ((radius - GROUND).max(0.0) / (TOP - GROUND)).sqrt();
         let ((i, u), (j, v)) = (place(x, self.columns), place(y, self.rows));
         let at = |i: usize, j: usize| self.values[j * self.columns + i];

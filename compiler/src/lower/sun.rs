@@ -8,6 +8,7 @@ use crate::atmosphere;
 
 /// The scene with the sun of its sky among its lights, named as the sky and in its group; `None` where it has no sun
 /// above the horizon.
+#[must_use]
 pub fn with_sun(scene: &Scene) -> Option<Scene> {
     let sky = scene.sky.as_ref()?;
     let SkyModel::SunSky(day) = &sky.model else { return None };

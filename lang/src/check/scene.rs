@@ -19,11 +19,18 @@ use crate::scene::{
 use crate::schema::Kind;
 use crate::shape::{MeshEdit, Parts};
 
+/// Indices in the scene of what materials name: textures, expressions of them, media.
+type Index<'a> = (
+    &'a dyn Fn(ItemId) -> usize,
+    &'a dyn Fn(&TextureExpression<ItemId>) -> usize,
+    &'a BTreeMap<ItemId, usize>,
+);
+
 impl Checker {
     /// Builds the scene, as far as it is sound.
     pub(super) fn build(mut self, ev: &mut Evaluator<'_>) -> Option<Scene> {
         let view = self.view(ev);
-        let Lights { lights, directional, panels } = self.lights(ev);
+        let Lights { near: lights, directional, panels } = self.lights(ev);
         if ev.diagnostics.iter().any(Diagnostic::is_error) {
             return None;
         }
@@ -53,21 +60,7 @@ impl Checker {
         let expression = |of: &TextureExpression<ItemId>| {
             intern(&mut expressions.borrow_mut(), of.named(&|id| texture(*id)))
         };
-        let materials = material_order
-            .iter()
-            .map(|(name, id)| {
-                let fields = self.sound(*id)?;
-                let from = Reader {
-                    fields,
-                    textures: &texture,
-                    expressions: &expression,
-                    media: &medium_at,
-                };
-                let model = MaterialModel::read(&from)?;
-                let normal = material::normal(fields, &texture);
-                Some(Material { name: name.clone(), model, normal })
-            })
-            .collect::<Option<Vec<Material>>>()?;
+        let materials = self.materials(&material_order, (&texture, &expression, &medium_at))?;
         let material_at = index(&material_order);
         let model = |id| Some(&materials.get(*material_at.get(&id)?)?.model);
         let warnings = dark::groups(&placed, model);
@@ -99,7 +92,7 @@ impl Checker {
 
     /// Lights of the world.
     fn lights(&self, ev: &mut Evaluator<'_>) -> Lights {
-        let Lights { mut lights, mut directional, mut panels } = Lights::default();
+        let Lights { near: mut lights, mut directional, mut panels } = Lights::default();
         for id in ids_of(ev.program, Kind::Light) {
             let name = name(ev, id);
             let built = self.sound(id).and_then(|fields| light::light(ev, name, fields));
@@ -113,7 +106,21 @@ impl Checker {
         lights.sort_by(|a, b| a.name.text.cmp(&b.name.text));
         directional.sort_by(|a, b| a.name.text.cmp(&b.name.text));
         panels.sort_by(|a, b| a.name.text.cmp(&b.name.text));
-        Lights { lights, directional, panels }
+        Lights { near: lights, directional, panels }
+    }
+
+    fn materials(
+        &self,
+        order: &[(Name, ItemId)],
+        (textures, expressions, media): Index<'_>,
+    ) -> Option<Vec<Material>> {
+        let material = |(name, id): &(Name, ItemId)| {
+            let fields = self.sound(*id)?;
+            let model = MaterialModel::read(&Reader { fields, textures, expressions, media })?;
+            let normal = material::normal(fields, textures);
+            Some(Material { name: name.clone(), model, normal })
+        };
+        order.iter().map(material).collect()
     }
 
     fn media(&self, order: &[(Name, ItemId)]) -> Option<Vec<Medium>> {
@@ -139,7 +146,7 @@ impl Checker {
 /// What the lights of a scene are in it, each list sorted by name.
 #[derive(Default)]
 struct Lights {
-    lights: Vec<Light>,
+    near: Vec<Light>,
     directional: Vec<Directional>,
     panels: Vec<Panel>,
 }

@@ -226,8 +226,9 @@ impl Evaluator<'_> {
                 return value;
             }
             Value::Hex(_) if want == Want::ColorParts => return value,
-            Value::Vector(..) | Value::Color(_) if want == Want::Blend => return value,
-            Value::TextureColor(_) if want == Want::Blend => return value,
+            Value::Vector(..) | Value::Color(_) | Value::TextureColor(_) if want == Want::Blend => {
+                return value;
+            }
             Value::TextureChannel(..) | Value::Textured(_)
                 if matches!(want, Want::Blend | Want::Share | Want::Measure) =>
             {

@@ -101,7 +101,7 @@ Parts merge to the bits of one run. Tasks may be killed at any time and run twic
 /// What a job is written for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum JobFormat {
-    /// Open Job Description, 2023-09, with TASK_CHUNKING.
+    /// Open Job Description, 2023-09, with `TASK_CHUNKING`.
     Openjd,
     /// An array job for Slurm, and the merge that waits for it.
     Slurm,

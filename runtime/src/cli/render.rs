@@ -97,12 +97,8 @@ pub(super) fn command(
     if let Err(exit) = prove_all(args, &console, &job, &outputs, &checkpoint) {
         return exit;
     }
-    if args.skip_complete {
-        match complete(&console, &scene, &job, &outputs) {
-            Ok(false) => {}
-            Ok(true) => return Exit::Done,
-            Err(exit) => return exit,
-        }
+    if let Some(exit) = complete(args, &console, (&scene, &job), &outputs) {
+        return exit;
     }
     let load = began.elapsed();
     let resumed = args.resume.as_ref().and_then(|_| Mark::of(&checkpoint));
@@ -130,24 +126,33 @@ pub(super) fn command(
     run(&plan, Session { from, keep })
 }
 
-/// Whether all pictures are there already; says so. What is no whole picture of this run is rendered again.
-fn complete(console: &Console, scene: &Scene, job: &Job, outputs: &[Output]) -> Result<bool, Exit> {
+/// `--skip-complete`: how the run ends if all pictures are there already. What is no whole picture of this run is
+/// rendered again.
+fn complete(
+    args: &RenderArgs,
+    console: &Console,
+    (scene, job): (&Scene, &Job),
+    outputs: &[Output],
+) -> Option<Exit> {
+    if !args.skip_complete {
+        return None;
+    }
     let mut pictures = outputs.iter().filter(|output| output.format == Format::Exr).peekable();
     if pictures.peek().is_none() {
         console.warn(
             "error: --skip-complete needs an .exr output: other pictures do not say whose they are",
         );
-        return Err(Exit::Usage);
+        return Some(Exit::Usage);
     }
     let is_whole = |output: &Output| {
         read_exr(&output.path).is_ok_and(|picture| output::is_whole(&picture, scene, job))
     };
-    let all = pictures.all(is_whole) && outputs.iter().all(|output| output.path.exists());
-    if all {
-        let names: Vec<String> = outputs.iter().map(|o| o.path.shown().to_string()).collect();
-        console.note(&format!("{} complete already", names.join(", ")));
+    if !(pictures.all(is_whole) && outputs.iter().all(|output| output.path.exists())) {
+        return None;
     }
-    Ok(all)
+    let names: Vec<String> = outputs.iter().map(|o| o.path.shown().to_string()).collect();
+    console.note(&format!("{} complete already", names.join(", ")));
+    Some(Exit::Done)
 }
 
 /// Sets what is wanted beside radiance; gives the denoiser, if one is.

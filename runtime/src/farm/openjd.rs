@@ -1,7 +1,7 @@
 //! A job as a template of Open Job Description, version 2023-09, with chunks of tasks (RFC 1).
 
 use super::JobFile;
-use super::plan::{Plan, quoted};
+use super::plan::{Plan, comments, quoted};
 use pack::abi::BATCH;
 
 /// The template, and how it is run.
@@ -22,7 +22,7 @@ fn yaml(text: &str) -> String {
 }
 
 fn text(plan: &Plan, commands: &[String]) -> String {
-    let usage: String = commands.iter().map(|line| format!("#   {line}\n")).collect();
+    let usage = comments(commands);
     let (samples, batches, chunk) = (plan.samples, plan.batches(), plan.chunk);
     let (name, pack) = (yaml(&plan.name), yaml(&plan.pack));
     let flags = plan.flags_text();

@@ -41,7 +41,7 @@ impl Plan {
     /// The flags as words of a shell.
     #[must_use]
     pub fn flags_text(&self) -> String {
-        self.flags.iter().map(|flag| format!(" {}", quoted(flag))).collect()
+        self.flags.iter().flat_map(|flag| [" ".to_owned(), quoted(flag)]).collect()
     }
 }
 
@@ -52,6 +52,11 @@ pub fn chunk_for(measured: Duration, wanted: Duration, batches: u32) -> u32 {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
     let chunk = fits.round().clamp(1.0, f64::from(batches.max(1))) as u32;
     chunk
+}
+
+/// Commands as comments of a script.
+pub(super) fn comments(commands: &[String]) -> String {
+    commands.iter().flat_map(|line| ["#   ", line, "\n"]).collect()
 }
 
 /// A word of a POSIX shell.

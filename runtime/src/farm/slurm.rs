@@ -1,7 +1,7 @@
 //! A job for Slurm: an array of tasks, and the merge that waits for it.
 
 use super::JobFile;
-use super::plan::{Plan, quoted};
+use super::plan::{Plan, comments, quoted};
 
 /// Both scripts, and how they are submitted.
 pub(super) fn files(plan: &Plan) -> (Vec<JobFile>, Vec<String>) {
@@ -20,7 +20,7 @@ pub(super) fn files(plan: &Plan) -> (Vec<JobFile>, Vec<String>) {
 }
 
 fn render_text(plan: &Plan, commands: &[String]) -> String {
-    let usage: String = commands.iter().map(|line| format!("#   {line}\n")).collect();
+    let usage = comments(commands);
     let (samples, step, tasks) = (plan.samples, plan.samples_of_task(), plan.tasks());
     let (name, pack) = (quoted(&plan.name), quoted(&plan.pack));
     let flags = plan.flags_text();

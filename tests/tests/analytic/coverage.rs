@@ -11,15 +11,19 @@ fn black(name: &str, alpha: &str, emission: f64) -> String {
     )
 }
 
+/// A square at a height, of the material with its number.
+fn card(i: usize, side: f64, height: f64) -> String {
+    format!(
+        "instance card{i} {{ shape = rectangle(size: ({side}, {side})m), material = m{i}, at = (0, {height}, 0)m }}\n"
+    )
+}
+
 /// Cards, one behind the other, a camera before them.
 fn cards(name: &str, expected: f64, cards: &[(f64, f64)]) -> Check {
     let mut text = WHITE_SKY.to_owned();
     for (i, (alpha, emission)) in cards.iter().enumerate() {
         text += &black(&format!("m{i}"), &alpha.to_string(), *emission);
-        text += &format!(
-            "instance card{i} {{ shape = rectangle(size: (2, 2)m), material = m{i}, at = (0, {}, 0)m }}\n",
-            -0.5 * i as f64
-        );
+        text += &card(i, 2.0, -0.5 * i as f64);
     }
     text += &view([0.1, 3.0, 0.2], [0.0, 0.0, 0.0], 2);
     Check::new(name, expected, text)
@@ -68,10 +72,7 @@ fn shadow(name: &str, alphas: &[&str], share: f64) -> Check {
     );
     for (i, alpha) in alphas.iter().enumerate() {
         text += &black(&format!("m{i}"), alpha, 0.0);
-        text += &format!(
-            "instance card{i} {{ shape = rectangle(size: (1.4, 1.4)m), material = m{i}, at = (0, {}, 0)m }}\n",
-            2.0 + 0.5 * i as f64
-        );
+        text += &card(i, 1.4, 2.0 + 0.5 * i as f64);
     }
     text += &view([-3.0, 0.5, 0.0], [0.0; 3], 2);
     Check::new(name, share * s * s, text).samples(4096)

@@ -8,7 +8,7 @@ use crate::fault::ElementFault;
 use crate::kind::Kind;
 
 use super::broken::element;
-use super::rule::{count, index, unused};
+use super::rule::{count, index, tag, unused};
 
 /// Octaves of noise, at most.
 const MAX_OCTAVES: u32 = 16;
@@ -47,10 +47,12 @@ fn operations(texture: &Texture, contents: &Contents<'_>) -> Result<usize, PackE
             let at = Place { kind: Kind::TEXEL, index: word, offset: word * 16 };
             Err(PackError::Element { at, field, fault })
         };
-        let [[tag, arg, pad0, pad1], p, q] = contents.texels[word..word + 3] else { return Ok(0) };
-        let Some(kind) = TextureOpKind::from_tag(tag) else {
-            let last = TextureOpKind::ALL.len() as u32 - 1;
-            return fault("kind", ElementFault::Tag { found: tag, last });
+        let [[found, arg, pad0, pad1], p, q] = contents.texels[word..word + 3] else {
+            return Ok(0);
+        };
+        let Some(kind) = TextureOpKind::from_tag(found) else {
+            let unknown = tag(found, TextureOpKind::ALL.len());
+            return fault("kind", unknown.unwrap_or(ElementFault::Unused(found)));
         };
         if let Some(wrong) = unused(pad0 | pad1) {
             return fault("_pad0", wrong);
