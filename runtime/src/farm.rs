@@ -8,7 +8,7 @@ mod plan;
 mod shell;
 mod slurm;
 
-pub use plan::{Plan, chunk_for};
+pub use plan::{JobFile, Plan, chunk_for};
 
 /// The engine that a job is written for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,15 +19,6 @@ pub enum Engine {
     Slurm,
     /// POSIX shell, for GNU parallel.
     Shell,
-}
-
-/// A file of a job.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct JobFile {
-    /// Its name.
-    pub name: String,
-    /// What is in it.
-    pub text: String,
 }
 
 /// The files of a job, and the commands that submit it.

@@ -1,7 +1,6 @@
 //! A job as a template of Open Job Description, version 2023-09, with chunks of tasks (RFC 1).
 
-use super::JobFile;
-use super::plan::{Plan, comments, quoted};
+use super::plan::{JobFile, Plan, comments, quoted};
 use pack::abi::BATCH;
 
 /// The template, and how it is run.

@@ -1,4 +1,4 @@
-//! What is to be rendered, and into how many tasks it is cut.
+//! What is to be rendered, into how many tasks it is cut, and what its files are.
 
 use std::time::Duration;
 
@@ -43,6 +43,15 @@ impl Plan {
     pub fn flags_text(&self) -> String {
         self.flags.iter().flat_map(|flag| [" ".to_owned(), quoted(flag)]).collect()
     }
+}
+
+/// A file of a job.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct JobFile {
+    /// Its name.
+    pub name: String,
+    /// What is in it.
+    pub text: String,
 }
 
 /// Batches of a task that takes about `wanted`, where the whole frame took `measured` for a batch.

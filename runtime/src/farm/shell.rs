@@ -1,7 +1,6 @@
 //! A job as a POSIX shell script: one task at a time, or many through GNU parallel.
 
-use super::JobFile;
-use super::plan::{Plan, comments, quoted};
+use super::plan::{JobFile, Plan, comments, quoted};
 
 /// The script, and how it is run.
 pub(super) fn files(plan: &Plan) -> (Vec<JobFile>, Vec<String>) {

@@ -1,7 +1,6 @@
 //! A job for Slurm: an array of tasks, and the merge that waits for it.
 
-use super::JobFile;
-use super::plan::{Plan, comments, quoted};
+use super::plan::{JobFile, Plan, comments, quoted};
 
 /// Both scripts, and how they are submitted.
 pub(super) fn files(plan: &Plan) -> (Vec<JobFile>, Vec<String>) {
