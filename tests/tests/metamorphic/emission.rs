@@ -17,6 +17,7 @@ const RADIANCE: [&str; 3] = ["strength", "emission.strength", "depth.color"];
 fn brighten(scene: &mut Scene, factor: f64) {
     let times = |color: &mut Rgb| *color = color.map(|c| c * factor);
     scene.lights.iter_mut().for_each(|light| times(&mut light.radiance));
+    scene.directional.iter_mut().for_each(|light| times(&mut light.radiance));
     for material in &mut scene.materials {
         material.model.numbers_mut(&mut |field, values| {
             if RADIANCE.contains(&field.name) {

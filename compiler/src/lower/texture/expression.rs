@@ -102,31 +102,61 @@ fn pattern(of: &TexturePattern) -> TextureOp {
 }
 
 /// A guess at the mean, from the means of the images: for the brightness of lights, which only decides how often they
-/// are chosen. Never 0, since a part of it may give light.
+/// are chosen. At least a thousandth of what the value may be, since a part of it may give light.
 pub(super) fn mean(ops: &[TextureOp], image: impl Fn(u32) -> [f64; 4]) -> [f64; 4] {
     const LEAST: f64 = 1e-3;
-    let mut stack: Vec<[f64; 4]> = Vec::new();
+    let mut stack: Vec<[Guess; 4]> = Vec::new();
     for op in ops {
         let Some(kind) = TextureOpKind::from_tag(op.kind) else { continue };
         let args = stack.split_off(stack.len().saturating_sub(kind.operands()));
-        let lanes = |f: &dyn Fn(usize) -> f64| [0, 1, 2, 3].map(f);
+        let lanes = |f: &dyn Fn(usize) -> Guess| [0, 1, 2, 3].map(f);
         stack.push(match (kind, args.as_slice()) {
-            (TextureOpKind::Constant, _) => op.p.map(f64::from),
-            (TextureOpKind::Image, _) => image(op.arg),
+            (TextureOpKind::Constant, _) => op.p.map(|x| Guess::of(f64::from(x))),
+            (TextureOpKind::Image, _) => image(op.arg).map(Guess::of),
             (TextureOpKind::Channel, [a]) => [a[op.arg.min(3) as usize]; 4],
-            (TextureOpKind::Clamp, [a]) => {
-                a.map(|x| x.max(f64::from(op.p[0])).min(f64::from(op.p[1])))
-            }
+            (TextureOpKind::Clamp, [a]) => a.map(|x| x.clamp(op.p[0], op.p[1])),
             (TextureOpKind::Tilt, [a]) => *a,
             (TextureOpKind::Insert, [a, b]) => {
                 lanes(&|k| if k == op.arg as usize { b[0] } else { a[k] })
             }
-            (TextureOpKind::Multiply, [a, b]) => lanes(&|k| a[k] * b[k]),
-            (TextureOpKind::Add, [a, b]) => lanes(&|k| a[k] + b[k]),
-            (TextureOpKind::Mix, [a, b, t]) => lanes(&|k| a[k] * (1.0 - t[k]) + b[k] * t[k]),
+            (TextureOpKind::Multiply, [a, b]) => lanes(&|k| a[k].times(b[k])),
+            (TextureOpKind::Add, [a, b]) => lanes(&|k| a[k].plus(b[k])),
+            (TextureOpKind::Mix, [a, b, t]) => {
+                let one = Guess::of(1.0);
+                lanes(&|k| a[k].times(one.plus(t[k].times(Guess::of(-1.0)))).plus(b[k].times(t[k])))
+            }
             // Patterns.
-            _ => [0.5; 4],
+            _ => [Guess { mean: 0.5, most: 1.0 }; 4],
         });
     }
-    stack.pop().unwrap_or([1.0; 4]).map(|x| x.max(LEAST))
+    let top = stack.pop().unwrap_or([Guess::of(1.0); 4]);
+    top.map(|guess| guess.mean.max(LEAST * guess.most))
+}
+
+/// What is thought of a value that differs from place to place.
+#[derive(Clone, Copy)]
+struct Guess {
+    mean: f64,
+    /// About the largest magnitude.
+    most: f64,
+}
+
+impl Guess {
+    fn of(x: f64) -> Self {
+        Self { mean: x, most: x.abs() }
+    }
+
+    fn times(self, other: Self) -> Self {
+        Self { mean: self.mean * other.mean, most: self.most * other.most }
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self { mean: self.mean + other.mean, most: self.most + other.most }
+    }
+
+    fn clamp(self, low: f32, high: f32) -> Self {
+        let (low, high) = (f64::from(low), f64::from(high));
+        let mean = self.mean.max(low).min(high);
+        Self { mean, most: self.most.min(low.abs().max(high.abs())).max(mean.abs()) }
+    }
 }
