@@ -128,7 +128,7 @@ const CASES: &[Case] = &[
         without: "",
         busy: "MATERIAL alpha = 0.99\n",
         bits: bit::ALPHA_BLEND,
-        words: &["coverage_", "PURPOSE_COVERAGE", "key: SampleKey,\n}", "sobol_of"],
+        words: &["coverage_", "PURPOSE_COVERAGE", "// Whose numbers decide which surfaces"],
     },
     Case {
         name: "coverage of a picture that is 1 everywhere",

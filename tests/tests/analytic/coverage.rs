@@ -124,7 +124,8 @@ fn lights_that_are_there_in_part_give_their_share() {
     let sides = 0.25 + 0.75 * 0.25;
     let mut checks = Vec::new();
     for estimator in [0, 1, 2, 3] {
-        checks.push(lamp("a square of alpha 0.25", flat, 0.25 * square(1.0, 2.0), estimator));
+        let check = lamp("a square of alpha 0.25", flat, 0.25 * square(1.0, 2.0), estimator);
+        checks.push(if estimator == 2 { check.samples(16384) } else { check });
     }
     // No light of the table, so only scattered rays find it.
     checks.push(lamp("a ball of alpha 0.25", ball, sides / 6.25, 0).samples(16384));
