@@ -138,7 +138,9 @@ fn literal(bits: u64) -> String {
 
 /// Name and text of every declaration of a kernel.
 fn declarations_of(features: &FeatureSet) -> Result<Vec<(String, String)>, Box<dyn Error>> {
-    let linked = shaders::link(features)?;
+    // Layers are of scenes with geometry.
+    let more: &[_] = if features.geometry() { &[shaders::AOV] } else { &[] };
+    let linked = shaders::link_with(features, more)?;
     let pieces = pieces(&linked.text).map_err(|line| format!("line {line} is not plain text"))?;
     pieces
         .into_iter()

@@ -28,6 +28,9 @@ use thiserror::Error;
 /// beyond by chance, and there are up to fifty pictures.
 const BELIEVED: f64 = 4.0;
 
+/// What the kernels begin with.
+const ENTRY: &str = "render";
+
 /// Makes the seed of a picture whose noise is another, also in its replicates.
 const OTHER_NOISE: u32 = 0x5bd1_e995;
 
@@ -218,7 +221,16 @@ pub fn kernel_texts(scene: &Scene, each: bool) -> Vec<(String, String)> {
 pub fn relinked(scene: &Scene) -> Option<String> {
     let job = Job::of_scene(scene);
     let setup = scene.setup(&job);
-    relink(&setup, Wanted::of(&setup))
+    relink(&setup, Wanted::of(&setup), ENTRY)
+}
+
+/// The kernel of the scene's layers, as a GPU runs it. `None` if the pack's own has a declaration that the table does not
+/// know, or no geometry.
+#[must_use]
+pub fn layers_kernel(scene: &Scene) -> Option<String> {
+    let setup = scene.setup(&Job::of_scene(scene));
+    let kernel = crate::gpu::aov_kernel(&setup);
+    kernel.filter(|_| setup.has_geometry())
 }
 
 /// Name and text of every kernel that can render the scene of `setup` and is another than those before it.
@@ -240,7 +252,7 @@ fn kernels(setup: &Setup<'_>, plan: Plan) -> Vec<(String, String)> {
             more.push(("smooth normals", Wanted { smooth: true, ..wanted }));
         }
         for (name, wanted) in more {
-            let text = relink(setup, wanted).filter(|text| !is_same(text, &own));
+            let text = relink(setup, wanted, ENTRY).filter(|text| !is_same(text, &own));
             all.extend(text.map(|text| (name.to_owned(), text)));
         }
     }

@@ -4,20 +4,24 @@
 //! `run`. Every failure of the device is a value here; the caller decides what to try next.
 
 mod adapter;
+mod aovs;
 mod device;
 mod error;
 mod pace;
 mod queue;
+mod record;
 mod slot;
 mod stopwatch;
 mod trial;
 mod upload;
 
 pub use self::adapter::{Adapter, adapters, describe};
+pub(crate) use self::aovs::{aovs, kernel as aov_kernel, tiles as aov_tiles};
 pub use self::error::GpuError;
 
 use self::device::{Device, Module};
 use self::pace::Pace;
+use self::record::Entry;
 use self::trial::open;
 use crate::job::Job;
 use crate::run::Run;
@@ -37,7 +41,7 @@ pub(crate) struct Ready {
 impl Ready {
     /// Without runtime checks: the kernel of `setup` must be known, or be ours.
     pub(crate) fn open(adapter: &Adapter, setup: &Setup<'_>, job: &Job) -> Result<Self, GpuError> {
-        let device = open(adapter, setup, Module::Trusted, true)?;
+        let device = open(adapter, setup, (Module::Trusted, Entry::Render), true)?;
         Ok(Self { device, pace: Pace::new(job.submission) })
     }
 
@@ -74,7 +78,7 @@ pub(crate) fn render(
     let mut losses = 0;
     loop {
         let before = run.done();
-        let opened = open(adapter, setup, module, job.timestamps);
+        let opened = open(adapter, setup, (module, Entry::Render), job.timestamps);
         let error = match opened.and_then(|mut device| device.render(setup, run, &mut pace)) {
             Ok(()) => return Ok(()),
             Err(error) => error,

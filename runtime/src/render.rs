@@ -3,7 +3,7 @@
 use crate::coarse::coarse;
 use crate::control::Control;
 use crate::cpu;
-use crate::gather::{GatherError, gather};
+use crate::gather::{GatherError, Pass, gather};
 use crate::job::{Job, JobError};
 use crate::lights::LightGroups;
 use crate::memory::{self, TooLarge};
@@ -132,22 +132,42 @@ pub fn render_session(
     let finished = finished.ok_or(RenderError::Salvaged)?;
     let mut outcome = run.shared().outcome(finished, device_error, control.signals());
     if !job.wanted.is_empty() {
-        add_layers(scene, job, &mut outcome, control);
+        add_layers(scene, job, &device, &mut outcome, control.signals());
     }
     Ok(outcome)
 }
 
 /// Gives a picture that has come to its end its layers. One that was interrupted has none, and is not transparent: it is
 /// there to be gone on with.
-fn add_layers(scene: &Scene, job: &Job, outcome: &mut Outcome, control: &Control) {
-    let signals = control.signals();
+fn add_layers(
+    scene: &Scene,
+    job: &Job,
+    device: &Selected,
+    outcome: &mut Outcome,
+    signals: &Signals,
+) {
     let ended = matches!(outcome.stop, Stop::Complete | Stop::TimeLimit | Stop::ErrorReached);
     if !ended || outcome.device_error.is_some() || outcome.film().samples().1 == 0 {
         signals.note("warning: the picture is not finished: it has no layers");
         return;
     }
-    signals.note(&format!("layers: {} ({})", job.wanted.text(), cpu::name(job)));
-    match gather(scene, job, &mut outcome.picture.film, signals) {
+    let name = match device {
+        Selected::Cpu => cpu::name(job),
+        #[cfg(feature = "gpu")]
+        Selected::Gpu(adapter) => adapter.describe(),
+    };
+    signals.note(&format!("layers: {} ({name})", job.wanted.text()));
+    let pass = Pass {
+        scene,
+        job,
+        signals,
+        #[cfg(feature = "gpu")]
+        adapter: match device {
+            Selected::Cpu => None,
+            Selected::Gpu(adapter) => Some(adapter),
+        },
+    };
+    match gather(&pass, &mut outcome.picture.film) {
         Ok(layers) => outcome.picture.layers = Some(layers),
         Err(GatherError::Cancelled) => {
             signals.note("warning: interrupted while layers were made: the picture has none");

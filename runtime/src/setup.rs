@@ -231,6 +231,12 @@ impl Setup<'_> {
         buffers
     }
 
+    /// Whether a ray can hit anything.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn has_geometry(&self) -> bool {
+        self.frame.root != NONE
+    }
+
     /// Bits of `pack::features`.
     #[cfg(feature = "gpu")]
     pub(crate) fn features(&self) -> u64 {

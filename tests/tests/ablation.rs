@@ -5,7 +5,9 @@ use std::collections::BTreeSet;
 
 use pack::abi::{MaterialKind, SkyKind, TextureFormat};
 use rayon::prelude::*;
-use runtime::ablation::{Ablation, Event, Measured, Plan, Row, ablate, kernel_texts, relinked};
+use runtime::ablation::{
+    Ablation, Event, Measured, Plan, Row, ablate, kernel_texts, layers_kernel, relinked,
+};
 use runtime::{Control, Job, SampleRange, Scene};
 use shaders::FeatureSet;
 use tests::features::{CASES, Case, case_pack, compiled, named};
@@ -45,6 +47,28 @@ fn the_table_puts_every_kernel_together_again() {
         .map(|case| case.name)
         .collect();
     assert_eq!(wrong, Vec::<&str>::new());
+}
+
+#[test]
+fn layers_of_every_case_have_a_valid_kernel() {
+    let wrong: Vec<String> = (CASES.par_iter())
+        .filter_map(|case| {
+            let scene = scene_of(case);
+            let Some(text) = layers_kernel(&scene) else {
+                let plain = scene.pack().kernel().contains("fn trace(");
+                return plain.then(|| format!("{}: none", case.name));
+            };
+            let module = match naga::front::wgsl::parse_str(&text) {
+                Ok(module) => module,
+                Err(error) => return Some(format!("{}: {error}", case.name)),
+            };
+            let (flags, all) =
+                (naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
+            let valid = naga::valid::Validator::new(flags, all).validate(&module);
+            valid.err().map(|error| format!("{}: {error:?}", case.name))
+        })
+        .collect();
+    assert_eq!(wrong, Vec::<String>::new());
 }
 
 type Switch = fn(&mut FeatureSet);

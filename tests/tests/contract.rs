@@ -10,8 +10,10 @@ use compiler::pipeline::Compiled;
 use pack::abi::{Texture, TextureFormat};
 use pack::{Checked, Pack};
 use rayon::prelude::*;
-use runtime::{Control, DeviceChoice, Event, Film, Job, Scene};
+use runtime::layers::{Layer, Wanted};
+use runtime::{Control, DeviceChoice, Event, Film, Job, Outcome, Scene};
 use std::sync::mpsc;
+use tests::exr_file::File;
 use tests::features::{CASES, case_pack, compiled, named};
 use tests::{picture, scene, software};
 
@@ -101,6 +103,73 @@ fn pixels_whose_loops_a_driver_cuts_short_are_rendered_by_the_cpu() {
     let notes: Vec<String> = heard.try_iter().collect();
     let told = "the driver cut loops short in 1 of 1 tiles; the CPU rendered them";
     assert!(notes.iter().any(|note| note == told), "{notes:?}");
+}
+
+/// Cases with what layers tell apart: names, normals and media, what is specular, what is not there, the camera's kinds.
+const LAYERED: [&str; 9] = [
+    "instances, brushed and of their own material",
+    "instances of glass, filled",
+    "moving light with a picture and holes",
+    "partial coverage on spheres",
+    "panoramic camera",
+    "sea",
+    "conductor",
+    "smoke",
+    "every layer, textured",
+];
+
+/// Layers of every kind that the kernel makes, and the picture without its sky.
+fn layered(device: &DeviceChoice, name: &str) -> (Vec<String>, Outcome) {
+    let (tell, heard) = mpsc::channel();
+    let control = Control::new(move |event| {
+        if let Event::Note(line) = event {
+            tell.send(line.to_owned()).expect("the test listens");
+        }
+    });
+    let scene = Scene::new(case_pack(named(name)));
+    let mut job = Job::of_scene(&scene);
+    let layers = [
+        Layer::Albedo,
+        Layer::Normal,
+        Layer::Depth,
+        Layer::Position,
+        Layer::Uv,
+        Layer::Object,
+        Layer::Instance,
+        Layer::Material,
+        Layer::Crypto,
+        Layer::Alpha,
+    ];
+    job.wanted = Wanted { layers: layers.into(), transparent: true, ..Wanted::default() };
+    let outcome = runtime::render(&scene, &job, device, &control).expect("a small picture");
+    assert_eq!(outcome.device_error, None, "{name}");
+    (heard.try_iter().collect(), outcome)
+}
+
+#[test]
+fn layers_have_the_same_bits_on_both() {
+    let Some(device) = software::device_without_optimiser("layers_have_the_same_bits_on_both")
+    else {
+        return;
+    };
+    for name in LAYERED {
+        let [(_, ours), (notes, theirs)] =
+            [&DeviceChoice::Cpu, &device].map(|device| layered(device, name));
+        let made = |line: &&String| line.starts_with("layers: ") && !line.contains("CPU");
+        assert!(notes.iter().any(|line| made(&line)), "{name}: {notes:?}");
+        assert!(!notes.iter().any(|line| line.contains("the CPU makes")), "{name}: {notes:?}");
+        assert_eq!(pixels(ours.film(), theirs.film()), None, "{name}");
+        let [ours, theirs] =
+            [&ours, &theirs].map(|own| File::written(&own.picture, false).channels);
+        assert!(ours.len() > 20, "{name}: {:?}", ours.keys());
+        assert!(ours.keys().eq(theirs.keys()), "{name}");
+        for (channel, values) in &ours {
+            let pairs = values.iter().zip(&theirs[channel]);
+            let first = pairs.clone().find(|(a, b)| a.to_bits() != b.to_bits());
+            let n = pairs.filter(|(a, b)| a.to_bits() != b.to_bits()).count();
+            assert_eq!(first, None, "{name}: {channel} differs in {n} pixels");
+        }
+    }
 }
 
 #[test]

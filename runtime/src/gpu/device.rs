@@ -2,6 +2,7 @@
 
 use super::adapter::Adapter;
 use super::error::GpuError;
+use super::record::Entry;
 use super::stopwatch;
 use super::upload::{Uploader, wait_at_most};
 use crate::cpu::panic_text;
@@ -59,6 +60,7 @@ pub(super) struct Device {
     pub(super) gpu: wgpu::Device,
     pub(super) queue: wgpu::Queue,
     pub(super) pipeline: ComputePipeline,
+    pub(super) entry: Entry,
     pub(super) layout: BindGroupLayout,
     pub(super) windows: Vec<Window>,
     /// What building the pipeline took, with the first workgroup: drivers compile at the first dispatch.
@@ -76,7 +78,7 @@ impl Device {
     pub(super) fn open(
         adapter: &Adapter,
         setup: &Setup<'_>,
-        module: Module,
+        (module, entry): (Module, Entry),
         timed: bool,
     ) -> Result<Self, GpuError> {
         let limits = adapter.adapter.limits();
@@ -104,10 +106,10 @@ impl Device {
         let windows = upload_all(&device, &queue, &buffers)?;
         let began = Instant::now();
         let checks = (module == Module::Trusted).then(ShaderRuntimeChecks::unchecked);
-        let (layout, pipeline) = compile(&device, setup.kernel(), &windows, checks)?;
+        let (layout, pipeline) = compile(&device, (setup.kernel(), entry), &windows, checks)?;
         let (gpu, built) = (device, began.elapsed());
         let patience = PATIENCE[usize::from(adapter.is_software())];
-        Ok(Self { gpu, queue, pipeline, layout, windows, built, patience, lost, uncaptured })
+        Ok(Self { gpu, queue, pipeline, entry, layout, windows, built, patience, lost, uncaptured })
     }
 
     /// Waits for a submission.
@@ -200,7 +202,7 @@ fn pop(scope: ErrorScopeGuard) -> Option<String> {
 /// a panic of the shader compiler ends there.
 fn compile(
     device: &wgpu::Device,
-    kernel: &str,
+    kernel: (&str, Entry),
     windows: &[Window],
     checks: Option<ShaderRuntimeChecks>,
 ) -> Result<(BindGroupLayout, ComputePipeline), GpuError> {
@@ -217,7 +219,7 @@ fn compile(
 
 fn compile_here(
     device: &wgpu::Device,
-    kernel: &str,
+    (kernel, entry): (&str, Entry),
     windows: &[Window],
     checks: Option<ShaderRuntimeChecks>,
 ) -> Result<(BindGroupLayout, ComputePipeline), GpuError> {
@@ -236,10 +238,10 @@ fn compile_here(
         immediate_size: 0,
     });
     let pipeline = device.create_compute_pipeline(&ComputePipelineDescriptor {
-        label: Some("render"),
+        label: Some(entry.name()),
         layout: Some(&pipeline_layout),
         module: &module,
-        entry_point: Some("render"),
+        entry_point: Some(entry.name()),
         compilation_options: PipelineCompilationOptions::default(),
         cache: None,
     });
@@ -267,7 +269,7 @@ fn create_module(
         // into, children come after their parents (traversal ends), leaf ranges lie inside, and the
         // traversal stack is at least as long as the checked tree needs. The table offsets in `Frame`
         // come from the same pack, readers expect as many windows as are bound, and the film buffer
-        // has two words for each pixel of the dispatched tile.
+        // has the records that the entry point writes of the dispatched tile.
         #[expect(unsafe_code, reason = "checks cost up to half of the speed; see the proof above")]
         Some(checks) => unsafe { device.create_shader_module_trusted(descriptor, checks) },
     }

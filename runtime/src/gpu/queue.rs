@@ -8,6 +8,7 @@
 use super::device::Device;
 use super::error::GpuError;
 use super::pace::{Busy, MAX_TILES, Pace, Work};
+use super::record::is_cut;
 use super::slot::{Slot, Slots, submit};
 use super::stopwatch::Stopwatch;
 use crate::cpu;
@@ -110,7 +111,7 @@ impl Device {
         planned: f64,
     ) -> Submission {
         let mut slots: Vec<Slot> =
-            items.iter().map(|item| free.take(self, item.tile.pixels())).collect();
+            items.iter().map(|item| free.take(self, self.entry.bytes(item))).collect();
         let new = || Stopwatch::new(&self.gpu, self.queue.get_timestamp_period());
         let watch = free.watches.pop().or_else(new);
         let submitted = Instant::now();
@@ -141,8 +142,8 @@ impl Device {
         free.watches.extend(oldest.watch.take());
         while let Some(slot) = oldest.slots.last_mut() {
             let item = slot.item;
-            let is_cut = slot.read(self, |pixels| {
-                let is_cut = pixels.iter().any(|pixel| pixel.rays == FilmPixel::CUT);
+            let is_cut = slot.read(self, |pixels: &[FilmPixel]| {
+                let is_cut = is_cut(pixels);
                 if !is_cut {
                     work.rays += pixels.iter().map(|pixel| u64::from(pixel.rays)).sum::<u64>();
                     run.deposit(&item, pixels);

@@ -4,11 +4,12 @@
 
 use super::device::Device;
 use super::error::GpuError;
+use super::record::Written;
 use super::stopwatch::Stopwatch;
 use crate::region::{Rect, SampleRange};
 use crate::schedule::WorkItem;
 use crate::setup::Setup;
-use pack::abi::{FilmPixel, Frame};
+use pack::abi::Frame;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use wgpu::{
@@ -18,13 +19,14 @@ use wgpu::{
 };
 
 /// Side of the kernel's workgroup in pixels.
-const WORKGROUP: u32 = 8;
-const PIXEL: u64 = size_of::<FilmPixel>() as u64;
+pub(super) const WORKGROUP: u32 = 8;
 
 /// Buffers of one tile: its uniform, its film, and where the film is read back.
 pub(super) struct Slot {
     pub(super) item: WorkItem,
+    /// Bytes that the film has room for, and those of the item.
     capacity: u64,
+    bytes: u64,
     uniform: Buffer,
     film: Buffer,
     readback: Buffer,
@@ -40,12 +42,12 @@ pub(super) struct Slots {
 }
 
 impl Slots {
-    /// A slot for a tile of `pixels`.
-    pub(super) fn take(&mut self, device: &Device, pixels: u64) -> Slot {
+    /// A slot for a tile of which the kernel writes so many bytes.
+    pub(super) fn take(&mut self, device: &Device, bytes: u64) -> Slot {
         match self.free.pop() {
-            Some(slot) if slot.capacity >= pixels => slot,
+            Some(slot) if slot.capacity >= bytes => slot,
             // Too small: it is dropped, the new one has room to grow.
-            _ => Slot::new(device, pixels.next_power_of_two()),
+            _ => Slot::new(device, bytes.next_power_of_two()),
         }
     }
 }
@@ -61,14 +63,14 @@ impl Slot {
                 mapped_at_creation: false,
             })
         };
-        let bytes = capacity * PIXEL;
         let uniform = buffer(
             "frame",
             size_of::<Frame>() as u64,
             BufferUsages::UNIFORM | BufferUsages::COPY_DST,
         );
-        let film = buffer("film", bytes, BufferUsages::STORAGE | BufferUsages::COPY_SRC);
-        let readback = buffer("readback", bytes, BufferUsages::MAP_READ | BufferUsages::COPY_DST);
+        let film = buffer("film", capacity, BufferUsages::STORAGE | BufferUsages::COPY_SRC);
+        let readback =
+            buffer("readback", capacity, BufferUsages::MAP_READ | BufferUsages::COPY_DST);
         let part = |buffer, offset, size| {
             let size = wgpu::BufferSize::new(size);
             BindingResource::Buffer(BufferBinding { buffer, offset, size })
@@ -90,63 +92,46 @@ impl Slot {
         let tile = Rect { x: 0, y: 0, w: 1, h: 1 };
         let item = WorkItem { tile, samples: nothing, replicate: 0, probe: true };
         let mapped = Arc::new(AtomicBool::new(false));
-        Self { item, capacity, uniform, film, readback, bindings, mapped }
-    }
-
-    fn bytes(&self) -> u64 {
-        self.item.tile.pixels() * PIXEL
+        Self { item, capacity, bytes: 0, uniform, film, readback, bindings, mapped }
     }
 
     fn prepare(&mut self, device: &Device, setup: &Setup<'_>, item: WorkItem) {
         self.item = item;
+        self.bytes = device.entry.bytes(&item);
         let frame = setup.frame(&item);
         device.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&frame));
     }
 
     fn copy(&self, encoder: &mut CommandEncoder) {
-        encoder.copy_buffer_to_buffer(&self.film, 0, &self.readback, 0, Some(self.bytes()));
+        encoder.copy_buffer_to_buffer(&self.film, 0, &self.readback, 0, Some(self.bytes));
     }
 
     fn map(&self) {
         let mapped = Arc::clone(&self.mapped);
         mapped.store(false, Ordering::Release);
-        self.readback.slice(..self.bytes()).map_async(MapMode::Read, move |result| {
+        self.readback.slice(..self.bytes).map_async(MapMode::Read, move |result| {
             mapped.store(result.is_ok(), Ordering::Release);
         });
     }
 
-    /// Submits one sample of the image's first workgroup, outside of any run.
-    pub(super) fn submit_trial(&mut self, device: &Device, setup: &Setup<'_>) -> SubmissionIndex {
-        let [w, h] = setup.image_size();
-        let tile = Rect { x: 0, y: 0, w: w.min(WORKGROUP), h: h.min(WORKGROUP) };
-        let samples = SampleRange { start: 0, end: 1 };
-        submit(
-            device,
-            setup,
-            std::slice::from_mut(self),
-            &[WorkItem { tile, samples, replicate: 0, probe: true }],
-            None,
-        )
-    }
-
-    /// Hands the finished pixels to `f`. A pixel that traced no ray was not rendered.
-    pub(super) fn read<T>(
+    /// Hands the finished records to `f`. One that traced no ray was not rendered.
+    pub(super) fn read<R: Written, T>(
         &mut self,
         device: &Device,
-        f: impl FnOnce(&[FilmPixel]) -> T,
+        f: impl FnOnce(&[R]) -> T,
     ) -> Result<T, GpuError> {
         if !self.mapped.load(Ordering::Acquire) {
             device.fault()?;
             return Err(GpuError::Lost("the film cannot be read back".to_owned()));
         }
-        let view = self.readback.slice(..self.bytes()).get_mapped_range();
+        let view = self.readback.slice(..self.bytes).get_mapped_range();
         let result = match &view {
             Ok(view) => {
-                let pixels: &[FilmPixel] = bytemuck::cast_slice(view);
-                if pixels.iter().any(|pixel| pixel.rays == 0) {
+                let records: &[R] = bytemuck::cast_slice(view);
+                if records.iter().any(|record| record.rays() == 0) {
                     Err(GpuError::Wrong("pixels without a single ray".to_owned()))
                 } else {
-                    Ok(f(pixels))
+                    Ok(f(records))
                 }
             }
             Err(error) => Err(GpuError::Api(error.to_string())),

@@ -14,8 +14,6 @@ use std::sync::OnceLock;
 /// The kernel that renders every pack, and whose translation is the CPU kernel.
 pub(crate) static FULL: &str = include_str!(concat!(env!("OUT_DIR"), "/full.wgsl"));
 
-const ENTRY: &str = "render";
-
 /// What a kernel is wanted to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Wanted {
@@ -32,11 +30,17 @@ impl Wanted {
         Self { features: setup.features(), smooth }
     }
 
-    /// With one more feature, and what that one cannot be without.
-    pub(crate) fn with(self, more: u64) -> Self {
+    /// With texture coordinates, which surfaces have where some texture may ask for them.
+    pub(crate) fn with_uv(self) -> Self {
         const FORMATS: u64 =
             bit::TEXTURE_RGBA8_SRGB | bit::TEXTURE_RGBA8_LINEAR | bit::TEXTURE_RGBA16_FLOAT;
-        let texture = if self.features & FORMATS == 0 { bit::TEXTURE_RGBA8_SRGB } else { 0 };
+        let format = if self.features & FORMATS == 0 { bit::TEXTURE_RGBA8_SRGB } else { 0 };
+        Self { features: self.features | format, ..self }
+    }
+
+    /// With one more feature, and what that one cannot be without.
+    pub(crate) fn with(self, more: u64) -> Self {
+        let texture = self.with_uv().features;
         let needs = match more {
             bit::SCATTERING => bit::MEDIA,
             bit::SHEETS => bit::THROUGH,
@@ -55,9 +59,9 @@ impl Wanted {
     }
 }
 
-/// The kernel for the scene of `setup` that can do what is wanted; `None` where there is no such kernel, or
-/// where the pack's own is not known.
-pub(crate) fn relink(setup: &Setup<'_>, wanted: Wanted) -> Option<String> {
+/// The kernel for the scene of `setup` that can do what is wanted, from its entry point on; `None` where there is no
+/// such kernel, or where the pack's own is not known.
+pub(crate) fn relink(setup: &Setup<'_>, wanted: Wanted, entry: &'static str) -> Option<String> {
     let own: BTreeMap<&str, &str> = declarations(setup.kernel())?;
     let mut sections = windows(setup);
     // Sections that the pack lacks have one window.
@@ -68,7 +72,7 @@ pub(crate) fn relink(setup: &Setup<'_>, wanted: Wanted) -> Option<String> {
     }
     let choice = Choice { own: &own, sections: &sections, wanted };
     let mut found: BTreeMap<&str, String> = BTreeMap::new();
-    let mut open = vec![ENTRY];
+    let mut open = vec![entry];
     while let Some(name) = open.pop() {
         if found.contains_key(name) {
             continue;

@@ -4,7 +4,7 @@
 //! comes from the picture. It knows neither pages nor requests.
 
 use crate::film::Film;
-use crate::gather::gather;
+use crate::gather::{Pass, gather};
 use crate::job::Job;
 use crate::layers::{Layer, Layers, Nearest, Wanted};
 use crate::region::SampleRange;
@@ -91,7 +91,14 @@ pub(super) fn make(
     let job = Job { wanted, ..job.clone() };
     let film = Film::try_new(job.image_size, job.crop).map_err(|error| failed(&error))?;
     let mut film = Film { ranges: vec![SAMPLES], ..film };
-    let layers = gather(scene, &job, &mut film, signals);
+    let pass = Pass {
+        scene,
+        job: &job,
+        signals,
+        #[cfg(feature = "gpu")]
+        adapter: None,
+    };
+    let layers = gather(&pass, &mut film);
     if signals.is_cancelled() {
         return Err(Absent::Stale);
     }

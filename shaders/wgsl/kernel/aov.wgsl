@@ -4,6 +4,7 @@
 
 #import "abi/aov.wgsl"
 #import "bsdf/scatter.wgsl"
+#import "kernel/film.wgsl"
 #import "kernel/path.wgsl"
 #import "kernel/state.wgsl"
 #import "kernel/vertex.wgsl"
@@ -30,18 +31,24 @@ fn aov(@builtin(global_invocation_id) gid: vec3<u32>) {
         return;
     }
     let end = frame.sample_first + frame.sample_count;
-    var place = (gid.y * frame.tile_size.x + gid.x) * frame.sample_count;
+    let first = (gid.y * frame.tile_size.x + gid.x) * frame.sample_count;
+    var place = first;
     var found = aov_nothing();
     var path = path_begin(sample_key(pixel, frame.sample_first, frame.seed), pixel);
     loop {
         if (path.key.sample == end) { break; }
         aov_advance(&path, &found, trace(path_ray(path)));
         if (!path.open) {
+            found.rays = path.segments;
             aov_store(place, found);
             place += 1u;
             found = aov_nothing();
             path = path_begin(sample_key(pixel, path.key.sample + 1u, frame.seed), pixel);
         }
+    }
+    if (film_is_cut(frame.sample_count + 1u)) {
+        found.rays = FILM_CUT;
+        aov_store(first, found);
     }
 }
 

@@ -32,18 +32,23 @@ fn film_remove(film: ptr<function, FilmPixel>, radiance: vec3f) {
     }
 }
 
-// Says that nothing of the pixel is true where the driver has stopped running its loops. Mesa's llvmpipe gives all
-// loops of an invocation 65,535 turns together (LP_MAX_TGSI_LOOP_ITERATIONS); from then on each loop takes one turn,
-// whatever its condition says, and so does this one, which should take `turns`, more than one.
+// Says that nothing of the pixel is true where the driver has stopped running its loops.
 fn film_watch(film: ptr<function, FilmPixel>, turns: u32) {
+    if (film_is_cut(turns)) {
+        (*film).rays = FILM_CUT;
+    }
+}
+
+// Whether the driver has stopped running loops. Mesa's llvmpipe gives all loops of an invocation 65,535 turns together
+// (LP_MAX_TGSI_LOOP_ITERATIONS); from then on each loop takes one turn, whatever its condition says, and so does this
+// one, which should take `turns`, more than one.
+fn film_is_cut(turns: u32) -> bool {
     var taken = 0u;
     loop {
         if (taken >= turns) { break; }
         taken += 1u;
     }
-    if (taken < turns) {
-        (*film).rays = FILM_CUT;
-    }
+    return taken < turns;
 }
 
 // By the bits: a compiler may assume that no number is infinite and fold a comparison away.

@@ -21,13 +21,13 @@ abi_struct! {
         pub alpha: f32,
         /// Radiance of the sample where `alpha` is 0; otherwise 0.
         pub backdrop: [f32; 3],
-        /// Unused.
-        pub _pad0: u32,
+        /// Rays of the path, at least 1. All bits: nothing of the pixel is true, as in `FilmPixel::CUT`.
+        pub rays: u32,
         /// Texture coordinates of the first surface.
         pub uv: [f32; 2],
         /// Unused.
-        pub _pad1: u32,
+        pub _pad0: u32,
         /// Unused.
-        pub _pad2: u32,
+        pub _pad1: u32,
     }
 }
