@@ -1,6 +1,6 @@
 //! Image files become texels: 8 bits a channel where the file has no more, half floats otherwise.
 //!
-//! PNG and JPEG with 8 bits keep their bytes; PNG with 16 bits becomes half floats of `value /
+//! PNG, JPEG and WebP with 8 bits keep their bytes; PNG with 16 bits becomes half floats of `value /
 //! 65535` (11 significant bits, which is more than any texture lookup needs). Neither is converted:
 //! the numbers stay in the encoding of the file, sRGB or linear, which only the scene knows. HDR
 //! and EXR are linear by definition and become half floats; brighter texels are clamped and counted.
@@ -67,6 +67,7 @@ fn reader<'a>(
     let format = match format {
         Format::Png => ImageFormat::Png,
         Format::Jpeg => ImageFormat::Jpeg,
+        Format::WebP => ImageFormat::WebP,
         Format::Hdr | Format::Exr => {
             return Err(ImportError::new(ErrorKind::Image, place, "not an 8 or 16 bit image"));
         }

@@ -11,6 +11,7 @@ use ::image::ImageDecoder;
 pub(super) enum Format {
     Png,
     Jpeg,
+    WebP,
     Hdr,
     Exr,
 }
@@ -27,8 +28,7 @@ pub(super) fn recognise(bytes: &[u8], place: &str) -> Result<Format, ImportError
         (b"#?", Format::Hdr),
         (b"\x76\x2f\x31\x01", Format::Exr),
     ];
-    const OTHERS: [(&[u8], &str); 9] = [
-        (b"RIFF", "WebP"),
+    const OTHERS: [(&[u8], &str); 8] = [
         (b"GIF8", "GIF"),
         (b"BM", "BMP"),
         (b"II*\0", "TIFF"),
@@ -38,15 +38,21 @@ pub(super) fn recognise(bytes: &[u8], place: &str) -> Result<Format, ImportError
         (b"8BPS", "Photoshop"),
         (b"qoif", "QOI"),
     ];
+    // A container that others use too.
+    if bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP") {
+        return Ok(Format::WebP);
+    }
     if let Some((_, format)) = KNOWN.iter().find(|(magic, _)| bytes.starts_with(magic)) {
         return Ok(*format);
     }
     let other = OTHERS.iter().find(|(magic, _)| bytes.starts_with(magic));
     let message = match other {
-        Some((_, name)) => format!("this is a {name} image; images are PNG, JPEG, HDR or EXR"),
+        Some((_, name)) => {
+            format!("this is a {name} image; images are PNG, JPEG, WebP, HDR or EXR")
+        }
         None if bytes.is_empty() => "the file is empty".to_owned(),
         // Nothing of it is shown: a scene may name any file of its reader.
-        None => "this is not a PNG, JPEG, HDR or EXR image".to_owned(),
+        None => "this is not a PNG, JPEG, WebP, HDR or EXR image".to_owned(),
     };
     Err(ImportError::new(ErrorKind::Image, place, message).with_help("convert it to PNG or EXR"))
 }
@@ -96,8 +102,10 @@ pub(super) fn raw<T: bytemuck::Pod>(
     limits: &Limits,
 ) -> Result<(Vec<T>, Loan), ImportError> {
     let n_bytes = decoder.total_bytes();
-    // A progressive JPEG keeps its coefficients, 16 bits each, up to four a pixel, until its end.
-    let more = if format == Format::Jpeg { 8 * n_pixels(size) as u64 } else { 0 };
+    // A progressive JPEG keeps its coefficients, 16 bits each, up to four a pixel, until its end; a WebP the planes or the
+    // colours that it is made of.
+    let planes = matches!(format, Format::Jpeg | Format::WebP);
+    let more = if planes { 8 * n_pixels(size) as u64 } else { 0 };
     let loan = limits.memory.take(n_bytes.saturating_add(more), place)?;
     let n = usize::try_from(n_bytes).unwrap_or(usize::MAX) / size_of::<T>();
     let mut values: Vec<T> = zeroed(n, place)?;
