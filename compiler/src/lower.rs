@@ -181,7 +181,7 @@ fn records(
 ) -> Lowered {
     let frame = &lit.frame;
     let material_names = materials.names();
-    let declared = medium::records(scene, materials.waters(), frame);
+    let declared = medium::records(scene, materials.own_media(), frame);
     let mut materials = materials.into_records();
     let (media, around) = medium::used(scene, &declared, &mut materials);
     let objects = if lit.moves || finish::asks_about_objects(&materials) {

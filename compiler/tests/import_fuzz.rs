@@ -10,8 +10,8 @@ mod import_support;
 
 use compiler::import::{Budget, ImportError, Limits, MeshFile, decode_image, read_gltf, read_obj};
 use compiler::input::Root;
-use import_support::{Builder, tiny_png, triangle};
-use lang::scene::Axis;
+use import_support::{Builder, compressed_triangle, tiny_png, triangle};
+use lang::scene::{Axis, GltfChoice};
 use serde_json::json;
 use std::fs;
 use std::path::Path;
@@ -211,6 +211,21 @@ fn repair_png(bytes: &mut [u8]) {
 }
 
 #[test]
+fn damaged_webp() {
+    let mut color = Vec::new();
+    image::codecs::webp::WebPEncoder::new_lossless(&mut color)
+        .encode(&noise(17 * 13 * 4), 17, 13, image::ExtendedColorType::Rgba8)
+        .expect("encode");
+    let mut gray = Vec::new();
+    image::codecs::webp::WebPEncoder::new_lossless(&mut gray)
+        .encode(&noise(64), 8, 8, image::ExtendedColorType::L8)
+        .expect("encode");
+    damage_and_load(4000, &[color, gray], "a.webp", keep, |bytes, _| {
+        decode_image(bytes, "a", &LIMITS)
+    });
+}
+
+#[test]
 fn damaged_jpeg() {
     let mut color = Vec::new();
     image::ImageEncoder::write_image(
@@ -286,14 +301,14 @@ fn damaged_glb() {
     sparse.json["accessors"][positions]["sparse"] = json!({"count": 1,
         "indices": {"bufferView": at, "componentType": 5121}, "values": {"bufferView": new}});
     sparse.mesh(&json!({"attributes": {"POSITION": positions}, "mode": 5}));
-    let seeds = [textured.glb(), sparse.glb()];
+    let seeds = [textured.glb(), sparse.glb(), compressed_triangle().glb()];
     let n_good = damage_and_load(8000, &seeds, "a.glb", repair_glb, |bytes, path| {
-        read_gltf(bytes, path, &LIMITS).map(|mesh| check_mesh(&mesh))
+        read_gltf(bytes, path, &GltfChoice::default(), &LIMITS).map(|mesh| check_mesh(&mesh))
     });
     assert!(n_good > 100, "{n_good}");
     let json = textured.json.to_string().into_bytes();
     damage_and_load(4000, &[json], "a.gltf", keep, |bytes, path| {
-        read_gltf(bytes, path, &LIMITS).map(|mesh| check_mesh(&mesh))
+        read_gltf(bytes, path, &GltfChoice::default(), &LIMITS).map(|mesh| check_mesh(&mesh))
     });
 }
 

@@ -12,8 +12,8 @@ use std::fmt::{self, Write as _};
 
 use crate::material::Shown;
 use crate::scene::{
-    AssetFormat, Axis, Camera, Directional, FileFrame, Instance, Light, Projection, Scene, Shape,
-    Wrap,
+    AssetFormat, Axis, Camera, Directional, FileFrame, GltfChoice, Instance, Light, Projection,
+    Scene, Shape, Wrap,
 };
 use crate::schema::color_text;
 use crate::shape::MeshEdit;
@@ -32,19 +32,29 @@ pub fn resolved(scene: &Scene) -> String {
     out
 }
 
+/// What of a glTF file is chosen, as arguments.
+fn chosen(choice: &GltfChoice) -> String {
+    let GltfChoice { time, animation, variant } = choice;
+    let time = time.map(|time| format!(", time: {}", units::show(time, Dim::TIME)));
+    let named = |field: &str, name: &Option<String>| {
+        name.as_ref().map(|name| format!(", {field}: \"{name}\""))
+    };
+    [time, named("animation", animation), named("variant", variant)].into_iter().flatten().collect()
+}
+
 fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
     for asset in &scene.assets {
         let (name, path) = (&asset.name.text, &asset.path);
-        let (format, frame) = match asset.format {
-            AssetFormat::Obj(frame) => ("obj", Some(frame)),
-            AssetFormat::Ply(frame) => ("ply", Some(frame)),
-            AssetFormat::Stl(frame) => ("stl", Some(frame)),
-            AssetFormat::Gltf => ("gltf", None),
-        };
-        let frame = frame.map_or_else(String::new, |FileFrame { metres_per_unit, up }| {
+        let framed = |FileFrame { metres_per_unit, up }: FileFrame| {
             format!(", unit: {}, up: {}", length(metres_per_unit), axis(up))
-        });
-        writeln!(out, "asset {name} = {format}(\"{path}\"{frame})")?;
+        };
+        let (format, more) = match &asset.format {
+            AssetFormat::Obj(frame) => ("obj", framed(*frame)),
+            AssetFormat::Ply(frame) => ("ply", framed(*frame)),
+            AssetFormat::Stl(frame) => ("stl", framed(*frame)),
+            AssetFormat::Gltf(choice) => ("gltf", chosen(choice)),
+        };
+        writeln!(out, "asset {name} = {format}(\"{path}\"{more})")?;
     }
     for texture in &scene.textures {
         let (name, path, space) = (&texture.name.text, &texture.path, texture.space.word());

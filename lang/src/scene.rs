@@ -15,7 +15,7 @@ mod light;
 mod view;
 
 pub use common::{Name, Rgb};
-pub use file::{Asset, AssetFormat, Axis, ColorSpace, FileFrame, Texture, Wrap};
+pub use file::{Asset, AssetFormat, Axis, ColorSpace, FileFrame, GltfChoice, Texture, Wrap};
 pub use instance::Instance;
 pub use light::{Beam, Directional, Light, Tint};
 pub use view::{

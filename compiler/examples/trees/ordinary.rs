@@ -9,6 +9,7 @@ use std::time::Instant;
 use compiler::bvh::{self, Joined, Preset, Primitives};
 use compiler::cache::Cache;
 use compiler::import::{self, Limits};
+use lang::scene::GltfChoice;
 
 use crate::measure::{cpu_seconds, walked};
 use crate::scene::{self, Tri, View};
@@ -68,7 +69,8 @@ pub(crate) fn section(folder: &Path) -> Result<String, Box<dyn Error>> {
     for (name, files, views) in MESHES {
         let mut scene = Scene { name, triangles: Vec::new(), sizes: Vec::new(), views };
         for file in files {
-            let mesh = import::load_gltf(&folder.join(file), &Limits::default())?;
+            let mesh =
+                import::load_gltf(&folder.join(file), &GltfChoice::default(), &Limits::default())?;
             let corners = |part: &import::Part| -> Vec<Tri> {
                 (0..part.triangles.len()).map(|tri_idx| part.corners(tri_idx)).collect()
             };

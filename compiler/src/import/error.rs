@@ -20,6 +20,8 @@ pub enum ErrorKind {
     Accessor,
     /// A glTF file requires an extension that is not supported.
     Extension,
+    /// The file has nothing of a name that the scene asks for.
+    Choice,
     /// The file has no triangles.
     Empty,
     /// The file is larger than a limit allows.

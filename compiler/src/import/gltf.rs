@@ -6,23 +6,31 @@
 //!
 //! The scene graph is flattened: each node's mesh is baked into the frame of the file. Mirroring
 //! transforms turn triangles round, so that outside stays outside. `v` is flipped, because glTF
-//! counts it downwards. Lights and cameras are read, for people to copy into their scene; skins, morph targets and
-//! animations are not.
+//! counts it downwards. Each place of an instanced mesh is a part. Lights and cameras are read, for people to copy into
+//! their scene. Skins, morph targets and animations are those of one moment.
 
 mod accessor;
 mod bake;
 mod container;
 mod document;
+mod instancing;
 mod layers;
 mod maps;
 mod material;
 mod matrix;
+mod meshopt;
 mod node;
+mod pose;
 mod primitive;
+mod skin;
+mod specular_glossiness;
 mod studio;
+mod variant;
 
 use self::container::Images;
 use self::document::Document;
+use self::node::Walk;
+use self::pose::Pose;
 use super::colors;
 use super::error::{ErrorKind, ImportError};
 use super::file::{Limits, Reader, read_file};
@@ -32,14 +40,20 @@ use super::report::ImportReport;
 use super::studio::Studio;
 use ::gltf::json::{Accessor, Material, Root, deserialize, mesh, scene};
 use files::ShowPath as _;
+use lang::scene::GltfChoice;
 use std::path::Path;
 
 /// Extensions that are understood.
-const SUPPORTED: [&str; 10] = [
+const SUPPORTED: [&str; 15] = [
+    instancing::NAME,
+    meshopt::NAME,
+    maps::WEBP,
+    variant::NAME,
     "KHR_lights_punctual",
     "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_specular",
     "KHR_materials_transmission",
     "KHR_materials_unlit",
@@ -49,13 +63,22 @@ const SUPPORTED: [&str; 10] = [
 ];
 
 /// Reads a `.gltf` or `.glb` file with the buffers and images that it refers to.
-pub fn load_gltf(path: &Path, limits: &Limits) -> Result<MeshFile, ImportError> {
+pub fn load_gltf(
+    path: &Path,
+    choice: &GltfChoice,
+    limits: &Limits,
+) -> Result<MeshFile, ImportError> {
     let (bytes, _loan) = read_file(path, limits)?;
-    read_gltf(&bytes, path, limits)
+    read_gltf(&bytes, path, choice, limits)
 }
 
 /// The same for a file whose bytes are in memory; `path` is what its files are relative to.
-pub fn read_gltf(bytes: &[u8], path: &Path, limits: &Limits) -> Result<MeshFile, ImportError> {
+pub fn read_gltf(
+    bytes: &[u8],
+    path: &Path,
+    choice: &GltfChoice,
+    limits: &Limits,
+) -> Result<MeshFile, ImportError> {
     let mut reader = Reader::new(limits);
     reader.remember(path, bytes);
     let file = path.shown().to_string();
@@ -64,17 +87,19 @@ pub fn read_gltf(bytes: &[u8], path: &Path, limits: &Limits) -> Result<MeshFile,
     let root = parse(json, &file)?;
     let document = Document { root: &root, file: &file };
     let mut report = ImportReport::default();
-    warn_about(&document, &mut report);
+    warn_about(&document, choice, &mut report);
+    let variant = variant::find(&document, choice.variant.as_deref())?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let buffers = container::buffers(&document, chunk, folder, &mut reader)?;
-    let (placed, studio) = node::walk(&document)?;
+    let pose = Pose::of(&buffers, choice, &mut reader)?;
+    let Walk { placed, studio, skins } = node::walk(&buffers, &pose, &mut reader)?;
     warn_about_studio(&studio, &document, &mut report);
-    let table = primitive::Table::new(&document, &placed, &mut reader, &mut report)?;
+    let table = primitive::Table::new(&document, variant, &placed, &mut reader, &mut report)?;
     let mut images = ImageSet::default();
     let mut source = Images { document: &document, buffers: &buffers, folder, reader };
     let materials = material::convert(&table.used, &mut source, &mut images, &mut report)?;
     let Images { reader, .. } = source;
-    let parts = bake::parts(&placed, &table, &materials, &buffers, &mut report)?;
+    let parts = bake::parts((&placed, &skins), &table, &materials, &buffers, &mut report)?;
     let images = images.decode(limits, &mut report)?;
     report.files = reader.finish();
     keep(&parts, &file, limits)?;
@@ -118,7 +143,7 @@ fn parse(json: &[u8], file: &str) -> Result<Root, ImportError> {
 }
 
 fn remedy(extensions: &str) -> String {
-    let compressed = ["meshopt", "draco", "basisu", "webp"];
+    let compressed = ["KHR_meshopt", "draco", "basisu"];
     if compressed.iter().any(|word| extensions.contains(word)) {
         "store it without compression, for example with `gltf-transform copy in.glb out.glb` or by \
          exporting it again"
@@ -158,8 +183,8 @@ fn json_bytes(json: &[u8]) -> u64 {
     json.iter().map(|byte| cost(byte) as u64).sum()
 }
 
-/// Says what of the file is left out.
-fn warn_about(document: &Document<'_>, report: &mut ImportReport) {
+/// Says what of the file is left out, and what else could be chosen.
+fn warn_about(document: &Document<'_>, choice: &GltfChoice, report: &mut ImportReport) {
     let root = document.root;
     let used = root.extensions_used.iter().map(String::as_str);
     let unknown: Vec<&str> = used.filter(|name| !SUPPORTED.contains(name)).collect();
@@ -167,15 +192,31 @@ fn warn_about(document: &Document<'_>, report: &mut ImportReport) {
         let message = format!("these extensions are left out: {}", unknown.join(", "));
         report.warn(document.file, message);
     }
-    let n_skinned = root.nodes.iter().filter(|node| node.skin.is_some()).count();
-    let left_out = [
-        (root.animations.len(), "animations are left out: the mesh is as it is stored"),
-        (n_skinned, "skinned nodes are taken in the pose in which they are stored"),
-    ];
-    for (count, what) in left_out {
-        if count > 0 {
-            report.warn(document.file, format!("{count} {what}"));
-        }
+    if !root.animations.is_empty() && choice.time.is_none() {
+        let names = root.animations.iter().filter_map(|animation| animation.name.as_deref());
+        let count = root.animations.len();
+        let names = list("its animations are", names);
+        let message =
+            format!("{names}; it stands as it is stored, `time: 1s` shows a moment of them");
+        let message = if count == 1 { message.replace("them", "it") } else { message };
+        report.warn(document.file, message);
+    }
+    let variants = variant::names(document);
+    if !variants.is_empty() && choice.variant.is_none() {
+        let names = list("its variants are", variants.into_iter());
+        report.warn(document.file, format!("{names}; `variant` shows one of them"));
+    }
+}
+
+/// What there is, by name; at most ten.
+fn list<'n>(what: &str, names: impl Iterator<Item = &'n str>) -> String {
+    const MOST: usize = 10;
+    let quoted: Vec<String> =
+        names.map(|name| format!("`{}`", super::error::excerpt(name.as_bytes()))).collect();
+    match quoted.len() {
+        0 => format!("{what} without names"),
+        n if n > MOST => format!("{what} {} and {} more", quoted[..MOST].join(", "), n - MOST),
+        _ => format!("{what} {}", quoted.join(", ")),
     }
 }
 

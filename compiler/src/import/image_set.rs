@@ -15,6 +15,9 @@ pub(super) enum Alpha {
     Own,
     /// The alpha of the file, or its brightness when it has none: a mask painted in grey.
     Mask,
+    /// Glossiness times a factor; what it leaves to 1 goes into green, as perceptual roughness. The bits of the factor,
+    /// 0 ..= 1.
+    Gloss(u32),
 }
 
 struct Request<'a> {
@@ -80,8 +83,10 @@ impl<'a> ImageSet<'a> {
             .into_par_iter()
             .map(|request| {
                 let mut image = image::decode_image(&request.bytes, &request.place, limits)?;
-                if request.alpha == Alpha::Mask && !image.has_alpha {
-                    brightness_to_alpha(&mut image);
+                match request.alpha {
+                    Alpha::Mask if !image.has_alpha => brightness_to_alpha(&mut image),
+                    Alpha::Gloss(bits) => gloss_to_roughness(&mut image, f32::from_bits(bits)),
+                    Alpha::Own | Alpha::Mask => {}
                 }
                 Ok(ImportedImage { name: request.name, image })
             })
@@ -99,4 +104,22 @@ fn brightness_to_alpha(image: &mut Image) {
         Pixels::Rgba16F(texels) => texels.chunks_exact_mut(4).for_each(|texel| texel[3] = texel[0]),
     }
     image.has_alpha = true;
+}
+
+/// Green becomes 1 - `factor` alpha.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "0 ..= 255 by the range of both factors"
+)]
+fn gloss_to_roughness(image: &mut Image, factor: f32) {
+    match &mut image.data {
+        Pixels::Rgba8(texels) => texels.chunks_exact_mut(4).for_each(|texel| {
+            texel[1] = (255.0 - factor * f32::from(texel[3])).round() as u8;
+        }),
+        Pixels::Rgba16F(texels) => texels.chunks_exact_mut(4).for_each(|texel| {
+            let gloss = (factor * half::f16::from_bits(texel[3]).to_f32()).clamp(0.0, 1.0);
+            texel[1] = half::f16::from_f32(1.0 - gloss).to_bits();
+        }),
+    }
 }

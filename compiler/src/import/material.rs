@@ -90,6 +90,8 @@ pub struct ImportedMaterial {
     /// The mesh encloses the material, which bends light (`KHR_materials_volume`, MTL glass); otherwise it is a
     /// thin sheet.
     pub solid: bool,
+    /// Absorption inside of what is solid, per metre (attenuation of `KHR_materials_volume`).
+    pub sigma_a: Rgb,
     /// Factor on the reflectance of the dielectric part, 0 ..= 1.
     pub specular: f64,
     /// The fourth channel of this image is a factor on `specular`.
@@ -141,6 +143,7 @@ impl ImportedMaterial {
             transmission: 0.0,
             transmission_map: None,
             solid: false,
+            sigma_a: [0.0; 3],
             specular: 1.0,
             specular_map: None,
             specular_color: [1.0; 3],

@@ -9,30 +9,30 @@ use crate::normalize::Normalization;
 /// that can be multiplied. Normalised units.
 const ENDLESS: f32 = 1e20;
 
-/// What a water is filled with that names no medium.
+/// What fills things whose material names no medium of the scene: waters, glass of mesh files.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Water {
+pub(super) struct OwnMedium {
     /// Absorption, per metre.
     pub(super) sigma_a: scene::Rgb,
-    /// Radiance of the deep, in the water.
+    /// Radiance of the deep, in a water.
     pub(super) color: scene::Rgb,
 }
 
-/// The records of `Scene::media`, in that order, and then those of waters.
-pub(super) fn records(scene: &Scene, waters: &[Water], frame: &Normalization) -> Vec<abi::Medium> {
+/// The records of `Scene::media`, in that order, and then those of materials.
+pub(super) fn records(scene: &Scene, own: &[OwnMedium], frame: &Normalization) -> Vec<abi::Medium> {
     let air = scene.render.atmosphere;
     let reach = |(index, medium): (usize, &scene::Medium)| {
         let around = air == Some(index);
         let reach = if around { frame.length(medium.sky_distance) } else { ENDLESS };
         record(medium, frame, reach)
     };
-    let water = |water: &Water| abi::Medium {
-        sigma_a: water.sigma_a.map(|sigma| frame.per_length(sigma)),
-        color: water.color.map(|c| c as f32),
+    let own_record = |own: &OwnMedium| abi::Medium {
+        sigma_a: own.sigma_a.map(|sigma| frame.per_length(sigma)),
+        color: own.color.map(|c| c as f32),
         reach: ENDLESS,
         ..Default::default()
     };
-    scene.media.iter().enumerate().map(reach).chain(waters.iter().map(water)).collect()
+    scene.media.iter().enumerate().map(reach).chain(own.iter().map(own_record)).collect()
 }
 
 fn record(medium: &scene::Medium, frame: &Normalization, reach: f32) -> abi::Medium {
@@ -63,7 +63,7 @@ fn around(scene: &Scene) -> [u32; 2] {
     }
 }
 
-/// Those of `media`, one for each of the scene and then those of waters, that something is filled with or
+/// Those of `media`, one for each of the scene and then those of materials, that something is filled with or
 /// surrounded by and that are not clear: along a clear one a path keeps its light to the last bit. Also what is
 /// around everything and the fog, as `RenderSettings` holds them. `materials` are marked that have an inside,
 /// also a clear one: things that overlap still ask which of them counts; and they get the new numbers.

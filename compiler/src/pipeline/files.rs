@@ -9,7 +9,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use lang::diagnostic::{Code, Diagnostic, Fix};
-use lang::scene::{Asset, AssetFormat, Axis, FileFrame, Parts, Scene, Shape, SkyModel, SunSky};
+use lang::scene::{
+    Asset, AssetFormat, Axis, FileFrame, GltfChoice, Parts, Scene, Shape, SkyModel, SunSky,
+};
 use lang::source::{SourceSet, Span};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -295,14 +297,20 @@ impl Origin<'_> {
 
     fn asset_key(&self, asset: &Asset, path: &Path) -> Key {
         let mut key = self.key("mesh file", path);
-        let (format, frame) = match asset.format {
+        let (format, frame) = match &asset.format {
             AssetFormat::Obj(frame) => ("obj", Some(frame)),
             AssetFormat::Ply(frame) => ("ply", Some(frame)),
             AssetFormat::Stl(frame) => ("stl", Some(frame)),
-            AssetFormat::Gltf => ("gltf", None),
+            AssetFormat::Gltf(_) => ("gltf", None),
         };
         key.text(format);
-        if let Some(FileFrame { metres_per_unit, up }) = frame {
+        if let AssetFormat::Gltf(GltfChoice { time, animation, variant }) = &asset.format {
+            key.floats(&time.map_or([0.0; 2], |time| [1.0, time]));
+            for name in [animation, variant] {
+                key.text(name.as_deref().unwrap_or_default()).number(name.is_some());
+            }
+        }
+        if let Some(&FileFrame { metres_per_unit, up }) = frame {
             let up = match up {
                 Axis::PlusX => 0_u32,
                 Axis::MinusX => 1,
@@ -404,17 +412,17 @@ fn environment(
 }
 
 fn read_asset(asset: &Asset, path: &Path, options: &Options<'_>) -> Result<MeshFile, ImportError> {
-    match asset.format {
-        AssetFormat::Obj(FileFrame { metres_per_unit, up }) => {
+    match &asset.format {
+        &AssetFormat::Obj(FileFrame { metres_per_unit, up }) => {
             load_obj(path, metres_per_unit, up, &options.limits)
         }
-        AssetFormat::Ply(FileFrame { metres_per_unit, up }) => {
+        &AssetFormat::Ply(FileFrame { metres_per_unit, up }) => {
             load_ply(path, metres_per_unit, up, &options.limits)
         }
-        AssetFormat::Stl(FileFrame { metres_per_unit, up }) => {
+        &AssetFormat::Stl(FileFrame { metres_per_unit, up }) => {
             load_stl(path, metres_per_unit, up, &options.limits)
         }
-        AssetFormat::Gltf => load_gltf(path, &options.limits),
+        AssetFormat::Gltf(choice) => load_gltf(path, choice, &options.limits),
     }
 }
 
@@ -439,6 +447,7 @@ fn failed(error: &ImportError, span: Span, written: &str) -> Diagnostic {
         ErrorKind::Accessor => "E0506",
         ErrorKind::Extension => "E0507",
         ErrorKind::Empty => "E0508",
+        ErrorKind::Choice => "E0521",
         ErrorKind::Limit | ErrorKind::Memory => "E0509",
         ErrorKind::Image => "E0602",
     };
@@ -452,6 +461,7 @@ fn failed(error: &ImportError, span: Span, written: &str) -> Diagnostic {
         | ErrorKind::Index
         | ErrorKind::Accessor
         | ErrorKind::Extension
+        | ErrorKind::Choice
         | ErrorKind::Empty
         | ErrorKind::Limit
         | ErrorKind::Image

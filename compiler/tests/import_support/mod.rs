@@ -106,6 +106,40 @@ pub(crate) fn triangle() -> Builder {
     document
 }
 
+/// `triangle()` with positions and indices compressed by `EXT_meshopt_compression`; the views are 0 and 3.
+pub(crate) fn compressed_triangle() -> Builder {
+    use meshoptimizer_rs::Workspace;
+    use meshoptimizer_rs::codec::{
+        IndexEncoding, VertexEncoding, encode_index_buffer, encode_vertex_buffer,
+    };
+    let mut document = triangle();
+    let work = &mut Workspace::default();
+    let encoding = VertexEncoding::new(0, 0).expect("version 0");
+    let positions = encode_vertex_buffer(&document.binary[..36], 3, 12, encoding, work);
+    let indices = encode_index_buffer(&[0, 1, 2], IndexEncoding::DEFAULT, work);
+    let streams = [
+        (0, positions, json!({"mode": "ATTRIBUTES", "byteStride": 12})),
+        (3, indices, json!({"mode": "TRIANGLES", "byteStride": 2})),
+    ];
+    for (view, stream, mut extension) in streams {
+        let stream = stream.expect("encode");
+        let at = document.view(&stream);
+        let stored = document.json["bufferViews"].as_array_mut().expect("a list").remove(at);
+        for key in ["buffer", "byteOffset", "byteLength"] {
+            extension[key] = stored[key].clone();
+        }
+        extension["count"] = json!(3);
+        // A buffer of which there are no bytes, as the extension wants it for programs without it.
+        document.json["bufferViews"][view]["buffer"] = json!(1);
+        document.json["bufferViews"][view]["byteOffset"] = json!(0);
+        document.json["bufferViews"][view]["extensions"] =
+            json!({"EXT_meshopt_compression": extension});
+    }
+    document.push("buffers", json!({"byteLength": 100}));
+    document.json["extensionsRequired"] = json!(["EXT_meshopt_compression"]);
+    document
+}
+
 /// A PNG of 2 x 1 texels.
 pub(crate) fn tiny_png() -> Vec<u8> {
     let mut out = Vec::new();

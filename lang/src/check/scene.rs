@@ -136,7 +136,7 @@ impl Checker {
                     name: name.clone(),
                     path: info.path.clone(),
                     path_span: info.path_span,
-                    format: info.format,
+                    format: info.format.clone(),
                 })
             })
             .collect()

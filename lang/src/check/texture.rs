@@ -6,7 +6,7 @@ use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::eval::value::Value;
 use crate::eval::{Evaluator, Scope};
 use crate::resolve::{ItemId, did_you_mean};
-use crate::scene::{AssetFormat, ColorSpace, FileFrame, Wrap};
+use crate::scene::{AssetFormat, ColorSpace, FileFrame, GltfChoice, Wrap};
 use crate::schema::asset::AssetType;
 use crate::schema::texture::TextureType;
 use crate::schema::{self, Kind};
@@ -24,7 +24,15 @@ pub(super) fn asset(ev: &mut Evaluator<'_>, id: ItemId, binding: &Binding) -> Op
         AssetType::Obj => AssetFormat::Obj(frame()?),
         AssetType::Ply => AssetFormat::Ply(frame()?),
         AssetType::Stl => AssetFormat::Stl(frame()?),
-        AssetType::Gltf => AssetFormat::Gltf,
+        AssetType::Gltf => {
+            let (animation, variant) = (fields.text("animation"), fields.text("variant"));
+            let start = animation.as_ref().map(|_| 0.0);
+            AssetFormat::Gltf(GltfChoice {
+                time: fields.number("time").or(start),
+                animation,
+                variant,
+            })
+        }
     };
     Some(AssetInfo { path: fields.text("path")?, path_span: fields.value_span("path")?, format })
 }

@@ -19,7 +19,7 @@ pub struct Asset {
 }
 
 /// What a mesh file needs to be told.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum AssetFormat {
     /// Wavefront OBJ.
     Obj(FileFrame),
@@ -28,7 +28,18 @@ pub enum AssetFormat {
     /// Stereolithography, text or binary.
     Stl(FileFrame),
     /// glTF 2.0, text or binary: metres and +Y up by its specification.
-    Gltf,
+    Gltf(GltfChoice),
+}
+
+/// What of a glTF file is wanted that has several.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GltfChoice {
+    /// Seconds from the beginning of animations; without one everything stands as it is stored.
+    pub time: Option<f64>,
+    /// The animation that is played; without a name all of them, which must not move the same.
+    pub animation: Option<String>,
+    /// The variant of materials.
+    pub variant: Option<String>,
 }
 
 /// What formats do not say that have neither unit nor directions.

@@ -1,6 +1,7 @@
 //! Mesh files: `asset NAME = obj(...)`, `ply(...)`, `stl(...)` or `gltf(...)`.
 
-use super::{Default, Field, FieldType, Kind, TypeSchema};
+use super::{Bounds, Default, Field, FieldType, Kind, TypeSchema};
+use crate::units::Dim;
 
 types!(AssetType { Obj = OBJ, Ply = PLY, Stl = STL, Gltf = GLTF });
 
@@ -71,8 +72,31 @@ const GLTF: TypeSchema = TypeSchema {
     kind: Kind::Asset,
     name: "gltf",
     doc: "A glTF 2.0 file, text (`.gltf`) or binary (`.glb`): metres and +y up, as its \
-          specification says. Nodes and meshes become parts: `shrine.post`.",
-    example: "asset shrine = gltf(\"shrine.glb\")",
-    fields: &[PATH],
+          specification says. Nodes and meshes become parts: `shrine.post`. Skins, morph targets and \
+          animations are those of one moment.",
+    example: "asset fox = gltf(\"fox.glb\", animation: \"Run\", time: 350ms)",
+    fields: &[
+        PATH,
+        Field::new(
+            "time",
+            FieldType::Number(Bounds::new(Dim::TIME, "s", 0.0, f64::INFINITY)),
+            Default::Absent("everything stands as it is stored"),
+            "The moment of its animations that is shown: nodes, skins and morph targets.",
+        )
+        .foreign(&[("frame", "Blender")]),
+        Field::new(
+            "animation",
+            FieldType::Text,
+            Default::Absent("all of them, which must not move the same nodes"),
+            "Which of its animations is played; `time` is 0s unless said.",
+        )
+        .foreign(&[("action", "Blender"), ("clip", "common use")]),
+        Field::new(
+            "variant",
+            FieldType::Text,
+            Default::Absent("the materials that the file shows without"),
+            "Which variant of its materials is shown.",
+        ),
+    ],
     foreign: &[("glb", "glTF"), ("gltf2", "common use")],
 };

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use compiler::import::{ImportError, Limits, MeshFile, read_gltf, read_obj, read_ply, read_stl};
-use lang::scene::Axis;
+use lang::scene::{Axis, GltfChoice};
 
 pub(super) const OBJ_WORDS: &[&[u8]] = &[
     b"v ",
@@ -176,11 +176,18 @@ pub(super) fn stl(folder: &Path, bytes: &[u8]) -> Result<(), String> {
 }
 
 pub(super) fn gltf(folder: &Path, bytes: &[u8]) -> Result<(), String> {
-    judge(read_gltf(bytes, &folder.join("a.gltf"), &limits()))
+    moments(bytes, &folder.join("a.gltf"))
 }
 
 pub(super) fn glb(folder: &Path, bytes: &[u8]) -> Result<(), String> {
-    judge(read_gltf(bytes, &folder.join("a.glb"), &limits()))
+    moments(bytes, &folder.join("a.glb"))
+}
+
+/// As the file is stored, and as its animations have it.
+fn moments(bytes: &[u8], path: &Path) -> Result<(), String> {
+    let at = |time| GltfChoice { time, ..GltfChoice::default() };
+    judge(read_gltf(bytes, path, &at(None), &limits()))?;
+    judge(read_gltf(bytes, path, &at(Some(0.5)), &limits()))
 }
 
 /// Makes the length in the header true again.

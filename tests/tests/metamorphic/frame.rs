@@ -45,7 +45,7 @@ fn scale(scene: &mut Scene, power: i32) {
             AssetFormat::Obj(frame) | AssetFormat::Ply(frame) | AssetFormat::Stl(frame) => {
                 frame.metres_per_unit *= by;
             }
-            AssetFormat::Gltf => panic!("no case has one"),
+            AssetFormat::Gltf(_) => panic!("no case has one"),
         }
     }
 }

@@ -15,6 +15,8 @@ const MAX_ZEROS: usize = 1 << 24;
 pub(super) struct Buffers<'a> {
     pub(super) document: &'a Document<'a>,
     pub(super) data: Vec<Option<Cow<'a, [u8]>>>,
+    /// Of buffer views that are compressed, what they hold.
+    pub(super) views: Vec<Option<Vec<u8>>>,
 }
 
 /// Elements of one accessor in a byte range that holds them all.
@@ -53,6 +55,10 @@ impl Buffers<'_> {
         let Some(view) = self.document.root.get(index) else {
             return failure(format!("there is no buffer view {view_idx}"));
         };
+        let stride = view.byte_stride.as_ref().map(|stride| stride.0).filter(|stride| *stride > 0);
+        if let Some(Some(decoded)) = self.views.get(view_idx) {
+            return Ok((decoded, stride));
+        }
         let buffer_idx = view.buffer.value();
         let Some(Some(bytes)) = self.data.get(buffer_idx) else {
             return failure(format!(
@@ -68,7 +74,7 @@ impl Buffers<'_> {
                  {buffer_idx} of {total} bytes"
             ));
         };
-        Ok((range, view.byte_stride.as_ref().map(|stride| stride.0).filter(|stride| *stride > 0)))
+        Ok((range, stride))
     }
 
     /// Floats with `N` components, each finite. Normalised integers become 0..1 or -1..1.
@@ -101,32 +107,35 @@ impl Buffers<'_> {
         self.named(index, read())
     }
 
-    /// Vertex indices, each below `n_vertices`.
-    pub(super) fn indices(
+    /// `N` indices of vertices or joints, each below `below`; `things`: what there are so many of.
+    pub(super) fn indices<const N: usize>(
         &self,
         index: Index<Accessor>,
-        n_vertices: usize,
-    ) -> Result<Vec<u32>, ImportError> {
+        below: usize,
+        things: &str,
+    ) -> Result<Vec<[u32; N]>, ImportError> {
         let read = || {
             let accessor = self.find(index)?;
-            let (component, size) = element_size(accessor, 1)?;
+            let (component, size) = element_size(accessor, N)?;
+            let each = component.size();
+            let decode =
+                |bytes: &[u8]| std::array::from_fn(|i| unsigned(&bytes[i * each..(i + 1) * each]));
             if !matches!(component, ComponentType::U8 | ComponentType::U16 | ComponentType::U32) {
                 return failure("indices must be unsigned integers");
             }
             let base = self.base(accessor, size)?;
-            let mut values: Vec<u32> = match base {
-                Some(base) => base.iter().map(unsigned).collect(),
-                None => vec![0; count_of(accessor)?],
+            let mut values: Vec<[u32; N]> = match base {
+                Some(base) => base.iter().map(decode).collect(),
+                None => vec![[0; N]; count_of(accessor)?],
             };
             if let Some(sparse) = &accessor.sparse {
-                self.overlay(sparse, size, &mut values, unsigned)?;
+                self.overlay(sparse, size, &mut values, decode)?;
             }
-            let outside = values.iter().position(|value| *value as usize >= n_vertices);
+            let outside = values.iter().flatten().position(|value| *value as usize >= below);
             match outside {
-                Some(i) => {
-                    let value = values[i];
-                    let message =
-                        format!("element {i} is {value}, but there are {n_vertices} vertices");
+                Some(at) => {
+                    let (i, value) = (at / N, values[at / N][at % N]);
+                    let message = format!("element {i} is {value}, but there are {below} {things}");
                     Err((ErrorKind::Index, message))
                 }
                 None => Ok(values),
@@ -240,7 +249,7 @@ impl Buffers<'_> {
 }
 
 /// `length` bytes from `offset`, if such a range can exist.
-fn range(offset: u64, length: u64) -> Option<std::ops::Range<usize>> {
+pub(super) fn range(offset: u64, length: u64) -> Option<std::ops::Range<usize>> {
     let start = usize::try_from(offset).ok()?;
     let end = usize::try_from(offset.checked_add(length)?).ok()?;
     Some(start..end)
@@ -251,16 +260,22 @@ fn count_of(accessor: &Accessor) -> Result<usize, Failure> {
     count.map_or_else(|| failure(format!("{} elements are too many", accessor.count.0)), Ok)
 }
 
-/// Component type and bytes of an element that must have `n` components.
+/// Component type and bytes of an element that must have `n` components: 1 to 4, or the 16 of a matrix.
 fn element_size(accessor: &Accessor, n: usize) -> Result<(ComponentType, usize), Failure> {
     let (Checked::Valid(component), Checked::Valid(kind)) =
         (accessor.component_type, accessor.type_)
     else {
         return failure("its type or component type is not one of glTF");
     };
-    let expected = [Type::Scalar, Type::Vec2, Type::Vec3, Type::Vec4];
-    if expected.get(n - 1) != Some(&kind) {
-        return failure(format!("it has the type {kind:?}, expected {:?}", expected[n - 1]));
+    let expected = match n {
+        1 => Type::Scalar,
+        2 => Type::Vec2,
+        3 => Type::Vec3,
+        4 => Type::Vec4,
+        _ => Type::Mat4,
+    };
+    if kind != expected {
+        return failure(format!("it has the type {kind:?}, expected {expected:?}"));
     }
     Ok((component.0, n * component.0.size()))
 }

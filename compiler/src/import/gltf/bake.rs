@@ -10,12 +10,16 @@ use super::material::Converted;
 use super::matrix::Matrix;
 use super::node::Placed;
 use super::primitive::{self, Decoded, Table};
+use super::skin::{self, Influences};
+use super::variant;
 use ::gltf::json::mesh::Primitive;
+use ::gltf::json::{Index, Material};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// Makes one part of each primitive of each placed mesh.
 pub(super) fn parts(
-    placed: &[Placed],
+    (placed, skins): (&[Placed], &BTreeMap<usize, Vec<Matrix>>),
     table: &Table,
     materials: &[Converted],
     buffers: &Buffers<'_>,
@@ -31,7 +35,8 @@ pub(super) fn parts(
         left[placed.mesh] -= 1;
         for (primitive_idx, primitive) in mesh.primitives.iter().enumerate() {
             let what = primitive::name(placed.mesh, primitive_idx);
-            let (material_idx, material) = find(materials, primitive);
+            let (material_idx, material) =
+                find(materials, variant::material(primitive, table.variant));
             let uv_set = material.map_or(0, |material| material.uv_set);
             let key = (placed.mesh, primitive_idx);
             let decoded = match kept.remove(&key) {
@@ -39,7 +44,9 @@ pub(super) fn parts(
                 None => primitive::decode(buffers, primitive, uv_set, &what)?,
             };
             if let Some(decoded) = &decoded {
-                let bake = Bake { decoded, placed, material, report, place: &what, buffers };
+                let joints = placed.skin.and_then(|skin| skins.get(&skin)).map(Vec::as_slice);
+                let stand = Stand::of(buffers, (primitive, decoded), (placed, joints), &what)?;
+                let bake = Bake { decoded, stand, placed, material, report, place: &what, buffers };
                 let part = bake.part()?;
                 if !part.triangles.is_empty() {
                     let aliases = aliases(placed, mesh.name.as_deref());
@@ -55,11 +62,11 @@ pub(super) fn parts(
     Ok(parts)
 }
 
-fn find<'a>(
-    materials: &'a [Converted],
-    primitive: &Primitive,
-) -> (Option<u32>, Option<&'a Converted>) {
-    let Some(index) = primitive.material else {
+fn find(
+    materials: &[Converted],
+    material: Option<Index<Material>>,
+) -> (Option<u32>, Option<&Converted>) {
+    let Some(index) = material else {
         return (None, None);
     };
     let found = materials.iter().position(|material| material.index == index.value());
@@ -67,7 +74,7 @@ fn find<'a>(
 }
 
 fn aliases(placed: &Placed, mesh: Option<&str>) -> Vec<String> {
-    let named = placed.path.iter().zip(&placed.unnamed).filter(|(_, unnamed)| !**unnamed);
+    let named = placed.path.iter().zip(placed.unnamed.iter()).filter(|(_, unnamed)| !**unnamed);
     let mut aliases: Vec<String> = named.map(|(name, _)| name.clone()).collect();
     aliases.extend(mesh.filter(|name| !name.is_empty()).map(str::to_owned));
     aliases.sort();
@@ -75,9 +82,65 @@ fn aliases(placed: &Placed, mesh: Option<&str>) -> Vec<String> {
     aliases
 }
 
+/// How a primitive stands at one place.
+struct Stand<'a> {
+    /// In the frame of the mesh, as morph targets leave them.
+    positions: Cow<'a, [[f32; 3]]>,
+    normals: Option<Cow<'a, [[f32; 3]]>>,
+    frames: Frames<'a>,
+}
+
+impl<'a> Stand<'a> {
+    fn of(
+        buffers: &Buffers<'_>,
+        (primitive, decoded): (&Primitive, &'a Decoded),
+        (placed, joints): (&'a Placed, Option<&[Matrix]>),
+        what: &str,
+    ) -> Result<Self, ImportError> {
+        let mut positions = Cow::Borrowed(decoded.positions.as_slice());
+        let mut normals = decoded.normals.as_deref().map(Cow::Borrowed);
+        if primitive.targets.is_some() && placed.weights.iter().any(|weight| *weight != 0.0) {
+            let to_normals = normals.as_mut().map(Cow::to_mut);
+            skin::morph(buffers, primitive, &placed.weights, (positions.to_mut(), to_normals))?;
+        }
+        let frames = match joints {
+            None => Frames::One(&placed.file_from_mesh),
+            Some(joints) => {
+                let size = (decoded.positions.len(), joints.len());
+                let influences = Influences::of(buffers, primitive, size, what)?;
+                Frames::Each(influences.matrices(joints))
+            }
+        };
+        Ok(Self { positions, normals, frames })
+    }
+}
+
+/// From the frame of the mesh to the frame of the file.
+enum Frames<'a> {
+    /// The same everywhere.
+    One(&'a Matrix),
+    /// For each vertex.
+    Each(Vec<Matrix>),
+}
+
+impl Frames<'_> {
+    fn of(&self, vertex: usize) -> &Matrix {
+        match self {
+            Self::One(matrix) => matrix,
+            Self::Each(all) => &all[vertex],
+        }
+    }
+
+    /// Whether the matrix of a vertex turns outside inside.
+    fn mirrors(&self, vertex: usize) -> bool {
+        determinant(self.of(vertex)) < 0.0
+    }
+}
+
 /// One primitive at one place.
 struct Bake<'a> {
     decoded: &'a Decoded,
+    stand: Stand<'a>,
     placed: &'a Placed,
     material: Option<&'a Converted>,
     report: &'a mut ImportReport,
@@ -90,18 +153,17 @@ impl Bake<'_> {
     /// The part, still without names.
     fn part(self) -> Result<Part, ImportError> {
         let document = self.buffers.document;
-        let matrix = &self.placed.file_from_mesh;
-        let positions: Vec<[f32; 3]> =
-            self.decoded.positions.iter().map(|p| single(transform(matrix, *p))).collect();
+        let Stand { positions, normals: stored, frames } = &self.stand;
+        let place = |(i, p): (usize, &[f32; 3])| single(transform(frames.of(i), *p));
+        let positions: Vec<[f32; 3]> = positions.iter().enumerate().map(place).collect();
         if let Some(i) = positions.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
             let node = self.placed.path.join("/");
             let message = format!("vertex {i} is infinite where node `{node}` places it");
             return Err(document.error(ErrorKind::Number, self.place, message));
         }
-        let cofactor = cofactor(matrix);
-        let mirrored = determinant(matrix) < 0.0;
         let mut triangles = Vec::with_capacity(self.decoded.triangles.len());
         for (tri_idx, [a, b, c]) in self.decoded.triangles.iter().enumerate() {
+            let mirrored = frames.mirrors(*a as usize);
             let triangle = if mirrored { [*a, *c, *b] } else { [*a, *b, *c] };
             let place = || format!("{}: {} triangle {tri_idx}", document.file, self.place);
             match quality(triangle.map(|vertex| positions[vertex as usize])) {
@@ -115,13 +177,14 @@ impl Bake<'_> {
             triangles.push(triangle);
         }
         let mut normals = Attribute::Absent;
-        if let Some(stored) = &self.decoded.normals {
-            let sign = if mirrored { -1.0 } else { 1.0 };
-            let turn = |n: &[f32; 3]| {
+        if let Some(stored) = stored {
+            let turn = |(i, n): (usize, &[f32; 3])| {
+                let sign = if frames.mirrors(i) { -1.0 } else { 1.0 };
+                let cofactor = cofactor(frames.of(i));
                 let turned = cofactor.map(|row| sign * dot(row, n.map(f64::from)));
                 unit(turned).map_or([0.0; 3], single)
             };
-            let mut turned: Vec<[f32; 3]> = stored.iter().map(turn).collect();
+            let mut turned: Vec<[f32; 3]> = stored.iter().enumerate().map(turn).collect();
             let place = || format!("{}: {}", document.file, self.place);
             let n_zero = replace_zero_normals(&mut turned, &triangles, &positions);
             for _ in 0..n_zero {

@@ -4,6 +4,7 @@ use super::super::error::{ErrorKind, ImportError, excerpt};
 use super::super::file::Reader;
 use super::accessor::Buffers;
 use super::document::Document;
+use super::meshopt;
 use ::gltf::json::buffer::View;
 use ::gltf::json::{Image, Index};
 use base64::Engine as _;
@@ -87,7 +88,8 @@ pub(super) fn buffers<'a>(
         }
         data.push(bytes);
     }
-    Ok(Buffers { document, data })
+    let views = meshopt::views(document, &data, reader)?;
+    Ok(Buffers { document, data, views })
 }
 
 /// The bytes behind a URI: a data URI or a file beside the glTF file.

@@ -41,13 +41,21 @@ pub(super) fn convert(
     }
     if let Some(volume) = &extensions.volume {
         out.solid = volume.thickness_factor.0 > 0.0;
-        notes.absorbing += u64::from(
-            out.solid
-                && volume.attenuation_distance.0.is_finite()
-                && volume.attenuation_color.0.iter().any(|c| *c < 1.0),
-        );
+        if out.solid {
+            let distance = f64::from(volume.attenuation_distance.0);
+            out.sigma_a =
+                volume.attenuation_color.0.map(|color| absorption(color.into(), distance));
+        }
+        notes.absorbing += u64::from(!out.is_glass() && out.sigma_a.iter().any(|s| *s > 0.0));
     }
     Ok(())
+}
+
+/// Absorption per metre that leaves the share `color` of white light after `distance` metres: color = exp(-sigma
+/// distance), as `KHR_materials_volume` says. Nothing is quite black: at 1e-4 four hundred distances leave nothing either.
+fn absorption(color: f64, distance: f64) -> f64 {
+    let sigma = -libm::log(unit(color).max(1e-4)) / distance;
+    if distance > 0.0 && sigma.is_finite() { sigma.max(0.0) } else { 0.0 }
 }
 
 /// `KHR_materials_clearcoat`, which the parser does not know.

@@ -6,10 +6,13 @@ use super::super::material::MapUse;
 use super::super::report::ImportReport;
 use super::container::Images;
 use ::gltf::json::material::NormalTexture;
-use ::gltf::json::texture::{Info, WrappingMode};
+use ::gltf::json::texture::{Info, Texture, WrappingMode};
 use ::gltf::json::validation::Checked;
-use ::gltf::json::{Value, deserialize};
+use ::gltf::json::{Image, Index, Value, deserialize};
 use lang::scene::{ColorSpace, Wrap};
+
+/// Textures with images in WebP.
+pub(super) const WEBP: &str = "EXT_texture_webp";
 
 /// `KHR_texture_transform`: scale, then rotate, then move; v downwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,7 +57,10 @@ impl Notes {
                 self.tinted_glass,
                 "are solid glass, whose colour, roughness, coat and opaque part are not used",
             ),
-            (self.absorbing, "absorb light inside, which is left out"),
+            (
+                self.absorbing,
+                "absorb light inside and are mostly opaque; their absorption is left out",
+            ),
             (
                 self.uv_sets,
                 "look up their images at different UVs; all use those of the first image",
@@ -97,6 +103,16 @@ impl Maps<'_, '_, '_> {
         info: Option<&Info>,
         space: ColorSpace,
     ) -> Result<Option<MapUse>, ImportError> {
+        self.load_as(info, space, Alpha::Own)
+    }
+
+    /// The same, with what is to be made of its alpha.
+    pub(super) fn load_as(
+        &mut self,
+        info: Option<&Info>,
+        space: ColorSpace,
+        alpha: Alpha,
+    ) -> Result<Option<MapUse>, ImportError> {
         let Some(info) = info else {
             return Ok(None);
         };
@@ -118,14 +134,25 @@ impl Maps<'_, '_, '_> {
             return Err(document.error(ErrorKind::Number, self.what, message));
         }
         self.differ |= *self.lookup.get_or_insert(lookup) != lookup;
-        let name = self.source.name(texture.source);
-        let image = if let Some(image) = self.images.find(&name, Alpha::Own) {
+        let source = self.image_of(texture)?;
+        let name = self.source.name(source);
+        let image = if let Some(image) = self.images.find(&name, alpha) {
             image
         } else {
-            let (bytes, place) = self.source.bytes(texture.source)?;
-            self.images.add(name, place, Alpha::Own, bytes)?
+            let (bytes, place) = self.source.bytes(source)?;
+            self.images.add(name, place, alpha, bytes)?
         };
         Ok(Some(MapUse { image, space, wrap }))
+    }
+
+    /// Its image: that of `EXT_texture_webp`, or its own, which programs without WebP would take.
+    fn image_of(&self, texture: &Texture) -> Result<Index<Image>, ImportError> {
+        let extension = texture.extensions.as_ref().and_then(|all| all.others.get(WEBP));
+        let Some(extension) = extension else { return Ok(texture.source) };
+        let source = extension.get("source").and_then(Value::as_u64);
+        let source = source.and_then(|index| u32::try_from(index).ok());
+        let message = "one of its textures is not what EXT_texture_webp says";
+        source.map(Index::new).ok_or_else(|| self.error(ErrorKind::Format, message))
     }
 }
 

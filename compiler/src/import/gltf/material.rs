@@ -7,6 +7,7 @@ use super::super::report::ImportReport;
 use super::container::Images;
 use super::layers::{self, unit};
 use super::maps::{Maps, Notes, UvTransform};
+use super::specular_glossiness;
 use ::gltf::json::Index;
 use ::gltf::json::material::{AlphaMode, Material};
 use ::gltf::json::validation::Checked;
@@ -84,6 +85,12 @@ fn convert_one(
         out.normal_strength = f64::from(normal.scale);
     }
     layers::convert(material, &mut out, maps, notes)?;
+    // The specification: where both are there, this one is the better.
+    let glossy = match extensions {
+        Some(all) => specular_glossiness::convert(all, &mut out, maps)?,
+        None => None,
+    };
+    let coverage = glossy.unwrap_or(unit(a));
     notes.tinted_glass += u64::from(out.is_glass() && !out.is_plain_glass());
     let clip = match material.alpha_mode {
         Checked::Valid(AlphaMode::Opaque) => return Ok(out),
@@ -97,7 +104,7 @@ fn convert_one(
             return Err(document.error(ErrorKind::Format, maps.what, message));
         }
     };
-    out.alpha = unit(a);
+    out.alpha = coverage;
     out.alpha_map = out.color_map;
     out.alpha_clip = clip;
     Ok(out)

@@ -1,11 +1,17 @@
 //! The scene graph becomes a list of meshes with their matrices and names, and its lights and cameras.
 
 use super::super::error::{ErrorKind, ImportError};
+use super::super::file::Reader;
 use super::super::studio::Studio;
+use super::accessor::Buffers;
 use super::document::Document;
+use super::instancing;
 use super::matrix::{IDENTITY, Matrix, product};
-use super::studio;
+use super::pose::Pose;
+use super::{skin, studio};
 use ::gltf::json::{Index, Node};
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Deepest nesting; real files stay below 50.
 const MAX_DEPTH: usize = 256;
@@ -19,9 +25,22 @@ pub(super) struct Placed {
     /// From the frame of the mesh to the frame of the file.
     pub(super) file_from_mesh: Matrix,
     /// Names of the nodes from the root, `node 3` for those without.
-    pub(super) path: Vec<String>,
-    /// How many of `path` are made up.
-    pub(super) unnamed: Vec<bool>,
+    pub(super) path: Arc<[String]>,
+    /// Which of `path` are made up.
+    pub(super) unnamed: Arc<[bool]>,
+    /// Key of `Walk::skins`, where joints say the place instead.
+    pub(super) skin: Option<usize>,
+    /// Weights of the morph targets of the mesh; those that are missing are 0.
+    pub(super) weights: Arc<[f32]>,
+}
+
+/// What the scene of a file has.
+pub(super) struct Walk {
+    /// Meshes, depth first, in the order of the file.
+    pub(super) placed: Vec<Placed>,
+    pub(super) studio: Studio,
+    /// Matrices of the joints of each skin in use.
+    pub(super) skins: BTreeMap<usize, Vec<Matrix>>,
 }
 
 /// A node to be visited.
@@ -42,12 +61,18 @@ enum Reached {
 
 /// All meshes, lights and cameras of the default scene, depth first, in the order of the file. Without a default scene
 /// the first one is taken, and without scenes every node that is nobody's child.
-pub(super) fn walk(document: &Document<'_>) -> Result<(Vec<Placed>, Studio), ImportError> {
+pub(super) fn walk(
+    buffers: &Buffers<'_>,
+    pose: &Pose,
+    reader: &mut Reader<'_>,
+) -> Result<Walk, ImportError> {
+    let document = buffers.document;
     let root = document.root;
     let mut stack: Vec<Visit> = Vec::new();
     let start = |node| Visit { node, parent: None, depth: 0, file_from_parent: IDENTITY };
     stack.extend(roots(document)?.into_iter().rev().map(start));
     let mut parents: Vec<Reached> = vec![Reached::Not; root.nodes.len()];
+    let mut matrices: Vec<Option<Matrix>> = vec![None; root.nodes.len()];
     let (mut placed, mut studio) = (Vec::new(), Studio::default());
     while let Some(visit) = stack.pop() {
         let index = visit.node.value();
@@ -63,19 +88,30 @@ pub(super) fn walk(document: &Document<'_>) -> Result<(Vec<Placed>, Studio), Imp
             return fail(ErrorKind::Limit, "it is nested more than 256 levels deep");
         }
         parents[index] = visit.parent.map_or(Reached::AsRoot, Reached::From);
-        let Some(local) = local_matrix(node) else {
+        let Some(local) = pose.local_matrix(index, node) else {
             return fail(ErrorKind::Number, "its transform is not a finite affine one");
         };
         let matrix = product(&visit.file_from_parent, &local);
         if !matrix.iter().flatten().all(|x| x.is_finite()) {
             return fail(ErrorKind::Number, "its transform, with those above it, overflows");
         }
+        matrices[index] = Some(matrix);
         if let Some(mesh) = node.mesh {
-            if root.get(mesh).is_none() {
+            let Some(shape) = root.get(mesh) else {
                 return fail(ErrorKind::Index, "its mesh does not exist");
-            }
+            };
+            let stored = node.weights.as_deref().or(shape.weights.as_deref());
+            let weights: Arc<[f32]> = pose.weights(index).or(stored).unwrap_or(&[]).into();
+            let skin = node.skin.map(|skin| skin.value());
             let (path, unnamed) = path_of(document, &parents, index);
-            placed.push(Placed { mesh: mesh.value(), file_from_mesh: matrix, path, unnamed });
+            let (path, unnamed): (Arc<[String]>, Arc<[bool]>) = (path.into(), unnamed.into());
+            let instances = instancing::matrices(buffers, node, &what, reader)?;
+            for node_from_mesh in instances.unwrap_or_else(|| vec![IDENTITY]) {
+                let file_from_mesh = product(&matrix, &node_from_mesh);
+                let (path, unnamed) = (Arc::clone(&path), Arc::clone(&unnamed));
+                let (mesh, weights) = (mesh.value(), Arc::clone(&weights));
+                placed.push(Placed { mesh, file_from_mesh, path, unnamed, skin, weights });
+            }
         }
         studio::collect(document, node, &matrix, &mut studio)?;
         let children = node.children.iter().flatten().rev().map(|child| Visit {
@@ -86,7 +122,14 @@ pub(super) fn walk(document: &Document<'_>) -> Result<(Vec<Placed>, Studio), Imp
         });
         stack.extend(children);
     }
-    Ok((placed, studio))
+    let mut skins = BTreeMap::new();
+    for skin in root.nodes.iter().filter_map(|node| node.skin) {
+        let used = placed.iter().any(|placed| placed.skin == Some(skin.value()));
+        if used && !skins.contains_key(&skin.value()) {
+            skins.insert(skin.value(), skin::joints(buffers, skin, &matrices, reader)?);
+        }
+    }
+    Ok(Walk { placed, studio, skins })
 }
 
 fn roots(document: &Document<'_>) -> Result<Vec<Index<Node>>, ImportError> {
@@ -130,37 +173,4 @@ fn path_of(document: &Document<'_>, parents: &[Reached], index: usize) -> (Vec<S
         };
     }
     path.into_iter().rev().unzip()
-}
-
-/// The node's own transform; `None` when it is projective, without a rotation, or not finite.
-fn local_matrix(node: &Node) -> Option<Matrix> {
-    let matrix = if let Some(m) = &node.matrix {
-        let m = m.map(f64::from); // column-major
-        if [m[3], m[7], m[11]].iter().any(|x| x.abs() > 0.0) || (m[15] - 1.0).abs() > 1e-6 {
-            return None;
-        }
-        [0, 1, 2].map(|row| [m[row], m[row + 4], m[row + 8], m[row + 12]])
-    } else {
-        let [tx, ty, tz] = node.translation.unwrap_or([0.0; 3]).map(f64::from);
-        let [sx, sy, sz] = node.scale.unwrap_or([1.0; 3]).map(f64::from);
-        let rotation = node.rotation.map_or([0.0, 0.0, 0.0, 1.0], |rotation| rotation.0);
-        let r = rotation_matrix(rotation.map(f64::from))?;
-        let row = |r: [f64; 3], t: f64| [r[0] * sx, r[1] * sy, r[2] * sz, t];
-        [row(r[0], tx), row(r[1], ty), row(r[2], tz)]
-    };
-    matrix.iter().flatten().all(|x| x.is_finite()).then_some(matrix)
-}
-
-/// Of a quaternion (x, y, z, w) of any length but 0.
-fn rotation_matrix(q: [f64; 4]) -> Option<[[f64; 3]; 3]> {
-    let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
-    if !(length > 0.0 && length.is_finite()) {
-        return None;
-    }
-    let [x, y, z, w] = q.map(|c| c / length);
-    Some([
-        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)],
-        [2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)],
-        [2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)],
-    ])
 }

@@ -5,7 +5,9 @@ use super::super::file::Reader;
 use super::super::report::ImportReport;
 use super::accessor::Buffers;
 use super::document::Document;
+use super::matrix::Matrix;
 use super::node::Placed;
+use super::variant;
 use ::gltf::json::accessor::Type;
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
@@ -16,6 +18,8 @@ use std::collections::BTreeMap;
 pub(super) struct Table {
     /// Materials in use, in ascending order.
     pub(super) used: Vec<Index<Material>>,
+    /// The variant of materials.
+    pub(super) variant: Option<u32>,
     /// How often each mesh is placed.
     pub(super) uses: Vec<u32>,
 }
@@ -42,8 +46,12 @@ fn triangle_mode(primitive: &Primitive) -> Result<Option<Mode>, &'static str> {
 }
 
 /// Whether tangents are stored that the material would use.
-fn has_tangents(document: &Document<'_>, primitive: &Primitive) -> bool {
-    let material = primitive.material.and_then(|index| document.root.get(index));
+fn has_tangents(
+    document: &Document<'_>,
+    primitive: &Primitive,
+    material: Option<Index<Material>>,
+) -> bool {
+    let material = material.and_then(|index| document.root.get(index));
     attribute(primitive, Semantic::Tangents).is_some()
         && material.is_some_and(|material| material.normal_texture.is_some())
 }
@@ -56,6 +64,7 @@ impl Table {
     /// Counts triangles against the limit, from what accessors claim, before anything is decoded.
     pub(super) fn new(
         document: &Document<'_>,
+        variant: Option<u32>,
         placed: &[Placed],
         reader: &mut Reader<'_>,
         report: &mut ImportReport,
@@ -67,7 +76,7 @@ impl Table {
         }
         let mut used = BTreeMap::new();
         let (mut n_triangles, mut n_bytes) = (0_u64, 0_u64);
-        let mut left_out = [0_u64; 3];
+        let mut left_out = [0_u64; 2];
         for (mesh_idx, mesh) in document.root.meshes.iter().enumerate() {
             let n_uses = u64::from(uses[mesh_idx]);
             for (primitive_idx, primitive) in mesh.primitives.iter().enumerate() {
@@ -81,9 +90,9 @@ impl Table {
                     left_out[0] += 1;
                     continue;
                 };
-                left_out[1] += u64::from(primitive.targets.is_some());
-                left_out[2] += u64::from(has_tangents(document, primitive));
-                if let Some(material) = primitive.material {
+                let material = variant::material(primitive, variant);
+                left_out[1] += u64::from(has_tangents(document, primitive, material));
+                if let Some(material) = material {
                     used.insert(material.value(), material);
                 }
                 n_triangles = n_triangles.saturating_add(
@@ -101,13 +110,12 @@ impl Table {
         reader.take(n_bytes, document.file)?;
         let what = [
             "primitives of points or lines are left out",
-            "primitives have morph targets, which are not used",
             "primitives have tangents for their normal maps; those of the UVs are used instead",
         ];
         for (count, what) in left_out.into_iter().zip(what).filter(|(count, _)| *count > 0) {
             report.warn(document.file, format!("{count} {what}"));
         }
-        Ok(Self { used: used.into_values().collect(), uses })
+        Ok(Self { used: used.into_values().collect(), variant, uses })
     }
 }
 
@@ -128,7 +136,7 @@ fn claimed(
     Ok(if mode == Mode::Triangles { count / 3 } else { count.saturating_sub(2) })
 }
 
-/// Bytes of its arrays, decoded or placed: values of three floats at most, corners as indices and in triangles.
+/// Bytes of its arrays, decoded or placed: values of four floats at most, corners as indices and in triangles.
 fn claimed_bytes(
     document: &Document<'_>,
     primitive: &Primitive,
@@ -136,7 +144,12 @@ fn claimed_bytes(
 ) -> Result<u64, ImportError> {
     let mut bytes = 0_u64;
     for index in primitive.attributes.values() {
-        bytes = bytes.saturating_add(Buffers::count(document, *index)?.saturating_mul(12));
+        bytes = bytes.saturating_add(Buffers::count(document, *index)?.saturating_mul(16));
+    }
+    // With joints, a matrix for each vertex.
+    if let Some(index) = attribute(primitive, Semantic::Joints(0)) {
+        let each = size_of::<Matrix>() as u64;
+        bytes = bytes.saturating_add(Buffers::count(document, index)?.saturating_mul(each));
     }
     let positions = attribute(primitive, Semantic::Positions);
     if let Some(corners) = primitive.indices.or(positions) {
@@ -196,8 +209,11 @@ pub(super) fn decode(
         same_length(values.len(), index)?;
         colors = Some(values);
     }
-    let order = match primitive.indices {
-        Some(index) => buffers.indices(index, n)?,
+    let order: Vec<u32> = match primitive.indices {
+        Some(index) => {
+            let order = buffers.indices::<1>(index, n, "vertices")?;
+            order.into_iter().flatten().collect()
+        }
         None => (0..u32::try_from(n).unwrap_or(u32::MAX)).collect(),
     };
     let left = order.len() % 3;

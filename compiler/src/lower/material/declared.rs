@@ -9,7 +9,6 @@ use pack::abi::{self, MaterialKind, NONE, material_flag};
 
 use super::table::{MaterialTable, blank, factor, set_normal_map, switch, with_ior};
 use crate::lower::fresnel;
-use crate::lower::medium::Water;
 
 /// Veins of stone are this share of its colour where the scene says nothing else.
 const VEIN: f64 = 0.4;
@@ -114,8 +113,7 @@ impl MaterialTable<'_> {
         if inside.medium.is_none() {
             // Radiance in water is the square of its index times that in air.
             let color = filling.depth_color.map(|c| c * ior * ior);
-            inside.medium = Some(self.scene.media.len() + self.waters.len());
-            self.waters.push(Water { sigma_a: filling.sigma_a, color });
+            inside.medium = Some(self.own_medium(filling.sigma_a, color));
         }
         let [scale, height] = from.waves.map_or([0.0; 2], |waves| [waves.scale, waves.height]);
         abi::Material {
@@ -213,7 +211,7 @@ fn with_pattern(material: abi::Material, pattern: &Pattern) -> abi::Material {
     }
 }
 
-/// The media of the pack are those of the scene, in the same order, and then those of waters.
+/// The media of the pack are those of the scene, in the same order, and then those of materials.
 fn filled(material: abi::Material, inside: Inside) -> abi::Material {
     let medium = inside.medium.map_or(NONE, |medium| medium as u32);
     abi::Material { medium, priority: inside.priority, ..material }

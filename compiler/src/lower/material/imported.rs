@@ -35,7 +35,12 @@ impl MaterialTable<'_> {
 
     fn imported_surface(&mut self, asset: usize, from: &ImportedMaterial) -> abi::Material {
         if from.is_glass() {
-            return with_ior(blank(MaterialKind::Dielectric), from.ior);
+            let glass = with_ior(blank(MaterialKind::Dielectric), from.ior);
+            if from.sigma_a.iter().all(|sigma| *sigma <= 0.0) {
+                return glass;
+            }
+            let medium = self.own_medium(from.sigma_a, [0.0; 3]) as u32;
+            return abi::Material { medium, ..glass };
         }
         if from.diffuse_only && from.emission.iter().all(|&c| c <= 0.0) {
             let color = from.color.map(|c| c as f32);

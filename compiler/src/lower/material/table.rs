@@ -8,7 +8,7 @@ use pack::abi::{self, MaterialKind, NONE, TextureOp, material_flag};
 use crate::import::MapUse;
 use crate::lower::files::{Files, ImageRef};
 use crate::lower::light::luminance;
-use crate::lower::medium::{Water, has_inside};
+use crate::lower::medium::{OwnMedium, has_inside};
 use crate::lower::texture::{TextureTable, expression};
 use crate::stage::Stages;
 
@@ -38,7 +38,7 @@ pub(in crate::lower) struct MaterialTable<'a> {
     refs: Vec<MaterialRef>,
     records: Vec<abi::Material>,
     glows: Vec<f64>,
-    pub(super) waters: Vec<Water>,
+    pub(super) own_media: Vec<OwnMedium>,
 }
 
 impl<'a> MaterialTable<'a> {
@@ -47,18 +47,18 @@ impl<'a> MaterialTable<'a> {
         files: &'a dyn Files,
         stages: &'a Stages,
     ) -> Self {
-        let (refs, records, glows, waters) = Default::default();
+        let (refs, records, glows, own_media) = Default::default();
         let textures = TextureTable::new(files, stages);
-        Self { scene, files, textures, refs, records, glows, waters }
+        Self { scene, files, textures, refs, records, glows, own_media }
     }
 
     pub(in crate::lower) fn records(&self) -> &[abi::Material] {
         &self.records
     }
 
-    /// What waters are filled with that name no medium; their media follow those of the scene.
-    pub(in crate::lower) fn waters(&self) -> &[Water] {
-        &self.waters
+    /// What fills things whose material names no medium; these follow the media of the scene.
+    pub(in crate::lower) fn own_media(&self) -> &[OwnMedium] {
+        &self.own_media
     }
 
     /// Name and place of declaration of each.
@@ -112,6 +112,13 @@ impl<'a> MaterialTable<'a> {
             !holes && !transmits && !has_inside(material)
         };
         self.records.iter().map(stops).collect()
+    }
+
+    /// The number of a medium that absorbs this much per metre, for a material that names none; `color`: radiance of the
+    /// deep.
+    pub(super) fn own_medium(&mut self, sigma_a: scene::Rgb, color: scene::Rgb) -> usize {
+        self.own_media.push(OwnMedium { sigma_a, color });
+        self.scene.media.len() + self.own_media.len() - 1
     }
 
     /// The index of a material, if it is known.
