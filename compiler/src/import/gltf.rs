@@ -28,7 +28,7 @@ mod studio;
 mod variant;
 
 use self::container::Images;
-use self::document::Document;
+use self::document::{Document, list};
 use self::node::Walk;
 use self::pose::Pose;
 use super::colors;
@@ -205,18 +205,6 @@ fn warn_about(document: &Document<'_>, choice: &GltfChoice, report: &mut ImportR
     if !variants.is_empty() && choice.variant.is_none() {
         let names = list("its variants are", variants.into_iter());
         report.warn(document.file, format!("{names}; `variant` shows one of them"));
-    }
-}
-
-/// What there is, by name; at most ten.
-fn list<'n>(what: &str, names: impl Iterator<Item = &'n str>) -> String {
-    const MOST: usize = 10;
-    let quoted: Vec<String> =
-        names.map(|name| format!("`{}`", super::error::excerpt(name.as_bytes()))).collect();
-    match quoted.len() {
-        0 => format!("{what} without names"),
-        n if n > MOST => format!("{what} {} and {} more", quoted[..MOST].join(", "), n - MOST),
-        _ => format!("{what} {}", quoted.join(", ")),
     }
 }
 

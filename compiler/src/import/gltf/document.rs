@@ -1,6 +1,6 @@
 //! A parsed file with its name for messages.
 
-use crate::import::error::{ErrorKind, ImportError};
+use crate::import::error::{ErrorKind, ImportError, excerpt};
 use ::gltf::json::Root;
 
 /// A parsed file with its name for messages.
@@ -18,5 +18,16 @@ impl Document<'_> {
         message: impl Into<String>,
     ) -> ImportError {
         ImportError::new(kind, format!("{}: {what}", self.file), message)
+    }
+}
+
+/// What there is, by name; at most ten.
+pub(super) fn list<'n>(what: &str, names: impl Iterator<Item = &'n str>) -> String {
+    const MOST: usize = 10;
+    let quoted: Vec<String> = names.map(|name| format!("`{}`", excerpt(name.as_bytes()))).collect();
+    match quoted.len() {
+        0 => format!("{what} without names"),
+        n if n > MOST => format!("{what} {} and {} more", quoted[..MOST].join(", "), n - MOST),
+        _ => format!("{what} {}", quoted.join(", ")),
     }
 }

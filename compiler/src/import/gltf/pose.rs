@@ -6,7 +6,7 @@
 use super::super::error::{ErrorKind, ImportError};
 use super::super::file::Reader;
 use super::accessor::Buffers;
-use super::document::Document;
+use super::document::{Document, list};
 use super::matrix::{Matrix, from_parts};
 use ::gltf::json::Node;
 use ::gltf::json::animation::{Animation, Interpolation, Property, Sampler};
@@ -122,7 +122,7 @@ fn chosen<'a>(
 /// What can be chosen.
 fn names(document: &Document<'_>) -> String {
     let names = document.root.animations.iter().filter_map(|animation| animation.name.as_deref());
-    super::list("its animations are", names)
+    list("its animations are", names)
 }
 
 /// A sampler.

@@ -1,7 +1,7 @@
 //! `KHR_materials_variants`: which material a primitive has in the variant that the scene chooses.
 
 use super::super::error::{ErrorKind, ImportError};
-use super::document::Document;
+use super::document::{Document, list};
 use ::gltf::json::mesh::Primitive;
 use ::gltf::json::{Index, Material};
 
@@ -18,7 +18,7 @@ pub(super) fn find(
     if let Some(index) = (0..).zip(&known).find(|(_, own)| **own == wanted).map(|(i, _)| i) {
         return Ok(Some(index));
     }
-    let list = super::list("its variants are", known.into_iter());
+    let list = list("its variants are", known.into_iter());
     let message = format!("it has no variant `{wanted}`: {list}");
     Err(ImportError::new(ErrorKind::Choice, document.file, message))
 }
