@@ -26,7 +26,7 @@ pub use crate::material::{
     Color, Inside, Material, MaterialModel, NormalMap, Pattern, Principled, Scalar,
 };
 pub use crate::medium::{Medium, MediumModel};
-pub use crate::shape::{EditOf, MeshEdit, Parts, Shape};
+pub use crate::shape::{EditOf, MeshEdit, Parts, Shape, fourth};
 pub use crate::sky::{Sky, SkyModel, SunSky};
 pub use crate::texture::{Placement, TextureExpression, TexturePattern};
 

@@ -8,7 +8,7 @@ use crate::schema::{Bounds, Default, Field, FieldType, Kind, TypeSchema, types, 
 use crate::source::Span;
 use crate::units::{self, Dim};
 
-types!(ShapeType { Sphere = SPHERE, Rectangle = RECTANGLE, Box = BOX });
+types!(ShapeType { Sphere = SPHERE, Rectangle = RECTANGLE, Quad = QUAD, Box = BOX });
 
 /// Arguments of a call by name, metres.
 pub(crate) type Lengths = BTreeMap<&'static str, Vec<f64>>;
@@ -25,6 +25,11 @@ pub enum Shape {
     Rectangle {
         /// Sizes along x and z.
         size: [f64; 2],
+    },
+    /// Parallelogram by three corners in order, counter-clockwise seen from its front.
+    Quad {
+        /// The fourth is the first and the third less the second.
+        corners: [[f64; 3]; 3],
     },
     /// Box around the origin.
     Box {
@@ -97,6 +102,10 @@ impl Shape {
                 Self::Sphere { radius }
             }
             ShapeType::Rectangle => Self::Rectangle { size: of("size")?.try_into().ok()? },
+            ShapeType::Quad => {
+                let corner = |name| of(name)?.try_into().ok();
+                Self::Quad { corners: [corner("a")?, corner("b")?, corner("c")?] }
+            }
             ShapeType::Box => Self::Box { size: of("size")?.try_into().ok()? },
         })
     }
@@ -111,6 +120,12 @@ impl Shape {
             Self::Rectangle { size: [x, z] } => {
                 Some(format!("rectangle(size: ({}, {})m)", number(*x), number(*z)))
             }
+            Self::Quad { corners } => {
+                let corner =
+                    |[x, y, z]: [f64; 3]| format!("({}, {}, {})m", number(x), number(y), number(z));
+                let [a, b, c] = corners.map(corner);
+                Some(format!("quad(a: {a}, b: {b}, c: {c})"))
+            }
             Self::Box { size: [x, y, z] } => {
                 Some(format!("box(size: ({}, {}, {})m)", number(*x), number(*y), number(*z)))
             }
@@ -123,6 +138,7 @@ impl Shape {
         match self {
             Self::Sphere { radius } => std::slice::from_mut(radius),
             Self::Rectangle { size } => size,
+            Self::Quad { corners } => corners.as_flattened_mut(),
             Self::Box { size } => size,
             Self::Mesh { .. } => &mut [],
         }
@@ -131,12 +147,39 @@ impl Shape {
     /// Full extent along x, y and z; that of a mesh is in its file.
     #[must_use]
     pub fn size(&self) -> Option<[f64; 3]> {
-        match self {
-            Self::Sphere { radius } => Some([2.0 * radius; 3]),
-            Self::Rectangle { size: [x, z] } => Some([*x, 0.0, *z]),
-            Self::Box { size } => Some(*size),
+        self.bounds().map(|[low, high]| [0, 1, 2].map(|k| high[k] - low[k]))
+    }
+
+    /// Opposite corners of the box around it; those of a mesh are in its file.
+    #[must_use]
+    pub fn bounds(&self) -> Option<[[f64; 3]; 2]> {
+        let around =
+            |size: [f64; 3]| Some([size.map(|side| -0.5 * side), size.map(|side| 0.5 * side)]);
+        match *self {
+            Self::Sphere { radius } => around([2.0 * radius; 3]),
+            Self::Rectangle { size: [x, z] } => around([x, 0.0, z]),
+            Self::Quad { corners: [a, b, c] } => {
+                let d = fourth([a, b, c]);
+                let most =
+                    |of: fn(f64, f64) -> f64| [0, 1, 2].map(|k| of(of(a[k], b[k]), of(c[k], d[k])));
+                Some([most(f64::min), most(f64::max)])
+            }
+            Self::Box { size } => around(size),
             Self::Mesh { .. } => None,
         }
+    }
+
+    /// Whether a quad has no area to speak of, because its corners lie on a line.
+    pub(crate) fn is_line(&self) -> bool {
+        let Self::Quad { corners: [a, b, c] } = self else { return false };
+        let edge = |p: &[f64; 3]| [0, 1, 2].map(|k| p[k] - b[k]);
+        let (u, v) = (edge(a), edge(c));
+        let length = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let cross =
+            [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+        // The sine of the angle between its sides.
+        let sine = length(cross) / (length(u) * length(v));
+        sine.is_nan() || sine < 1e-6
     }
 
     /// No point is farther from the origin, along any axis; 0 for a mesh.
@@ -145,6 +188,10 @@ impl Shape {
         match *self {
             Self::Sphere { radius } => radius,
             Self::Rectangle { size: [x, z] } => x.max(z),
+            Self::Quad { .. } => {
+                let ends = self.bounds().unwrap_or_default();
+                ends.as_flattened().iter().fold(0.0, |most, x| x.abs().max(most))
+            }
             Self::Box { size: [x, y, z] } => x.max(y).max(z),
             Self::Mesh { .. } => 0.0,
         }
@@ -155,9 +202,16 @@ impl Shape {
     pub fn open(&self) -> Option<&'static str> {
         match self {
             Self::Rectangle { .. } => Some("a rectangle"),
+            Self::Quad { .. } => Some("a quad"),
             Self::Sphere { .. } | Self::Box { .. } | Self::Mesh { .. } => None,
         }
     }
+}
+
+/// The corner of a parallelogram that three others leave.
+#[must_use]
+pub fn fourth([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|k| a[k] + c[k] - b[k])
 }
 
 const SPHERE: TypeSchema = TypeSchema {
@@ -186,8 +240,25 @@ const RECTANGLE: TypeSchema = TypeSchema {
         Default::Required,
         "Full extent along x and along z.",
     )],
-    foreign: &[("plane", "Blender"), ("quad", "common use"), ("rect", "common use")],
+    foreign: &[("plane", "Blender"), ("rect", "common use")],
 };
+
+const QUAD: TypeSchema = TypeSchema {
+    kind: Kind::Shape,
+    name: "quad",
+    doc: "A parallelogram by three of its corners in order; the fourth is `a + c - b`. They run counter-clockwise \
+          seen from its front. Texture coordinates are (0, 0), (1, 0), (1, 1) at `a`, `b`, `c`.",
+    example: "instance wall { shape = quad(a: (0, 0, 0)m, b: (2, 0, 0)m, c: (2, 1, 0)m), material = clay }",
+    fields: &[
+        Field::new("a", CORNER, Default::Required, "The first corner, `Q` of other books.")
+            .foreign(&[("Q", "Ray Tracing in One Weekend"), ("q", "Ray Tracing in One Weekend")]),
+        Field::new("b", CORNER, Default::Required, "The second corner, `Q + u`."),
+        Field::new("c", CORNER, Default::Required, "The third corner, `Q + u + v`."),
+    ],
+    foreign: &[("parallelogram", "common use")],
+};
+
+const CORNER: FieldType = FieldType::Vector(Dim::LENGTH, "m");
 
 const BOX: TypeSchema = TypeSchema {
     kind: Kind::Shape,

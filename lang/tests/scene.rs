@@ -249,6 +249,33 @@ fn power_is_spread_over_the_sphere() {
 }
 
 #[test]
+fn a_quad_has_its_corners_and_an_area() {
+    let quad = |corners: &str| {
+        let clay = "material clay: diffuse { color = linear(0.5) }";
+        with_view(&format!("{clay}\ninstance wall {{ shape = quad({corners}), material = clay }}"))
+    };
+    let scene = scene_of_text(&quad("a: (1, 2, 3)m, b: (200, 200, 300)cm, c: (2, 4, 3)m"));
+    let shape = &scene.instances[0].shape;
+    assert_eq!(
+        *shape,
+        Shape::Quad { corners: [[1.0, 2.0, 3.0], [2.0, 2.0, 3.0], [2.0, 4.0, 3.0]] }
+    );
+    assert_eq!(shape.bounds(), Some([[1.0, 2.0, 3.0], [2.0, 4.0, 3.0]]));
+    assert_eq!((shape.size(), shape.reach()), (Some([1.0, 2.0, 0.0]), 4.0));
+    for line in [
+        "a: (0, 0, 0)m, b: (1, 1, 1)m, c: (3, 3, 3)m",
+        "a: (0, 0, 0)m, b: (0, 0, 0)m, c: (1, 0, 0)m",
+    ] {
+        let text = quad(line);
+        let errors = describe(&check_text(&text));
+        assert!(
+            errors.contains("the corners of this quad lie on a line: it has no area"),
+            "{errors}"
+        );
+    }
+}
+
+#[test]
 fn a_rectangle_light_is_an_instance_that_faces_its_target() {
     let scene = scene_of_text(&with_view(
         "light key: rectangle { at = (0, 3, 4)m, to = (0, 0, 0)m, size = (2, 0.5)m, power = 60W }",

@@ -3,7 +3,7 @@
 //! Things that move are where they are at the moment 0.
 
 use glam::DVec3;
-use lang::scene::{Instance, Shape};
+use lang::scene::{Instance, Shape, fourth};
 
 use super::files::Meshes;
 use crate::import::MeshFacts;
@@ -64,7 +64,7 @@ impl Bounds {
 
 /// The corners of boxes around an instance, which are turned as it is; nothing where it has no extent.
 pub(super) fn corners(instance: &Instance, assets: &[MeshFacts]) -> Vec<[f64; 3]> {
-    let boxes = match &instance.shape {
+    let boxes: Vec<[[f64; 3]; 2]> = match &instance.shape {
         Shape::Mesh { asset, parts } => {
             let boxes = assets.get(*asset).map_or_else(Vec::new, |file| {
                 let chosen = file.chosen(parts);
@@ -73,9 +73,12 @@ pub(super) fn corners(instance: &Instance, assets: &[MeshFacts]) -> Vec<[f64; 3]
             let known = boxes.into_iter().filter(|[lo, hi]| lo[0] <= hi[0]);
             known.map(|corners| corners.map(|corner| corner.map(f64::from))).collect()
         }
+        Shape::Quad { corners: [a, b, c] } => {
+            let d = fourth([*a, *b, *c]);
+            return [*a, *b, *c, d].map(|p| place(instance, p)).to_vec();
+        }
         Shape::Sphere { .. } | Shape::Rectangle { .. } | Shape::Box { .. } => {
-            let half = instance.shape.size().unwrap_or_default().map(|side| 0.5 * side);
-            vec![[half.map(|c| -c), half]]
+            instance.shape.bounds().into_iter().collect()
         }
     };
     boxes.into_iter().flat_map(corners_between).map(|p| place(instance, p)).collect()
@@ -104,7 +107,9 @@ pub(super) fn tight(instance: &Instance, assets: &[MeshFacts], meshes: &Meshes) 
             let end = |sign: f64| [0, 1, 2].map(|k| center[k] + sign * reach[k]);
             Bounds::of([end(-1.0), end(1.0)])
         }
-        Shape::Rectangle { .. } | Shape::Box { .. } => Bounds::of(corners(instance, assets)),
+        Shape::Rectangle { .. } | Shape::Quad { .. } | Shape::Box { .. } => {
+            Bounds::of(corners(instance, assets))
+        }
         Shape::Mesh { asset, parts } => {
             let (file, facts) = (meshes.get(asset)?, assets.get(*asset)?);
             let chosen = facts.chosen(parts);
@@ -118,7 +123,7 @@ pub(super) fn tight(instance: &Instance, assets: &[MeshFacts], meshes: &Meshes) 
 pub(super) fn triangles(instance: &Instance, assets: &[MeshFacts]) -> Option<u64> {
     match &instance.shape {
         Shape::Sphere { .. } => None,
-        Shape::Rectangle { .. } => Some(2),
+        Shape::Rectangle { .. } | Shape::Quad { .. } => Some(2),
         Shape::Box { .. } => Some(12),
         Shape::Mesh { asset, parts } => {
             let file = assets.get(*asset)?;

@@ -42,7 +42,10 @@ pub fn listing(scene: &Scene, files: &dyn Files) -> Result<Listing, ImportError>
     for (index, instance) in scene.instances.iter().enumerate() {
         let asset = match &instance.shape {
             Shape::Mesh { asset, .. } => Some(*asset),
-            Shape::Sphere { .. } | Shape::Rectangle { .. } | Shape::Box { .. } => None,
+            Shape::Sphere { .. }
+            | Shape::Rectangle { .. }
+            | Shape::Quad { .. }
+            | Shape::Box { .. } => None,
         };
         by_asset.entry(asset).or_default().push(index);
     }

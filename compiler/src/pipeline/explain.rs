@@ -83,7 +83,10 @@ impl Explain<'_> {
         let Lowered { triangles, spheres, instances, wide_nodes, .. } = self.lowered;
         let ball = |shape: &Shape| match shape {
             Shape::Sphere { .. } => true,
-            Shape::Rectangle { .. } | Shape::Box { .. } | Shape::Mesh { .. } => false,
+            Shape::Rectangle { .. }
+            | Shape::Quad { .. }
+            | Shape::Box { .. }
+            | Shape::Mesh { .. } => false,
         };
         let first = |wanted: &dyn Fn(&Shape) -> bool, text: String| {
             let found = self.scene.instances.iter().find(|instance| wanted(&instance.shape));

@@ -127,6 +127,7 @@ impl Context<'_> {
         let (shape, mesh) = match &instance.shape {
             Shape::Sphere { .. } => ("sphere", None),
             Shape::Rectangle { .. } => ("rectangle", None),
+            Shape::Quad { .. } => ("quad", None),
             Shape::Box { .. } => ("box", None),
             Shape::Mesh { asset, parts } => ("mesh", Some((*asset, parts))),
         };

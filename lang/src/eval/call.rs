@@ -31,6 +31,11 @@ impl Evaluator<'_> {
         if let Some(schema) = schema::find_type(Kind::Shape, &name.text) {
             let fields = self.call_fields(schema, name, args, scope);
             let shape = Shape::read(schema, &fields.lengths()).filter(|_| fields.ok);
+            if shape.as_ref().is_some_and(Shape::is_line) {
+                let text = "the corners of this quad lie on a line: it has no area";
+                let error = Diagnostic::error(Code("E0401"), text).at(span, "no area");
+                return self.fault(error);
+            }
             return shape
                 .map_or(Value::Poison, |shape| Value::Shape(Rc::new(ShapeValue::Plain(shape))));
         }

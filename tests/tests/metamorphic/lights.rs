@@ -42,6 +42,22 @@ const GLOBE: &str =
     "instance globe { shape = sphere(radius: 40cm), material = pearl, at = (1.2, 0.5, 0.4)m }\n";
 const BULB: &str = "light bulb: sphere { center = (-1.5, 2.6, 1)m, radius = 40cm, color = linear(1, 0.6, 0.3), strength = 4 }\n";
 
+/// A quad is the rectangle with its corners, to the last bit, also as a light.
+#[test]
+fn a_quad_is_the_rectangle_with_its_corners() {
+    let panel = |shape: &str, at: &str| {
+        let own = format!("instance panel {{ shape = {shape}, material = lamp{at} }}\n");
+        compile(&self::text(&[SKY, GLOBE, &own].concat()))
+    };
+    let rectangle = panel("rectangle(size: (2, 1)m)", ", at = (0, 3, 0)m");
+    let quad = panel("quad(a: (-1, 3, 0.5)m, b: (1, 3, 0.5)m, c: (1, 3, -0.5)m)", "");
+    assert_eq!(quad.lowered.lights.len(), 3, "panel, globe and sky");
+    assert_exact("a quad", &film(&rectangle), &film(&quad), 1.0);
+    // The other way round it faces down.
+    let down = panel("quad(a: (1, 3, -0.5)m, b: (1, 3, 0.5)m, c: (-1, 3, 0.5)m)", "");
+    assert_ne!(film(&down).means(), film(&quad).means());
+}
+
 /// A light that is off is an opaque black thing: the compiler makes no light of it, and every number is the
 /// same.
 #[test]

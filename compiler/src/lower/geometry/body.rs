@@ -57,7 +57,7 @@ pub(in crate::lower) struct Ball {
     pub(in crate::lower) share: f64,
 }
 
-/// A rectangle in the world, metres.
+/// A parallelogram in the world, metres.
 pub(in crate::lower) struct Face {
     /// Counter-clockwise seen from its front.
     pub(in crate::lower) corners: [DVec3; 4],
@@ -272,6 +272,7 @@ impl Maker<'_, '_> {
         match &self.instance.shape {
             Shape::Sphere { radius } => self.sphere(*radius, diagnostics),
             Shape::Rectangle { size } => self.faces(&[rectangle(*size)]),
+            Shape::Quad { corners } => self.faces(&[quad(*corners)]),
             Shape::Box { size } => self.faces(&box_faces(*size)),
             Shape::Mesh { asset, parts } => {
                 let mesh = self.mesh(*asset, parts, sheets, diagnostics);
@@ -452,6 +453,11 @@ impl Face {
 
 fn rectangle([x, z]: [f64; 2]) -> Parallelogram {
     [DVec3::new(-x, 0.0, z) / 2.0, DVec3::new(x, 0.0, 0.0), DVec3::new(0.0, 0.0, -z)]
+}
+
+fn quad(corners: [[f64; 3]; 3]) -> Parallelogram {
+    let [a, b, c] = corners.map(DVec3::from);
+    [a, b - a, c - b]
 }
 
 /// The six faces of a box around the origin, fronts outside.
