@@ -261,4 +261,6 @@ fn variants_choose_materials() {
     let error = read(&document, &choose("dusk")).expect_err("no such variant");
     let expected = "it has no variant `dusk`: its variants are `noon`, `midnight`";
     assert_eq!((error.kind, error.message.as_str()), (ErrorKind::Choice, expected));
+    let error = read(&triangle(), &choose("dusk")).expect_err("no variants");
+    assert_eq!(error.message, "it has no variant `dusk`: it has none at all");
 }

@@ -18,7 +18,11 @@ pub(super) fn find(
     if let Some(index) = (0..).zip(&known).find(|(_, own)| **own == wanted).map(|(i, _)| i) {
         return Ok(Some(index));
     }
-    let list = list("its variants are", known.into_iter());
+    let list = if known.is_empty() {
+        "it has none at all".to_owned()
+    } else {
+        list("its variants are", known.into_iter())
+    };
     let message = format!("it has no variant `{wanted}`: {list}");
     Err(ImportError::new(ErrorKind::Choice, document.file, message))
 }
