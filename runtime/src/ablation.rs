@@ -16,7 +16,7 @@ use crate::run::{Framing, Run};
 use crate::scene::Scene;
 use crate::schedule::Stop;
 use crate::setup::Setup;
-use crate::trust::{FULL, Trust, Wanted, is_same, judge, relink};
+use crate::trust::{FULL, RENDER, Trust, Wanted, is_same, judge, relink};
 use pack::features as bit;
 use pack::manifest::KernelSize;
 use serde::Serialize;
@@ -27,9 +27,6 @@ use thiserror::Error;
 /// Standard errors beyond which two pictures of independent noise do not show the same. One in 30,000 is
 /// beyond by chance, and there are up to fifty pictures.
 const BELIEVED: f64 = 4.0;
-
-/// What the kernels begin with.
-const ENTRY: &str = "render";
 
 /// Makes the seed of a picture whose noise is another, also in its replicates.
 const OTHER_NOISE: u32 = 0x5bd1_e995;
@@ -221,16 +218,7 @@ pub fn kernel_texts(scene: &Scene, each: bool) -> Vec<(String, String)> {
 pub fn relinked(scene: &Scene) -> Option<String> {
     let job = Job::of_scene(scene);
     let setup = scene.setup(&job);
-    relink(&setup, Wanted::of(&setup), ENTRY)
-}
-
-/// The kernel of the scene's layers, as a GPU runs it. `None` if the pack's own has a declaration that the table does not
-/// know, or no geometry.
-#[must_use]
-pub fn layers_kernel(scene: &Scene) -> Option<String> {
-    let setup = scene.setup(&Job::of_scene(scene));
-    let kernel = crate::gpu::aov_kernel(&setup);
-    kernel.filter(|_| setup.has_geometry())
+    relink(&setup, Wanted::of(&setup), RENDER)
 }
 
 /// Name and text of every kernel that can render the scene of `setup` and is another than those before it.
@@ -252,7 +240,7 @@ fn kernels(setup: &Setup<'_>, plan: Plan) -> Vec<(String, String)> {
             more.push(("smooth normals", Wanted { smooth: true, ..wanted }));
         }
         for (name, wanted) in more {
-            let text = relink(setup, wanted, ENTRY).filter(|text| !is_same(text, &own));
+            let text = relink(setup, wanted, RENDER).filter(|text| !is_same(text, &own));
             all.extend(text.map(|text| (name.to_owned(), text)));
         }
     }

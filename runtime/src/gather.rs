@@ -1,8 +1,8 @@
 //! Scene + job + film → the layers of the samples that the film has.
 //!
 //! A pass of its own, after the picture, batches in ascending order. AOVs come from the CPU, rows of pixels on every core,
-//! or from the GPU that made the picture, which has the same samples bit for bit; light groups come from the CPU. It does
-//! not know files.
+//! or from the GPU that made the picture, so that both show the same points; light groups come from the CPU. It does not
+//! know files.
 
 #[cfg(feature = "gpu")]
 mod by_gpu;

@@ -16,6 +16,7 @@ mod trial;
 mod upload;
 
 pub use self::adapter::{Adapter, adapters, describe};
+pub use self::aovs::layers_kernel;
 pub(crate) use self::aovs::{aovs, kernel as aov_kernel, tiles as aov_tiles};
 pub use self::error::GpuError;
 

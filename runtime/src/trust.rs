@@ -18,7 +18,7 @@ mod relink;
 use crate::setup::{Setup, WINDOW_BYTES};
 
 use pieces::pieces;
-pub(crate) use relink::{FULL, Wanted, is_same, relink};
+pub(crate) use relink::{AOV, FULL, RENDER, Wanted, is_same, relink};
 
 /// When the linker emits a declaration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

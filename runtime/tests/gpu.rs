@@ -6,7 +6,9 @@
 mod common;
 
 use common::{assert_same, scene};
+use pack::Pack;
 use runtime::convergence::Measure;
+use runtime::gpu::layers_kernel;
 use runtime::{Control, DeviceChoice, Event, Job, Outcome, Rect, SampleRange, Scene, Stop, render};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
@@ -196,4 +198,19 @@ fn a_device_that_is_lost_again_and_again_leaves_what_was_complete() {
     let error = outcome.device_error.as_deref().unwrap_or_default();
     assert!(error.starts_with("the device was lost"), "{error}");
     assert_eq!((outcome.stop, outcome.film().samples().0), (Stop::Failed, 0));
+}
+
+#[test]
+fn a_gpu_makes_layers_only_with_a_kernel_that_is_known() {
+    let own = shaders::link(&common::features()).expect("it links").text;
+    let is_made = |kernel: &str| {
+        let pack = Pack::from_bytes(common::pack_with_kernel(kernel)).expect("a pack");
+        layers_kernel(&Scene::new(pack)).is_some()
+    };
+    assert!(is_made(&own));
+    assert!(!is_made(&format!("{own}\nconst MINE: u32 = 1u;\n")));
+    // A stack that is too small for the tree: the kernel of layers has the same one, and no checks.
+    let (before, rest) = own.split_once("const STACK_SIZE: u32 = ").expect("it has a stack");
+    let (_, after) = rest.split_once(';').expect("and a size");
+    assert!(!is_made(&format!("{before}const STACK_SIZE: u32 = 0x0u;{after}")));
 }

@@ -5,9 +5,8 @@ use std::collections::BTreeSet;
 
 use pack::abi::{MaterialKind, SkyKind, TextureFormat};
 use rayon::prelude::*;
-use runtime::ablation::{
-    Ablation, Event, Measured, Plan, Row, ablate, kernel_texts, layers_kernel, relinked,
-};
+use runtime::ablation::{Ablation, Event, Measured, Plan, Row, ablate, kernel_texts, relinked};
+use runtime::gpu::layers_kernel;
 use runtime::{Control, Job, SampleRange, Scene};
 use shaders::FeatureSet;
 use tests::features::{CASES, Case, case_pack, compiled, named};

@@ -1,4 +1,4 @@
-//! Batches of samples → the AOVs of all rows, by a GPU: the same samples in the same order as on the CPU.
+//! Batches of samples → the AOVs of all rows, by a GPU: the samples of the picture, in the order of the CPU.
 
 use super::gatherer::{Gatherer, Pass, Row};
 use crate::gpu::{self, Adapter, GpuError};
@@ -9,11 +9,15 @@ use rayon::prelude::*;
 /// find them.
 pub(super) fn rows(gatherer: &Gatherer<'_>, pass: &Pass<'_>) -> Option<Vec<Row>> {
     let adapter = pass.adapter?;
-    if !gatherer.wanted.has_aovs() || !gatherer.setup.has_geometry() {
+    if !gatherer.wanted.has_aovs() {
         return None;
     }
+    let Some(kernel) = gpu::aov_kernel(gatherer.setup) else {
+        pass.signals.note("the CPU makes the layers");
+        return None;
+    };
     let mut rows = gatherer.rows();
-    let added = add(gatherer, pass, adapter, &mut rows);
+    let added = add(gatherer, pass, (adapter, &kernel), &mut rows);
     if let Err(error) = &added {
         pass.signals.note(&format!("{error}; the CPU makes the layers"));
     }
@@ -23,13 +27,10 @@ pub(super) fn rows(gatherer: &Gatherer<'_>, pass: &Pass<'_>) -> Option<Vec<Row>>
 fn add(
     gatherer: &Gatherer<'_>,
     pass: &Pass<'_>,
-    adapter: &Adapter,
+    (adapter, kernel): (&Adapter, &str),
     rows: &mut [Row],
 ) -> Result<(), GpuError> {
-    let Some(kernel) = gpu::aov_kernel(gatherer.setup) else {
-        return Err(GpuError::Kernel("it is not from this rtr".to_owned()));
-    };
-    let setup = pass.scene.setup(gatherer.job).with_kernel(&kernel);
+    let setup = pass.scene.setup(gatherer.job).with_kernel(kernel);
     let region = gatherer.region;
     let items = gatherer.batches().flat_map(|(replicate, samples)| {
         let item = move |tile| WorkItem { tile, samples, replicate, probe: false };

@@ -9,10 +9,12 @@ use super::record::{Entry, is_cut};
 use super::slot::{Slot, Slots, submit};
 use super::trial::open;
 use crate::cpu;
+use crate::job::Job;
 use crate::region::{Rect, SampleRange};
+use crate::scene::Scene;
 use crate::schedule::WorkItem;
 use crate::setup::Setup;
-use crate::trust::{Wanted, relink};
+use crate::trust::{AOV, Trust, Wanted, judge, relink};
 use pack::abi::AovSample;
 use std::collections::VecDeque;
 
@@ -22,9 +24,19 @@ const IN_FLIGHT: usize = 2;
 /// Samples of one tile: some 20 MB of records, and far less than the second that drivers give a dispatch.
 const SAMPLES: u32 = 1 << 18;
 
-/// The AOV kernel of the scene of `setup`, by the features of its own; `None` if that is not one of ours.
+/// The AOV kernel of the scene of `setup`, by the features of its own; `None` if that is not known, or if there is nothing
+/// to hit. It runs without checks, and takes the size of its stack from the pack's kernel: see `judge`.
 pub(crate) fn kernel(setup: &Setup<'_>) -> Option<String> {
-    relink(setup, Wanted::of(setup).with_uv(), Entry::Aov.name())
+    if !setup.has_geometry() || judge(setup) != Trust::Known {
+        return None;
+    }
+    relink(setup, Wanted::of(setup).with_uv(), AOV)
+}
+
+/// The kernel that finds the layers of a scene on a GPU; `None` where the CPU does.
+#[must_use]
+pub fn layers_kernel(scene: &Scene) -> Option<String> {
+    kernel(&scene.setup(&Job::of_scene(scene)))
 }
 
 /// Parts of a region of the image that a device takes at once, each as wide as the region if that is possible.

@@ -1,6 +1,7 @@
 //! What a kernel writes: its entry point, its records, and how many of them a tile has.
 
 use crate::schedule::WorkItem;
+use crate::trust::{AOV, RENDER};
 use pack::abi::{AovSample, FilmPixel};
 
 /// Entry points of kernels.
@@ -16,8 +17,8 @@ impl Entry {
     /// Its name in the kernel.
     pub(super) fn name(self) -> &'static str {
         match self {
-            Self::Render => "render",
-            Self::Aov => "aov",
+            Self::Render => RENDER,
+            Self::Aov => AOV,
         }
     }
 

@@ -14,6 +14,11 @@ use std::sync::OnceLock;
 /// The kernel that renders every pack, and whose translation is the CPU kernel.
 pub(crate) static FULL: &str = include_str!(concat!(env!("OUT_DIR"), "/full.wgsl"));
 
+/// The entry point of pictures.
+pub(crate) const RENDER: &str = "render";
+/// That of AOVs.
+pub(crate) const AOV: &str = "aov";
+
 /// What a kernel is wanted to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Wanted {
