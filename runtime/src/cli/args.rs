@@ -1,9 +1,13 @@
-//! Arguments as clap reads them, and the parsers of their values.
+//! Arguments as clap reads them.
 
 use super::denoise_args::DenoiseArgs;
+use super::job_args::{JOB_EXAMPLES, JobArgs};
 use super::layer_args::LayerArgs;
+use super::values::{
+    Every, parse_clamp, parse_duration, parse_every, parse_pixel, parse_rect, parse_samples,
+    parse_size, parse_threads,
+};
 use crate::convergence::Goal;
-use crate::layers::Layer;
 use crate::output::Format;
 use crate::region::{Rect, SampleRange};
 use clap::{Parser, Subcommand, ValueEnum};
@@ -82,74 +86,6 @@ pub(super) enum Command {
     /// Write a job that renders a picture on many machines: for Open Job Description, Slurm or GNU parallel.
     #[command(after_help = JOB_EXAMPLES)]
     Job(JobArgs),
-}
-
-const JOB_EXAMPLES: &str = "\
-Examples:
-  rtr job scene.pack --format openjd            scene.openjd.yaml, to be run with
-    openjd run scene.openjd.yaml --extensions TASK_CHUNKING --step Render
-    openjd run scene.openjd.yaml --extensions TASK_CHUNKING --step Merge
-  rtr job scene.pack --format slurm             scene.render.sbatch and scene.merge.sbatch:
-    render=$(sbatch --parsable scene.render.sbatch)
-    sbatch --dependency=afterok:$render scene.merge.sbatch
-  rtr job scene.pack --format sh --chunk 4      scene.job.sh, four batches a task:
-    seq 0 15 | parallel --sshloginfile nodes --workdir . sh ./scene.job.sh task
-    sh ./scene.job.sh merge
-
-Parts merge to the bits of one run. Tasks may be killed at any time and run twice (docs/farm.md).";
-
-/// What a job is written for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum JobFormat {
-    /// Open Job Description, 2023-09, with `TASK_CHUNKING`.
-    Openjd,
-    /// An array job for Slurm, and the merge that waits for it.
-    Slurm,
-    /// A shell script, for GNU parallel over ssh or one machine.
-    Sh,
-}
-
-#[derive(Debug, clap::Args)]
-pub(super) struct JobArgs {
-    /// The pack to render. Tasks open it by this name, so all machines must see it there.
-    #[arg(value_name = "SCENE.pack")]
-    pub(super) pack: PathBuf,
-    /// What the job is written for.
-    #[arg(long, value_enum, value_name = "FORMAT")]
-    pub(super) format: JobFormat,
-    /// Folder for the files of the job [default: the working folder].
-    #[arg(short, long, value_name = "FOLDER")]
-    pub(super) output: Option<PathBuf>,
-    /// Samples per pixel [default: those of the scene].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub(super) spp: Option<u32>,
-    /// Image size in pixels [default: that of the scene].
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
-    pub(super) size: Option<[u32; 2]>,
-    /// Seed of the image [default: that of the scene].
-    #[arg(long, value_name = "N")]
-    pub(super) seed: Option<u32>,
-    /// Device of the tasks, as for rendering.
-    #[arg(long, default_value = "auto", value_name = "DEVICE")]
-    pub(super) device: String,
-    /// Layers of the picture, as for rendering.
-    #[arg(long, value_name = "LAYER,...", value_delimiter = ',', value_enum)]
-    pub(super) layers: Vec<Layer>,
-    /// Batches of 16 samples that a task renders [default: what takes --task-time here].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub(super) chunk: Option<u32>,
-    /// How long a task should take.
-    #[arg(long, default_value = "10m", value_name = "TIME", value_parser = parse_duration)]
-    pub(super) task_time: Duration,
-    /// Render for so long here to learn how long a batch takes.
-    #[arg(long, default_value = "20s", value_name = "TIME", value_parser = parse_duration, conflicts_with = "chunk")]
-    pub(super) measure: Duration,
-    /// Threads of the measurement [default: one for each logical CPU].
-    #[arg(long, value_name = "N", value_parser = parse_threads)]
-    pub(super) threads: Option<usize>,
-    /// Print errors only.
-    #[arg(long)]
-    pub(super) quiet: bool,
 }
 
 #[derive(Debug, clap::Args)]
@@ -515,84 +451,6 @@ pub(super) enum PrecisionArg {
     F64,
 }
 
-fn parse_size(text: &str) -> Result<[u32; 2], String> {
-    let size = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
-    size.filter(|size: &[u32; 2]| !size.contains(&0)).ok_or("write it as 640x360".to_owned())
-}
-
-fn parse_pixel(text: &str) -> Result<[u32; 2], String> {
-    let pixel = text.split_once(',').and_then(|(x, y)| Some([x.parse().ok()?, y.parse().ok()?]));
-    pixel.ok_or("write it as x,y in pixels".to_owned())
-}
-
-fn parse_rect(text: &str) -> Result<Rect, String> {
-    let numbers: Result<Vec<u32>, _> = text.split(',').map(str::parse).collect();
-    match numbers.as_deref() {
-        Ok(&[x, y, w, h]) if w > 0 && h > 0 => Ok(Rect { x, y, w, h }),
-        _ => Err("write it as x,y,width,height in pixels".to_owned()),
-    }
-}
-
-fn parse_samples(text: &str) -> Result<SampleRange, String> {
-    text.split_once("..")
-        .and_then(|(start, end)| SampleRange::new(start.parse().ok()?, end.parse().ok()?))
-        .ok_or(
-            "write it as 0..32: from the first index up to, not including, the second".to_owned(),
-        )
-}
-
-fn parse_clamp(text: &str) -> Result<f32, String> {
-    match text.parse() {
-        Ok(most) if most > 0.0 && most < f32::INFINITY => Ok(most),
-        _ => Err("a number above 0, such as 10".to_owned()),
-    }
-}
-
-fn parse_threads(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(n @ 1..=4096) => Ok(n),
-        _ => Err("a number from 1 to 4096".to_owned()),
-    }
-}
-
-/// How often a run is saved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Every {
-    Never,
-    After(Duration),
-}
-
-fn parse_every(text: &str) -> Result<Every, String> {
-    match text {
-        "never" => Ok(Every::Never),
-        time => parse_duration(time)
-            .map(Every::After)
-            .map_err(|_| "write it as 60s, 5m or never".to_owned()),
-    }
-}
-
-/// `90`, `90s`, `1.5m`, `1m30s`, `500ms`, `2h`.
-fn parse_duration(text: &str) -> Result<Duration, String> {
-    let wrong = || "write it as 60s, 1m30s, 500ms or 2h".to_owned();
-    let (mut rest, mut seconds) = (text, 0.0);
-    while !rest.is_empty() {
-        let digits = rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len());
-        let (number, tail) = rest.split_at(digits);
-        let letters = tail.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(tail.len());
-        let (unit, tail) = tail.split_at(letters);
-        let scale = match unit {
-            "" | "s" => 1.0,
-            "ms" => 1e-3,
-            "m" | "min" => 60.0,
-            "h" => 3600.0,
-            _ => return Err(wrong()),
-        };
-        seconds += number.parse::<f64>().map_err(|_| wrong())? * scale;
-        rest = tail;
-    }
-    Duration::try_from_secs_f64(seconds).ok().filter(|d| !d.is_zero()).ok_or_else(wrong)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -601,47 +459,5 @@ mod tests {
     fn the_arguments_are_consistent() {
         use clap::CommandFactory as _;
         Args::command().debug_assert();
-    }
-
-    #[test]
-    fn durations_are_read_and_nonsense_is_refused() {
-        for (text, seconds) in [
-            ("60s", 60.0),
-            ("90", 90.0),
-            ("1m30s", 90.0),
-            ("500ms", 0.5),
-            ("1.5m", 90.0),
-            ("2h", 7200.0),
-        ] {
-            assert_eq!(parse_duration(text), Ok(Duration::from_secs_f64(seconds)), "{text}");
-        }
-        for text in ["", "s", "60x", "-1s", "0s", "1..2s", "1e9s", "999999999999999999999h"] {
-            assert!(parse_duration(text).is_err(), "{text}");
-        }
-    }
-
-    #[test]
-    fn checkpoints_are_made_after_a_time_or_never() {
-        assert_eq!(parse_every("never"), Ok(Every::Never));
-        assert_eq!(parse_every("5m"), Ok(Every::After(Duration::from_mins(5))));
-        for text in ["", "no", "0s", "soon"] {
-            assert!(parse_every(text).is_err(), "{text}");
-        }
-    }
-
-    #[test]
-    fn sizes_crops_and_samples_are_read_and_nonsense_is_refused() {
-        assert_eq!(parse_size("640x360"), Ok([640, 360]));
-        assert_eq!(parse_rect("1,2,3,4"), Ok(Rect { x: 1, y: 2, w: 3, h: 4 }));
-        assert_eq!(parse_samples("16..32"), Ok(SampleRange { start: 16, end: 32 }));
-        for text in ["", "640", "0x5", "5x-1", "axb", "1x2x3", "99999999999x1"] {
-            assert!(parse_size(text).is_err(), "{text}");
-        }
-        for text in ["", "1,2,3", "1,2,0,4", "1,2,3,4,5", "-1,2,3,4"] {
-            assert!(parse_rect(text).is_err(), "{text}");
-        }
-        for text in ["", "32", "5..5", "9..3", "a..b", "0..99999999999"] {
-            assert!(parse_samples(text).is_err(), "{text}");
-        }
     }
 }

@@ -2,27 +2,19 @@
 //! that could be chance.
 
 use super::args::{BenchArgs, Verify};
-use super::console::{Console, Watched, reset_interrupts};
+use super::console::{Console, reset_interrupts};
 use super::exit::Exit;
 use super::guard::Guard;
 use super::open::{How, open};
 use super::outputs::{Claim, Use, prove, save};
-use super::progress::Wanted;
-use crate::control::Control;
+use super::timed::timed;
 use crate::convergence::{Comparison, Measure, Point, Spread, compare};
 use crate::job::Job;
-use crate::region::SampleRange;
-use crate::render::{DeviceChoice, render};
 use crate::report::Report;
 use crate::scene::Scene;
-use crate::schedule::Stop;
 use files::ShowPath as _;
 use serde::Serialize;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
-
-/// More samples than any time is long.
-const ENDLESS: SampleRange = SampleRange { start: 0, end: 1 << 28 };
 
 /// One of the two.
 struct Side<'a> {
@@ -95,36 +87,11 @@ fn one(args: &BenchArgs, console: &Console, run: u32, side: &mut Side<'_>) -> Re
     if let Some(size) = args.size {
         job.resize(size);
     }
-    job.samples = ENDLESS;
     job.seed = args.seed.wrapping_add(run);
-    job.time_limit = Some(args.time);
     job.threads = args.threads;
     job.measure = Some(Measure::default());
     let guard = Guard::new(console, side.path, side.scene.pack(), Verify::First)?;
-    let control = Control::default();
-    let over = AtomicBool::new(false);
-    let watched = Watched { wanted: Wanted::of(&job), change: None };
-    let rescue = || {
-        if control.is_cancelled() {
-            console.give_up();
-        }
-    };
-    let outcome = std::thread::scope(|scope| {
-        let watcher = scope.spawn(|| console.watch(&control, &watched, &over, &rescue));
-        let choice = DeviceChoice::parse(&args.device);
-        let outcome = guard.during(&control, || render(&side.scene, &job, &choice, &control));
-        over.store(true, Ordering::Relaxed);
-        watcher.thread().unpark();
-        outcome
-    });
-    let outcome = outcome?.map_err(|error| console.fail(&error, Exit::World))?;
-    if outcome.stop == Stop::Cancelled {
-        return Err(Exit::Interrupted);
-    }
-    if let Some(error) = &outcome.device_error {
-        console.warn(&format!("error: {error}"));
-        return Err(Exit::World);
-    }
+    let outcome = timed(console, &guard, (&side.scene, &mut job), (&args.device, args.time))?;
     let Some(convergence) = &outcome.convergence else { return Err(Exit::Bug) };
     let Some(point) = convergence.points.last().filter(|_| outcome.failures.is_empty()) else {
         console.warn("error: a run ended without a picture");

@@ -1,25 +1,20 @@
 //! `rtr job scene.pack`: writes the files of a job that renders a picture on many machines.
 
-use super::args::{JobArgs, JobFormat, Verify};
-use super::console::{Console, Watched, is_interrupted, reset_interrupts};
+use super::args::Verify;
+use super::console::{Console, reset_interrupts};
 use super::exit::Exit;
 use super::guard::Guard;
+use super::job_args::{JobArgs, JobFormat};
 use super::open::{How, is_stdin, open};
 use super::outputs::{Claim, Use, prove, save};
-use super::progress::{Wanted, duration_text};
-use crate::control::Control;
+use super::progress::duration_text;
+use super::timed::timed;
 use crate::farm::{self, Engine, Plan, chunk_for};
 use crate::job::Job;
-use crate::region::SampleRange;
-use crate::render::{DeviceChoice, render};
 use crate::scene::Scene;
 use pack::abi::BATCH;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
-
-/// More samples than any measurement takes.
-const ENDLESS: SampleRange = SampleRange { start: 0, end: 1 << 28 };
 
 pub(super) fn command(args: &JobArgs) -> Exit {
     let console = Console::with_progress(args.quiet);
@@ -120,31 +115,7 @@ fn measured(
     (scene, guard): (&Scene, &Guard),
     mut job: Job,
 ) -> Result<Duration, Exit> {
-    job.samples = ENDLESS;
-    job.time_limit = Some(args.measure);
-    let (control, over) = (Control::default(), AtomicBool::new(false));
-    let watched = Watched { wanted: Wanted::of(&job), change: None };
-    let rescue = || {
-        if control.is_cancelled() {
-            console.give_up();
-        }
-    };
-    let outcome = std::thread::scope(|scope| {
-        let watcher = scope.spawn(|| console.watch(&control, &watched, &over, &rescue));
-        let choice = DeviceChoice::parse(&args.device);
-        let outcome = guard.during(&control, || render(scene, &job, &choice, &control));
-        over.store(true, Ordering::Relaxed);
-        watcher.thread().unpark();
-        outcome
-    });
-    let outcome = outcome?.map_err(|error| console.fail(&error, Exit::World))?;
-    if is_interrupted() {
-        return Err(Exit::Interrupted);
-    }
-    if let Some(error) = &outcome.device_error {
-        console.warn(&format!("error: {error}"));
-        return Err(Exit::World);
-    }
+    let outcome = timed(console, guard, (scene, &mut job), (&args.device, args.measure))?;
     let mean = outcome.film().total_samples() as f64 / job.crop.pixels() as f64;
     if mean <= 0.0 {
         console.warn(

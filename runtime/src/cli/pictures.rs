@@ -3,11 +3,12 @@
 //! Each is written whole, so whoever opens an output finds a picture in it, with more samples each time. A picture
 //! that cannot be written while the run goes on is told once and costs nothing else: the last one finds its way.
 
-use super::args::{Every, RenderArgs};
+use super::args::RenderArgs;
 use super::console::Console;
 use super::denoise::denoise;
 use super::exit::Exit;
 use super::outputs::{Output, save};
+use super::values::Every;
 use super::viewer::Viewer;
 use crate::denoise::Denoiser;
 use crate::job::Job;

@@ -1,6 +1,6 @@
 //! `rtr scene.pack`: opens, renders, writes, and says what happened.
 
-use super::args::{Every, PrecisionArg, RenderArgs};
+use super::args::{PrecisionArg, RenderArgs};
 use super::change::Change;
 use super::console::{Console, Watched, quit, reset_interrupts};
 use super::denoise;
@@ -12,6 +12,7 @@ use super::open::{How, is_stdin, open};
 use super::outputs::{Claim, Output, Use, outputs, prove, room, with_extension};
 use super::pictures::Pictures;
 use super::progress::{Line, Wanted, duration_text, mrays};
+use super::values::Every;
 use crate::checkpoint::{Checkpoint, CheckpointError};
 use crate::control::Control;
 use crate::denoise::Denoiser;
