@@ -86,7 +86,7 @@ fn rotations_go_the_shorter_way_round_and_scales_are_read() {
     let stored = read(&document, &GltfChoice::default()).expect("a good file");
     assert_near(stored.parts[0].corners(0), moved([0.0; 3]));
     let warnings = &stored.report.warnings;
-    let told = "its animations are `rotation`, `scale`; it stands as it is stored";
+    let told = "its animations are `rotation`, `scale`; it is shown as stored";
     assert!(warnings.iter().any(|warning| warning.message.contains(told)), "{warnings:?}");
 }
 

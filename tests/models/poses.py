@@ -3,7 +3,7 @@
     python tests/models/poses.py target/release/rtc
 
 It needs `bpy` (PyPI). The model is made here: a tube on two bones, which bends, moves and swells (a shape key). Blender
-exports it as glTF and says the box around it at some frames; `rtc show --bounds` says the same of `gltf(..., time: T)`. A
+exports it as glTF and reports the box around it at some frames; `rtc show --bounds` reports that of `gltf(..., time: T)`. A
 difference of more than 0.1 mm ends it with exit code 1, and nothing is written.
 """
 
@@ -126,7 +126,7 @@ def main() -> None:
     PAGE.write_text(
         "# Poses of glTF files beside Blender's\n\n"
         "Written by `python tests/models/poses.py target/release/rtc`. A tube on two bones bends, moves and swells; "
-        f"Blender {bpy.app.version_string} makes it, exports it, and says the box around it at some frames. "
+        f"Blender {bpy.app.version_string} makes it, exports it, and reports the box around it at some frames. "
         "`gltf(\"rig.glb\", time: T)` has the same box, to the digits that `rtc show --bounds` prints.\n\n"
         "| frame | time | box | farthest corner off by |\n|---|---|---|---|\n" + "\n".join(rows) + "\n"
     )

@@ -194,11 +194,8 @@ fn warn_about(document: &Document<'_>, choice: &GltfChoice, report: &mut ImportR
     }
     if !root.animations.is_empty() && choice.time.is_none() {
         let names = root.animations.iter().filter_map(|animation| animation.name.as_deref());
-        let count = root.animations.len();
         let names = list("its animations are", names);
-        let message =
-            format!("{names}; it stands as it is stored, `time: 1s` shows a moment of them");
-        let message = if count == 1 { message.replace("them", "it") } else { message };
+        let message = format!("{names}; it is shown as stored unless `time` chooses a moment");
         report.warn(document.file, message);
     }
     let variants = variant::names(document);

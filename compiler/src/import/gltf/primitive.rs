@@ -151,6 +151,11 @@ fn claimed_bytes(
         let each = size_of::<Matrix>() as u64;
         bytes = bytes.saturating_add(Buffers::count(document, index)?.saturating_mul(each));
     }
+    // With morph targets, the moves of one, and positions and normals that are moved.
+    let targets = primitive.targets.iter().flatten();
+    for index in targets.flat_map(|target| [target.positions, target.normals]).flatten() {
+        bytes = bytes.saturating_add(Buffers::count(document, index)?.saturating_mul(36));
+    }
     let positions = attribute(primitive, Semantic::Positions);
     if let Some(corners) = primitive.indices.or(positions) {
         let triangle = if mode == Mode::Triangles { 4 } else { 12 };
