@@ -9,7 +9,7 @@ use crate::eval::color::blackbody;
 use crate::resolved::{Declared, number, vector};
 use crate::scene::{Name, Rgb};
 use crate::schema::instance::GROUP;
-use crate::schema::light::LEAST_DIAMETER;
+use crate::schema::light::{DIAMETER, SUN_DIAMETER};
 use crate::schema::{
     ANY, Bounds, Default, Field, FieldType, Kind, TypeSchema, WHITE, color_text, types,
 };
@@ -406,14 +406,8 @@ const SUN_SKY: TypeSchema = TypeSchema {
         ]),
         Field::new(
             "sun.angular_diameter",
-            FieldType::Number(Bounds {
-                dim: Dim::ANGLE,
-                unit: "deg",
-                min: LEAST_DIAMETER,
-                above_min: false,
-                max: std::f64::consts::FRAC_PI_2,
-            }),
-            Default::Number(0.53 * std::f64::consts::PI / 180.0),
+            DIAMETER,
+            SUN_DIAMETER,
             "The angle that the sun fills; larger means softer shadows, and as much light.",
         )
         .foreign(&[("sun_size", "Blender"), ("angular_diameter", "lights")]),

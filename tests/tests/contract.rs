@@ -6,6 +6,7 @@
 //! relies on the checks. Real GPUs may contract products and sums; they are compared elsewhere, by
 //! statistics.
 
+use clap::ValueEnum as _;
 use compiler::pipeline::Compiled;
 use pack::abi::{Texture, TextureFormat};
 use pack::{Checked, Pack};
@@ -128,19 +129,10 @@ fn layered(device: &DeviceChoice, name: &str) -> (Vec<String>, Outcome) {
     });
     let scene = Scene::new(case_pack(named(name)));
     let mut job = Job::of_scene(&scene);
-    let layers = [
-        Layer::Albedo,
-        Layer::Normal,
-        Layer::Depth,
-        Layer::Position,
-        Layer::Uv,
-        Layer::Object,
-        Layer::Instance,
-        Layer::Material,
-        Layer::Crypto,
-        Layer::Alpha,
-    ];
-    job.wanted = Wanted { layers: layers.into(), transparent: true, ..Wanted::default() };
+    // The others do not come from the kernel of layers.
+    let other = [Layer::Variance, Layer::Lights];
+    let layers = Layer::value_variants().iter().copied().filter(|layer| !other.contains(layer));
+    job.wanted = Wanted { layers: layers.collect(), transparent: true, ..Wanted::default() };
     let outcome = runtime::render(&scene, &job, device, &control).expect("a small picture");
     assert_eq!(outcome.device_error, None, "{name}");
     (heard.try_iter().collect(), outcome)

@@ -20,7 +20,19 @@ const LEAST_CONE: f64 = 0.5 * std::f64::consts::PI / 180.0;
 
 /// The narrowest light at infinity: the kernel compares chords of directions, which single precision knows to 1e-7;
 /// below a hundredth of a degree that is more than a thousandth of the chord.
-pub(crate) const LEAST_DIAMETER: f64 = 0.01 * std::f64::consts::PI / 180.0;
+const LEAST_DIAMETER: f64 = 0.01 * std::f64::consts::PI / 180.0;
+
+/// The angle that a light at infinity fills.
+pub(crate) const DIAMETER: FieldType = FieldType::Number(Bounds {
+    dim: Dim::ANGLE,
+    unit: "deg",
+    min: LEAST_DIAMETER,
+    above_min: false,
+    max: std::f64::consts::FRAC_PI_2,
+});
+
+/// That of the sun: 0.53 degrees.
+pub(crate) const SUN_DIAMETER: Default = Default::Number(0.53 * std::f64::consts::PI / 180.0);
 
 /// Which sides of a flat light shine.
 const SIDES: &[Word] =
@@ -316,14 +328,8 @@ const DIRECTIONAL: TypeSchema = TypeSchema {
         ]),
         Field::new(
             "angular_diameter",
-            FieldType::Number(Bounds {
-                dim: Dim::ANGLE,
-                unit: "deg",
-                min: LEAST_DIAMETER,
-                above_min: false,
-                max: std::f64::consts::FRAC_PI_2,
-            }),
-            Default::Number(0.53 * std::f64::consts::PI / 180.0),
+            DIAMETER,
+            SUN_DIAMETER,
             "The angle that it fills; larger means softer shadows.",
         )
         .typical("sun and moon 0.53deg")
