@@ -12,6 +12,7 @@ use tempfile::NamedTempFile;
 
 use crate::error::FileError;
 use crate::inject::step;
+use crate::sink::Sink;
 use crate::steps::{Steps, gather};
 use crate::target::folder;
 
@@ -27,7 +28,7 @@ pub(crate) fn replace(
     path: &Path,
     at: &Path,
     existing: Option<&Metadata>,
-    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    content: impl FnOnce(&mut dyn Sink) -> io::Result<()>,
 ) -> Result<(), FileError> {
     let dir = folder(at);
     let file = prepare(path, at, existing)?;

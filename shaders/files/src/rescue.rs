@@ -1,11 +1,12 @@
 //! Results that took long to make → some file, if not the one that was asked for.
 
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::error::FileError;
+use crate::sink::Sink;
 use crate::target::folder;
-use crate::write::write;
+use crate::write::write_seekable;
 
 /// Names that are tried in one folder.
 const MOST_NAMES: u32 = 1000;
@@ -19,18 +20,18 @@ pub enum Saved {
     Elsewhere(PathBuf, FileError),
 }
 
-/// As [`write()`]; when that fails, the content is written to a new file of that name in the working folder, else in
+/// As [`write_seekable`]; when that fails, the content is written to a new file of that name in the working folder, else in
 /// the system's folder for temporary files. `content` is called once for each try.
 pub fn save(
     path: &Path,
-    content: impl Fn(&mut dyn Write) -> io::Result<()>,
+    content: impl Fn(&mut dyn Sink) -> io::Result<()>,
 ) -> Result<Saved, FileError> {
-    let Err(error) = write(path, &content) else { return Ok(Saved::AsAsked) };
+    let Err(error) = write_seekable(path, &content) else { return Ok(Saved::AsAsked) };
     let name = path.file_name().map_or_else(|| "picture".into(), |name| name.to_string_lossy());
     let name: String = name.chars().map(|c| if c.is_control() { '_' } else { c }).collect();
     for dir in [PathBuf::from("."), std::env::temp_dir()] {
         if let Some(free) = free_name(&dir, Path::new(&name), path)
-            && write(&free, &content).is_ok()
+            && write_seekable(&free, &content).is_ok()
         {
             return Ok(Saved::Elsewhere(free, error));
         }

@@ -1,6 +1,6 @@
 //! An open file or stream → a writer that gathers bytes, and of which every write is a step.
 
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 
 use crate::inject::step;
 
@@ -18,6 +18,12 @@ impl<W: Write> Write for Steps<W> {
 
     fn flush(&mut self) -> io::Result<()> {
         self.0.flush()
+    }
+}
+
+impl<W: Seek> Seek for Steps<W> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.0.seek(to)
     }
 }
 

@@ -1,12 +1,13 @@
 //! Bytes → an output, of whatever kind it is.
 
 use std::fs::File;
-use std::io::{self, Write};
+use std::io::{self, Cursor, Write};
 use std::path::Path;
 
 use crate::error::FileError;
 use crate::inject::step;
 use crate::replace::replace;
+use crate::sink::Sink;
 use crate::steps::gather;
 use crate::target::Target;
 
@@ -25,8 +26,24 @@ pub fn write(
             let opened = step().and_then(|()| File::options().write(true).open(at));
             stream(path, &mut opened.map_err(FileError::io("open", path))?, content)
         }
-        Target::File { path: at, existing } => replace(path, &at, existing.as_ref(), content),
+        Target::File { path: at, existing } => {
+            replace(path, &at, existing.as_ref(), |out| content(out))
+        }
     }
+}
+
+/// As [`write()`], for content that goes back in what it has written. Standard output, devices and pipes get it when it
+/// is whole, so it is in memory until then.
+pub fn write_seekable(
+    path: &Path,
+    content: impl FnOnce(&mut dyn Sink) -> io::Result<()>,
+) -> Result<(), FileError> {
+    if let Target::File { path: at, existing } = Target::of(path)? {
+        return replace(path, &at, existing.as_ref(), content);
+    }
+    let mut whole = Cursor::new(Vec::new());
+    content(&mut whole).map_err(FileError::io("write", path))?;
+    write(path, |out| out.write_all(whole.get_ref()))
 }
 
 fn stream(
@@ -95,6 +112,28 @@ mod tests {
         };
         write(&pipe, |out| out.write_all(b"through it")).unwrap();
         assert_eq!(reader.join().unwrap(), b"through it");
+    }
+
+    #[test]
+    fn content_may_go_back_in_what_it_has_written() {
+        let dir = tempfile::tempdir().unwrap();
+        let content = |out: &mut dyn Sink| {
+            out.write_all(b"?ell")?;
+            out.seek(io::SeekFrom::Start(0))?;
+            out.write_all(b"w")
+        };
+        let path = dir.path().join("a");
+        write_seekable(&path, content).unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"well");
+        let pipe = dir.path().join("pipe");
+        let mode = rustix::fs::Mode::from_raw_mode(0o600);
+        rustix::fs::mkfifoat(rustix::fs::CWD, &pipe, mode).unwrap();
+        let reader = {
+            let pipe = pipe.clone();
+            std::thread::spawn(move || std::fs::read(pipe).unwrap())
+        };
+        write_seekable(&pipe, content).unwrap();
+        assert_eq!(reader.join().unwrap(), b"well");
     }
 
     #[test]
