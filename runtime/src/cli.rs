@@ -20,6 +20,8 @@ mod job_args;
 mod layer_args;
 mod layers;
 mod measure;
+mod merge;
+mod merge_args;
 mod open;
 mod outputs;
 mod pick;
@@ -32,17 +34,12 @@ mod view;
 mod viewer;
 mod watch;
 
-use self::args::{Args, Command, MergeArgs};
+use self::args::{Args, Command};
 use self::console::Console;
 use self::exit::Exit;
-use self::outputs::{Claim, prove, save};
-use crate::output;
-use crate::region::SampleRange;
 use crate::signals::Observer;
 use clap::Parser as _;
-use files::ShowPath as _;
 use std::ffi::OsString;
-use std::path::Path;
 use std::process::ExitCode;
 
 /// Runs `rtr` with these arguments, the program's name first. May be called several times in one
@@ -77,7 +74,7 @@ pub fn run_observed(
         return code(Console::new(false).fail(&error, Exit::World));
     }
     let exit = match &args.command {
-        Some(Command::Merge(merge)) => merge_command(merge),
+        Some(Command::Merge(merge)) => merge::command(merge),
         Some(Command::Bench(bench)) => bench::command(bench),
         Some(Command::Check(args)) => check::command(args),
         Some(Command::View(args)) => view::command(args),
@@ -112,82 +109,4 @@ fn list_devices() -> Exit {
         }
     }
     Exit::Done
-}
-
-fn merge_command(args: &MergeArgs) -> Exit {
-    let console = Console::new(args.quiet).beside(&args.output);
-    let formats: Result<Vec<_>, String> =
-        args.output.iter().map(|path| outputs::format(path, args.format)).collect();
-    let formats = match formats {
-        Ok(formats) => formats,
-        Err(text) => {
-            console.warn(&format!("error: {text}"));
-            return Exit::World;
-        }
-    };
-    let inputs: Vec<_> =
-        args.parts.iter().map(|path| outputs::Use { path, what: "a part" }).collect();
-    let claims = args.output.iter().map(|path| Claim::new(path, "the merged picture", 0));
-    if let Err(exit) = prove(&console, &inputs, &claims.collect::<Vec<_>>()) {
-        return exit;
-    }
-    let denoiser = match denoise::open(&args.denoise, &console, &formats, None) {
-        Ok(denoiser) => denoiser,
-        Err(exit) => return exit,
-    };
-    let mut parts = Vec::new();
-    for path in &args.parts {
-        match output::read_exr(path) {
-            Ok(picture) => parts.push(picture),
-            Err(error) => return console.fail(&error, Exit::World),
-        }
-    }
-    let mut picture = match output::merge(parts) {
-        Ok(picture) => picture,
-        Err(error) => {
-            for (i, path) in (1..).zip(&args.parts) {
-                console.note(&format!("part {i} is {}", path.shown()));
-            }
-            return console.fail(&error, Exit::World);
-        }
-    };
-    if let Some(whole) = args.samples {
-        let ranges = &picture.film.ranges;
-        let missing = output::missing(ranges, whole);
-        if !missing.is_empty() {
-            return missing_parts(&console, args, &missing);
-        }
-        if ranges.as_slice() != [whole] {
-            let found = ranges.iter().map(ToString::to_string).collect::<Vec<_>>().join(",");
-            console.warn(&format!("error: the parts have samples {found}, more than {whole}"));
-            return Exit::World;
-        }
-    }
-    let mut exit = Exit::Done;
-    if let Some(denoiser) = &denoiser {
-        exit = denoise::denoise(&console, denoiser, &mut picture).err().unwrap_or(exit);
-    }
-    for (path, format) in args.output.iter().zip(formats) {
-        let bytes = match output::encode(format, &picture, true) {
-            Ok(bytes) => bytes,
-            Err(error) => return console.fail(&error, Exit::Bug),
-        };
-        exit = save(&console, path, &bytes).err().unwrap_or(exit);
-    }
-    exit
-}
-
-/// Says which samples no part has, and the command that renders them.
-fn missing_parts(console: &Console, args: &MergeArgs, missing: &[SampleRange]) -> Exit {
-    let text = missing.iter().map(ToString::to_string).collect::<Vec<_>>().join(",");
-    console.warn(&format!("error: samples {text} are missing"));
-    let folder = args.parts.first().and_then(|part| part.parent()).unwrap_or(Path::new(""));
-    for range in missing {
-        let part = folder.join(format!("samples-{}-{}.exr", range.start, range.end));
-        console.warn(&format!(
-            "help: render them with the flags of the other parts: rtr SCENE.pack --samples {range} -o {}",
-            part.shown()
-        ));
-    }
-    Exit::World
 }

@@ -8,11 +8,12 @@ use crate::region::{Rect, SampleRange, insert_range};
 use crate::replicate::{REPLICATES, REPLICATES_U32, luminance, moments};
 use crate::schedule::WorkItem;
 use crate::zeros::{NoMemory, zeros};
-use pack::abi::FilmPixel;
+use pack::abi::{BATCH, FilmPixel};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
 
+mod rows;
 mod so_far;
 
 /// A sample whose radiance was not finite; enough to render it again.
@@ -52,11 +53,12 @@ pub struct Counters {
 }
 
 impl Counters {
-    /// Adds what another, later part of the picture counted.
+    /// Adds what another part of the picture counted.
     pub fn add(&mut self, other: &Self) {
         self.rays += other.rays;
         self.bad += other.bad;
-        self.first_bad = self.first_bad.or(other.first_bad);
+        let order = |bad: &BadSample| (bad.sample / BATCH, bad.y, bad.x);
+        self.first_bad = self.first_bad.into_iter().chain(other.first_bad).min_by_key(order);
         self.depth = self.depth.max(other.depth);
         self.overflows += other.overflows;
         self.leaks += other.leaks;
@@ -111,7 +113,7 @@ impl Film {
     }
 
     /// What is left of a film whose pixels were taken.
-    fn without_pixels(image_size: [u32; 2], region: Rect) -> Self {
+    pub(crate) fn without_pixels(image_size: [u32; 2], region: Rect) -> Self {
         Self {
             image_size,
             region,
@@ -157,7 +159,11 @@ impl Film {
     /// Share of the light that `Counters::removed` is, from 0 to 1; 0 where there is no light.
     #[must_use]
     pub fn removed(&self) -> f64 {
-        let kept = self.sums.iter().map(|sum| luminance(*sum)).sum::<f64>();
+        self.removed_of(self.sums.iter().map(|sum| luminance(*sum)).sum())
+    }
+
+    /// The same where the luminance of all samples is known.
+    pub(crate) fn removed_of(&self, kept: f64) -> f64 {
         let removed = self.counters.removed;
         if removed > 0.0 { removed / (removed + kept) } else { 0.0 }
     }

@@ -8,6 +8,7 @@
 mod crypto;
 mod group;
 mod matte;
+mod rows;
 
 pub use self::crypto::{id_of, manifest_text};
 pub use self::group::Group;

@@ -43,6 +43,7 @@ mod memory;
 mod outcome;
 pub mod output;
 pub mod pick;
+mod plane;
 mod preview;
 pub mod profile;
 mod region;

@@ -6,18 +6,21 @@
 mod channel;
 mod exr;
 mod groups;
+mod identity;
 mod merge;
 mod picture;
 mod planes;
 mod png;
+mod survey;
 
 pub(crate) use self::exr::parse_bad;
-pub use self::exr::{encode_exr, read_exr};
-pub use self::merge::{Identity, MergeError, is_whole, merge, missing};
+pub use self::exr::{ExrFile, encode_exr, read_exr};
+pub use self::identity::{Identity, is_whole};
+pub use self::merge::{Expected, Merge, MergeError, Missing, Part, merge};
 pub use self::picture::{Denoised, Meta, OutputError, Picture};
 pub(crate) use self::picture::{parse_ranges, ranges_text};
 pub(crate) use self::png::encode_rgb;
-pub use self::png::{encode_png, encode_png16, tone_map};
+pub use self::png::{PngRows, encode_png, encode_png16, tone_map};
 
 use std::path::Path;
 

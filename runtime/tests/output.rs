@@ -97,7 +97,8 @@ fn only_parts_of_one_picture_are_merged() {
         "part 2: seed is 9, but part 1 has 7; only parts of one picture can be merged"
     );
     assert!(other(&|p| p.meta.render_id.clear()).starts_with("part 2: render_id is "));
-    assert!(other(&|p| p.film.region.x = 1).starts_with("part 2: crop is 1,0,72,40"));
+    let text = other(&|p| p.film.region.x = 1);
+    assert!(text.starts_with("part 2: crop 1,0,72,40 overlaps crop 0,0,72,40 of part 1"), "{text}");
     assert!(other(&|p| p.film.image_size = [9, 9]).starts_with("part 2: size is 9x9"));
 }
 

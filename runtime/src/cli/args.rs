@@ -3,6 +3,7 @@
 use super::denoise_args::DenoiseArgs;
 use super::job_args::{JOB_EXAMPLES, JobArgs};
 use super::layer_args::LayerArgs;
+use super::merge_args::{MERGE_EXAMPLES, MergeArgs};
 use super::values::{
     Every, parse_clamp, parse_duration, parse_every, parse_pixel, parse_rect, parse_samples,
     parse_size, parse_threads,
@@ -73,7 +74,8 @@ pub(super) struct Args {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
-    /// Merge parts of one picture that were rendered with --samples.
+    /// Merge parts of one picture that were rendered with --samples, --crop or both.
+    #[command(after_help = MERGE_EXAMPLES)]
     Merge(MergeArgs),
     /// Compare the errors of two packs at equal time.
     Bench(BenchArgs),
@@ -86,28 +88,6 @@ pub(super) enum Command {
     /// Write a job that renders a picture on many machines: for Open Job Description, Slurm or GNU parallel.
     #[command(after_help = JOB_EXAMPLES)]
     Job(JobArgs),
-}
-
-#[derive(Debug, clap::Args)]
-pub(super) struct MergeArgs {
-    /// EXR files of the same pack, size, crop and seed, with different samples.
-    #[arg(required = true, value_name = "PART.exr")]
-    pub(super) parts: Vec<PathBuf>,
-    /// Output file, .exr or .png; may be given several times; `-` is standard output.
-    #[arg(short, long, required = true, value_name = "FILE")]
-    pub(super) output: Vec<PathBuf>,
-    /// Format of outputs without a known extension; png16 also makes every PNG one of 16 bits [default: png for
-    /// standard output, pipes and devices].
-    #[arg(long, value_enum, value_name = "FORMAT")]
-    pub(super) format: Option<Format>,
-    /// What the parts must add up to; missing samples are an error, with the command that renders them.
-    #[arg(long, value_name = "A..B", value_parser = parse_samples)]
-    pub(super) samples: Option<SampleRange>,
-    /// Print errors only.
-    #[arg(long)]
-    pub(super) quiet: bool,
-    #[command(flatten)]
-    pub(super) denoise: DenoiseArgs,
 }
 
 const BENCH_EXAMPLES: &str = "\
@@ -298,7 +278,7 @@ pub(super) struct RenderArgs {
     /// Image size in pixels; a different aspect ratio keeps the horizontal field of view.
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(super) size: Option<[u32; 2]>,
-    /// Render only part of the image.
+    /// Render only part of the image; parts that are crops can be merged, too.
     #[arg(long, value_name = "X,Y,W,H", value_parser = parse_rect)]
     pub(super) crop: Option<Rect>,
     /// Render only these sample indices, to merge them later.

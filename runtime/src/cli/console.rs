@@ -151,6 +151,18 @@ impl Console {
         quit(Exit::Interrupted)
     }
 
+    /// Shows which share of some work is done, where there is a bar.
+    pub(super) fn advance(&self, share: f64, text: &'static str) {
+        #[expect(clippy::cast_possible_truncation, reason = "at most 1000")]
+        self.bar.set_position((share * 1000.0) as u64);
+        self.bar.set_message(text);
+    }
+
+    /// Takes the bar away.
+    pub(super) fn end_progress(&self) {
+        self.bar.finish_and_clear();
+    }
+
     /// Shows progress and passes interrupts on until `over` is set. `rescue` is called, again and again,
     /// while a run does not end that should have.
     pub(super) fn watch(

@@ -8,7 +8,7 @@ use super::exit::Exit;
 use crate::job::Job;
 use crate::output::Format;
 use crate::scene::Scene;
-use files::{Claims, Saved, ShowPath as _};
+use files::{Claims, FileError, Saved, ShowPath as _};
 use std::ffi::OsStr;
 use std::path::{Component, Path, PathBuf};
 
@@ -55,7 +55,16 @@ pub(super) fn prove(
 
 /// Writes a finished result, elsewhere if need be, and says where it is.
 pub(super) fn save(console: &Console, path: &Path, bytes: &[u8]) -> Result<(), Exit> {
-    match files::save(path, |out| out.write_all(bytes)) {
+    tell(console, path, files::save(path, |out| out.write_all(bytes)))
+}
+
+/// Says where a result is that was to go to `path`.
+pub(super) fn tell(
+    console: &Console,
+    path: &Path,
+    saved: Result<Saved, FileError>,
+) -> Result<(), Exit> {
+    match saved {
         Ok(Saved::AsAsked) => {
             console.result(&format!("wrote {}", path.shown()));
             Ok(())

@@ -4,6 +4,7 @@
 //! is computed here, from the sums; it is never part of them.
 
 use super::channel::{Channel, Source, channel, channel_name, plane, residual_name, round};
+use super::survey::Survey;
 use crate::film::Film;
 use crate::layers::{Group, LayerNames, Layers, shares};
 use pack::manifest::REST;
@@ -22,9 +23,14 @@ fn name(names: LayerNames, group: &str, colour: &str) -> String {
 
 /// The channels of all light groups of `film`; `residual`: with what was rounded off. [`REST`] is there only if it has
 /// any light.
-pub(super) fn channels(layers: &Layers, residual: bool, film: &Film) -> Vec<Channel> {
+pub(super) fn channels(
+    layers: &Layers,
+    residual: bool,
+    film: &Film,
+    survey: &Survey,
+) -> Vec<Channel> {
     let groups: Vec<&Group> =
-        layers.lights.iter().filter(|group| group.name != REST || !group.is_black()).collect();
+        layers.lights.iter().filter(|group| group.name != REST || survey.has_rest()).collect();
     // A scene without light: black, by some name.
     let groups = if groups.is_empty() { layers.lights.iter().collect() } else { groups };
     let mut channels = Vec::new();
@@ -64,14 +70,20 @@ pub(super) fn attribute(layers: &Layers) -> Option<(String, String)> {
     (!names.is_empty()).then(|| (GROUPS.to_owned(), names.join(",")))
 }
 
-/// The light groups of a file of `n` pixels.
-pub(super) fn parse(source: &dyn Source, layers: &Layers, n: usize) -> Result<Vec<Group>, String> {
+/// The light groups of a file, without their pixels.
+pub(super) fn head(source: &dyn Source) -> Result<Vec<Group>, String> {
     let text = source.text(GROUPS).ok_or("attribute `light_groups` is missing")?;
     let names = text.split(',').filter(|name| !name.is_empty());
-    names.map(|name| group(source, layers, name, n)).collect()
+    Ok(names.map(|name| Group { name: name.to_owned(), sums: Vec::new() }).collect())
 }
 
-fn group(source: &dyn Source, layers: &Layers, group: &str, n: usize) -> Result<Group, String> {
+/// A light group with the `n` pixels of `source`.
+pub(super) fn pixels(
+    source: &dyn Source,
+    layers: &Layers,
+    group: &str,
+    n: usize,
+) -> Result<Group, String> {
     let mut sums = vec![[0.0; 3]; n];
     for (c, colour) in COLOURS.into_iter().enumerate() {
         let name = name(layers.wanted.names, group, colour);

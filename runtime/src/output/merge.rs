@@ -1,92 +1,214 @@
-//! Parts of one picture → the picture: sums added in `f64`, ranges joined.
+//! Parts of one picture → the picture: sums added in `f64`, ranges joined, crops put in their place.
+//!
+//! A part is some samples of some crop. What the parts make together is known from their headers; pixels come a few
+//! rows at a time, so that neither the picture nor any of its parts need be in memory as a whole.
 
-use super::picture::{Meta, Picture, clamp_text, ranges_text};
-use crate::job::Job;
-use crate::layers::Wanted;
-use crate::region::{Rect, SampleRange, insert_range};
-use crate::scene::Scene;
-use thiserror::Error;
+mod arrange;
+mod error;
 
-/// Why two files are not parts of one picture.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum MergeError {
-    /// Nothing to merge.
-    #[error("no pictures to merge")]
-    Nothing,
-    /// The pictures differ in something that parts of one picture share.
-    #[error(
-        "part {part}: {what} is {found}, but part 1 has {expected}; only parts of one picture can be merged"
-    )]
-    Differs {
-        /// Number of the part, from 1.
-        part: usize,
-        /// What differs.
-        what: &'static str,
-        /// Its value in this part.
-        found: String,
-        /// Its value in the first part.
-        expected: String,
-    },
-    /// The same samples twice.
-    #[error("part {part}: samples {found} overlap {expected} of the parts before it")]
-    Overlap {
-        /// Number of the part, from 1.
-        part: usize,
-        /// Ranges of this part.
-        found: String,
-        /// Ranges of all parts before it.
-        expected: String,
-    },
-    /// A picture whose error was measured.
-    #[error(
-        "part {part}: it is the mean of the replicates of a measured run, which cannot be merged"
-    )]
-    Replicates {
-        /// Number of the part, from 1.
-        part: usize,
-    },
-    /// A part whose pixels have different numbers of samples.
-    #[error(
-        "part {part}: its pixels have between {least} and {most} samples; a part must be evenly sampled"
-    )]
-    Uneven {
-        /// Number of the part, from 1.
-        part: usize,
-        /// Fewest samples.
-        least: u32,
-        /// Most samples.
-        most: u32,
-    },
+pub use self::arrange::Expected;
+pub use self::error::{MergeError, Missing};
+
+use self::arrange::{Tile, arrange};
+use super::exr::{self, ExrFile};
+use super::picture::{Meta, OutputError, Picture};
+use super::survey::Survey;
+use crate::film::Film;
+use crate::region::Rect;
+use rayon::prelude::*;
+use std::io::{Seek, Write};
+use std::ops::Range;
+
+/// Where the pixels of a part come from.
+pub trait Part: Sync {
+    /// What is known of it before its pixels are.
+    fn head(&self) -> Picture;
+    /// Some rows, counted from the first of its region.
+    fn rows(&self, rows: &Range<u32>) -> Result<Picture, OutputError>;
 }
 
-/// Adds the parts. They must be of the same pack, size, crop and seed, with disjoint sample ranges,
-/// each evenly sampled. The sum is taken by ascending first sample, so the order of the arguments
-/// does not matter. What was denoised of parts is no part of the whole.
-pub fn merge(mut parts: Vec<Picture>) -> Result<Picture, MergeError> {
-    check(&parts)?;
-    parts.sort_by_key(|part| part.film.ranges.first().map(|range| range.start));
-    let mut parts = parts.into_iter();
-    let mut whole = parts.next().ok_or(MergeError::Nothing)?;
-    whole.denoised = None;
-    for part in parts {
-        for (sum, more) in whole.film.sums.iter_mut().zip(&part.film.sums) {
-            for (sum, more) in sum.iter_mut().zip(more) {
-                *sum += more;
+impl Part for Picture {
+    fn head(&self) -> Picture {
+        self.head()
+    }
+
+    fn rows(&self, rows: &Range<u32>) -> Result<Picture, OutputError> {
+        Ok(self.rows(rows))
+    }
+}
+
+impl Part for ExrFile {
+    fn head(&self) -> Picture {
+        self.head().clone()
+    }
+
+    fn rows(&self, rows: &Range<u32>) -> Result<Picture, OutputError> {
+        self.rows(rows)
+    }
+}
+
+/// Parts that are known to make one picture.
+#[derive(Debug)]
+pub struct Merge<P> {
+    parts: Vec<P>,
+    tiles: Vec<Tile>,
+    head: Picture,
+}
+
+/// The picture of these parts, as [`Merge`] makes it.
+pub fn merge(parts: Vec<Picture>) -> Result<Picture, MergeError> {
+    let merge = Merge::new(parts, Expected::default())?;
+    merge.rows(&(0..merge.head().film.region.h))
+}
+
+impl<P: Part> Merge<P> {
+    /// Finds out what the parts are together. They must be of the same pack, size and seed, with crops that are equal or
+    /// apart and, in each, disjoint sample ranges; all crops together must be a rectangle and have the same samples.
+    /// Sums are taken by ascending first sample, so the order of the parts does not matter. What was denoised of them
+    /// is no part of the whole.
+    pub fn new(parts: Vec<P>, expected: Expected) -> Result<Self, MergeError> {
+        let heads: Vec<Picture> = parts.iter().map(Part::head).collect();
+        let arranged = arrange(&heads, expected)?;
+        let mut order = arranged.tiles.iter().flat_map(|tile| &tile.parts).map(|i| &heads[*i]);
+        let mut head = order.next().ok_or(MergeError::Nothing)?.clone();
+        head.denoised = None;
+        for part in order {
+            add_head(&mut head, part);
+        }
+        (head.film.region, head.film.ranges) = (arranged.region, arranged.ranges);
+        if let Some(layers) = &mut head.layers {
+            layers.samples = head.film.ranges.iter().map(|range| range.count()).sum();
+        }
+        Ok(Self { parts, tiles: arranged.tiles, head })
+    }
+
+    /// The picture without its pixels.
+    #[must_use]
+    pub fn head(&self) -> &Picture {
+        &self.head
+    }
+
+    /// Some rows of the picture, counted from the first of its region.
+    pub fn rows(&self, rows: &Range<u32>) -> Result<Picture, MergeError> {
+        let region = self.head.film.region.rows(rows);
+        let mut whole = self.head.clone();
+        if let [tile] = self.tiles.as_slice() {
+            let sum = self.sum(tile, rows)?;
+            whole.film = of_all(&self.head.film, sum.film);
+            whole.layers = sum.layers;
+            if let (Some(layers), Some(head)) = (&mut whole.layers, &self.head.layers) {
+                let mattes = layers.mattes.iter_mut().zip(&head.mattes);
+                mattes.for_each(|(matte, all)| matte.names.clone_from(&all.names));
+            }
+            return Ok(whole);
+        }
+        whole.film = of_all(&self.head.film, Film::try_new(self.head.film.image_size, region)?);
+        whole.layers = whole.layers.map(|layers| layers.blank(whole.film.sums.len()));
+        for tile in &self.tiles {
+            let first = region.y.max(tile.crop.y);
+            let end = (region.y + region.h).min(tile.crop.y + tile.crop.h);
+            if first >= end {
+                continue;
+            }
+            let sum = self.sum(tile, &(first - tile.crop.y..end - tile.crop.y))?;
+            whole.film.place(&sum.film);
+            if let (Some(layers), Some(more)) = (&mut whole.layers, &sum.layers) {
+                layers.place(region, more, sum.film.region);
             }
         }
-        for (count, more) in whole.film.counts.iter_mut().zip(&part.film.counts) {
-            *count += more;
-        }
-        for range in part.film.ranges {
-            insert_range(&mut whole.film.ranges, range);
-        }
-        whole.film.counters.add(&part.film.counters);
-        if let (Some(layers), Some(more)) = (&mut whole.layers, &part.layers) {
-            layers.add(more);
-        }
-        add_meta(&mut whole.meta, &part.meta);
+        Ok(whole)
     }
-    Ok(whole)
+
+    /// Gives all rows to `seen`, some at a time and in order.
+    pub fn each(&self, mut seen: impl FnMut(&Picture)) -> Result<(), MergeError> {
+        let Rect { w, h, .. } = self.head.film.region;
+        exr::bands(w, h).try_for_each(|band| {
+            seen(&self.rows(&band)?);
+            Ok(())
+        })
+    }
+
+    /// Writes the picture as an EXR that can be merged again. `seen` is given all rows, some at a time and in order.
+    ///
+    /// What the header says of all pixels must be known before the first of them is written, so parts with Cryptomatte
+    /// or light groups are read twice.
+    pub fn write_exr(
+        &self,
+        out: impl Write + Seek,
+        mut seen: impl FnMut(&Picture),
+    ) -> Result<(), MergeError> {
+        let survey = if Survey::is_needed(&self.head) {
+            let mut survey = Survey::default();
+            self.each(|rows| survey.add(rows))?;
+            survey
+        } else {
+            Survey::even(self.head.film.ranges.iter().map(|range| range.count()).sum())
+        };
+        exr::write(out, (&self.head, &survey), true, |band| {
+            let rows = self.rows(band)?;
+            seen(&rows);
+            Ok(rows)
+        })
+    }
+
+    /// The sum of the parts of a tile in some of its rows.
+    fn sum(&self, tile: &Tile, rows: &Range<u32>) -> Result<Picture, MergeError> {
+        let mut whole: Option<Picture> = None;
+        // So many are in memory at a time.
+        for parts in tile.parts.chunks(host::threads().clamp(1, 4)) {
+            let read = parts.par_iter().map(|i| (i + 1, self.parts[*i].rows(rows)));
+            for (number, part) in read.collect::<Vec<_>>() {
+                let part = part?;
+                check_pixels(number, &part)?;
+                match &mut whole {
+                    Some(whole) => add(whole, &part),
+                    None => whole = Some(part),
+                }
+            }
+        }
+        whole.ok_or(MergeError::Nothing)
+    }
+}
+
+/// A film with the samples and counters of the whole picture.
+fn of_all(head: &Film, film: Film) -> Film {
+    Film { ranges: head.ranges.clone(), counters: head.counters, ..film }
+}
+
+/// Whether the pixels have as many samples as the header says.
+fn check_pixels(part: usize, picture: &Picture) -> Result<(), MergeError> {
+    if picture.film.replicates() > 1 {
+        return Err(MergeError::Replicates { part });
+    }
+    let (least, most) = picture.film.samples();
+    if least != most || most == 0 {
+        return Err(MergeError::Uneven { part, least, most });
+    }
+    let said: u32 = picture.film.ranges.iter().map(|range| range.count()).sum();
+    if most != said {
+        return Err(MergeError::Samples { part, found: most, said });
+    }
+    Ok(())
+}
+
+/// Adds a part of the same pixels, whose samples are later.
+fn add(whole: &mut Picture, part: &Picture) {
+    let sums = whole.film.sums.as_flattened_mut().iter_mut();
+    sums.zip(part.film.sums.as_flattened()).for_each(|(sum, more)| *sum += more);
+    let counts = whole.film.counts.iter_mut();
+    counts.zip(&part.film.counts).for_each(|(count, more)| *count += more);
+    if let (Some(layers), Some(more)) = (&mut whole.layers, &part.layers) {
+        layers.add(more);
+    }
+}
+
+/// Adds what is known of a part to what is known of the picture.
+fn add_head(whole: &mut Picture, part: &Picture) {
+    add_meta(&mut whole.meta, &part.meta);
+    whole.film.counters.add(&part.film.counters);
+    if let (Some(layers), Some(more)) = (&mut whole.layers, &part.layers) {
+        layers.mattes.iter_mut().zip(&more.mattes).for_each(|(matte, more)| matte.add(more));
+    }
 }
 
 fn add_meta(whole: &mut Meta, part: &Meta) {
@@ -95,134 +217,4 @@ fn add_meta(whole: &mut Meta, part: &Meta) {
     }
     whole.seconds += part.seconds;
     whole.complete &= part.complete;
-}
-
-fn check(parts: &[Picture]) -> Result<(), MergeError> {
-    let first = parts.first().ok_or(MergeError::Nothing)?;
-    let expected = Identity::of_picture(first);
-    let mut ranges = Vec::new();
-    for (part, picture) in (1..).zip(parts) {
-        let found = Identity::of_picture(picture).rows();
-        for ((what, expected), (_, found)) in expected.rows().into_iter().zip(found) {
-            if found != expected {
-                return Err(MergeError::Differs { part, what, found, expected });
-            }
-        }
-        let (found, expected) = (layers_text(picture), layers_text(first));
-        if found != expected {
-            return Err(MergeError::Differs { part, what: "layers", found, expected });
-        }
-        if picture.film.replicates() > 1 {
-            return Err(MergeError::Replicates { part });
-        }
-        let (least, most) = picture.film.samples();
-        if least != most || most == 0 {
-            return Err(MergeError::Uneven { part, least, most });
-        }
-        let before = ranges.clone();
-        if !picture.film.ranges.iter().all(|range| insert_range(&mut ranges, *range)) {
-            let found = ranges_text(&picture.film.ranges);
-            return Err(MergeError::Overlap { part, found, expected: ranges_text(&before) });
-        }
-    }
-    Ok(())
-}
-
-/// What a picture holds beside radiance, as people read it.
-fn layers_text(picture: &Picture) -> String {
-    let Some(layers) = &picture.layers else { return "none".to_owned() };
-    let Wanted { transparent, names, .. } = &layers.wanted;
-    let sky = if *transparent { ", transparent" } else { "" };
-    let groups: Vec<&str> = layers.lights.iter().map(|group| group.name.as_str()).collect();
-    let groups =
-        if groups.is_empty() { String::new() } else { format!(", groups {}", groups.join(" ")) };
-    format!("{} ({}{sky}{groups})", layers.wanted.text(), names.name())
-}
-
-/// Whether `picture` is all that `job` makes of `scene`.
-#[must_use]
-pub fn is_whole(picture: &Picture, scene: &Scene, job: &Job) -> bool {
-    let layers = picture.layers.as_ref().map(|layers| &layers.wanted);
-    let wanted = (!job.wanted.is_empty()).then_some(&job.wanted);
-    picture.meta.complete
-        && picture.meta.coarse_block.is_none()
-        && picture.film.is_even()
-        && picture.film.replicates() == 1
-        && picture.film.ranges == [job.samples]
-        && layers == wanted
-        && Identity::of_picture(picture) == Identity::of(scene, job)
-}
-
-/// Samples of `whole` that none of these ranges has, in order. The ranges are sorted and disjoint.
-#[must_use]
-pub fn missing(ranges: &[SampleRange], whole: SampleRange) -> Vec<SampleRange> {
-    let mut gaps = Vec::new();
-    let mut next = whole.start;
-    for range in ranges {
-        gaps.extend(SampleRange::new(next, range.start.min(whole.end)));
-        next = next.max(range.end);
-    }
-    gaps.extend(SampleRange::new(next, whole.end));
-    gaps
-}
-
-/// What parts of one picture share, and what a run that goes on shares with the one before.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Identity {
-    /// Hexadecimal name of what is rendered.
-    pub render_id: String,
-    /// Whole image in pixels.
-    pub image_size: [u32; 2],
-    /// The part of it that is rendered.
-    pub crop: Rect,
-    /// Seed of the image.
-    pub seed: u32,
-    /// Estimator switch of the kernel.
-    pub estimator: u32,
-    /// What indirect light was clamped to, `off` if it was not.
-    pub clamp_indirect: String,
-    /// Precision of the kernel: `f32` or `f64`.
-    pub precision: String,
-}
-
-impl Identity {
-    /// Of the picture that `job` makes of `scene`.
-    #[must_use]
-    pub fn of(scene: &Scene, job: &Job) -> Self {
-        Self {
-            render_id: scene.render_id(),
-            image_size: job.image_size,
-            crop: job.crop,
-            seed: job.seed,
-            estimator: job.estimator,
-            clamp_indirect: clamp_text(job.clamp_indirect),
-            precision: job.precision.name().to_owned(),
-        }
-    }
-
-    fn of_picture(picture: &Picture) -> Self {
-        Self {
-            render_id: picture.meta.render_id.clone(),
-            image_size: picture.film.image_size,
-            crop: picture.film.region,
-            seed: picture.meta.seed,
-            estimator: picture.meta.estimator,
-            clamp_indirect: clamp_text(picture.meta.clamp_indirect),
-            precision: picture.meta.precision.clone(),
-        }
-    }
-
-    /// Name and value of everything, as people read it.
-    pub(crate) fn rows(&self) -> [(&'static str, String); 7] {
-        let [w, h] = self.image_size;
-        [
-            ("render_id", self.render_id.clone()),
-            ("size", format!("{w}x{h}")),
-            ("crop", self.crop.to_string()),
-            ("seed", self.seed.to_string()),
-            ("estimator", self.estimator.to_string()),
-            ("clamp_indirect", self.clamp_indirect.clone()),
-            ("precision", self.precision.clone()),
-        ]
-    }
 }

@@ -2,8 +2,10 @@
 
 use crate::film::Film;
 use crate::layers::Layers;
+use crate::plane::pixels;
 use crate::region::{SampleRange, insert_range};
 use files::ShowPath as _;
+use std::ops::Range;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -27,6 +29,35 @@ impl Picture {
         Self { film, meta, layers: None, denoised: None }
     }
 
+    /// The same picture without its pixels: what is known of it before they are.
+    pub(crate) fn head(&self) -> Self {
+        let Film { image_size, region, .. } = self.film;
+        let film = Film {
+            ranges: self.film.ranges.clone(),
+            counters: self.film.counters,
+            ..Film::without_pixels(image_size, region)
+        };
+        let denoised = self.denoised.as_ref();
+        Self {
+            film,
+            meta: self.meta.clone(),
+            layers: self.layers.as_ref().map(|layers| layers.pixels(&(0..0))),
+            denoised: denoised.map(|denoised| denoised.of(Vec::new())),
+        }
+    }
+
+    /// Some rows of it, counted from the first of its region.
+    pub(crate) fn rows(&self, rows: &Range<u32>) -> Self {
+        let at = pixels(self.film.region.w, rows);
+        let denoised = self.denoised.as_ref();
+        Self {
+            film: self.film.rows(rows),
+            meta: self.meta.clone(),
+            layers: self.layers.as_ref().map(|layers| layers.pixels(&at)),
+            denoised: denoised.map(|denoised| denoised.of(denoised.pixels[at].to_vec())),
+        }
+    }
+
     /// Radiance of every pixel as it is shown, row by row: denoised, or the means.
     #[must_use]
     pub fn shown(&self) -> Vec<[f64; 3]> {
@@ -44,6 +75,13 @@ pub struct Denoised {
     pub pixels: Vec<[f32; 3]>,
     /// Name and version of the denoiser.
     pub by: String,
+}
+
+impl Denoised {
+    /// Other pixels by the same denoiser.
+    fn of(&self, pixels: Vec<[f32; 3]>) -> Self {
+        Self { pixels, by: self.by.clone() }
+    }
 }
 
 /// What is known about a picture beside its pixels; all of it is stored in the EXR.

@@ -6,6 +6,7 @@ use super::channel::{
     Channel, Source, channel, channel_name, combined, plane, residual_name, round,
 };
 use super::groups;
+use super::survey::Survey;
 use crate::film::Film;
 use crate::layers::{
     Layer, LayerNames, Layers, Matte, MatteKind, Nearest, Wanted, id_of, manifest_text,
@@ -49,7 +50,12 @@ pub(super) fn counts_samples(layers: &Layers) -> bool {
 
 /// The channels of all layers of the picture `film`. `residual`: those that are means also hold what rounding them left
 /// over, and mattes every name, so that parts can be added without loss.
-pub(super) fn channels(layers: &Layers, residual: bool, film: &Film) -> Vec<Channel> {
+pub(super) fn channels(
+    layers: &Layers,
+    residual: bool,
+    film: &Film,
+    survey: &Survey,
+) -> Vec<Channel> {
     let names = layers.wanted.names;
     let mut channels = Vec::new();
     for (layer, stem, components) in ROWS.into_iter().filter(|row| layers.has(row.0)) {
@@ -75,9 +81,9 @@ pub(super) fn channels(layers: &Layers, residual: bool, film: &Film) -> Vec<Chan
         let counts = film.counts.iter().map(|n| round(f64::from(*n))).collect();
         channels.push(channel("ViewLayer.Debug Sample Count.X", counts));
     }
-    channels.extend(groups::channels(layers, residual, film));
-    for matte in &layers.mattes {
-        let levels = if residual { matte.most().div_ceil(2).max(LEVELS) } else { LEVELS };
+    channels.extend(groups::channels(layers, residual, film, survey));
+    for (i, matte) in layers.mattes.iter().enumerate() {
+        let levels = if residual { survey.names(i).div_ceil(2).max(LEVELS) } else { LEVELS };
         channels.extend(matte_channels(matte, levels, names, layers.samples));
     }
     channels
@@ -157,8 +163,8 @@ pub(super) fn names_of(source: &dyn Source) -> Option<LayerNames> {
     LayerNames::of_name(&source.text("layer_names")?)
 }
 
-/// The layers of a file of `n` pixels, if it has any.
-pub(super) fn parse(source: &dyn Source, n: usize) -> Result<Option<Layers>, String> {
+/// The layers of a file without their pixels, if it has any.
+pub(super) fn head(source: &dyn Source) -> Result<Option<Layers>, String> {
     let Some(text) = source.text("layers") else { return Ok(None) };
     let known =
         |name: &str| Layer::of_name(name).ok_or_else(|| format!("layer `{name}` is unknown"));
@@ -171,27 +177,41 @@ pub(super) fn parse(source: &dyn Source, n: usize) -> Result<Option<Layers>, Str
     let samples: Option<u32> = source.text("layer_samples").and_then(|text| text.parse().ok());
     let samples = samples.ok_or("`layer_samples` is malformed")?;
     let mut layers = Layers { wanted, samples, ..Layers::default() };
+    if layers.has(Layer::Lights) {
+        layers.lights = groups::head(source)?;
+    }
+    if layers.has(Layer::Crypto) {
+        let mattes = MatteKind::ALL.into_iter().map(|kind| matte(source, &layers, kind));
+        layers.mattes = mattes.collect::<Result<_, _>>()?;
+    }
+    Ok(Some(layers))
+}
+
+/// The layers of `head` with the `n` pixels of `source`.
+pub(super) fn pixels(head: &Layers, source: &dyn Source, n: usize) -> Result<Layers, String> {
+    let mut layers = Layers { wanted: head.wanted.clone(), ..Layers::default() };
+    layers.samples = head.samples;
     if layers.has(Layer::Albedo) {
         layers.albedo = sums(source, &layers, Layer::Albedo, n)?;
     }
     if layers.has(Layer::Normal) {
         layers.normal = sums(source, &layers, Layer::Normal, n)?;
     }
-    if layers.has(Layer::Lights) {
-        layers.lights = groups::parse(source, &layers, n)?;
-    }
+    let lights = head.lights.iter().map(|group| groups::pixels(source, &layers, &group.name, n));
+    layers.lights = lights.collect::<Result<_, _>>()?;
     if layers.has(Layer::Alpha) {
         let alpha = plane(source, &combined(layers.wanted.names, ALPHA), n)?;
-        layers.covered = alpha.iter().map(|share| samples_of(*share, samples)).collect();
+        layers.covered = alpha.iter().map(|share| samples_of(*share, layers.samples)).collect();
     }
     if layers.wanted.layers.iter().any(|layer| layer.is_nearest()) {
         layers.nearest = nearest(source, &layers, n)?;
     }
-    if layers.has(Layer::Crypto) {
-        let mattes = MatteKind::ALL.into_iter().map(|kind| matte(source, &layers, kind, n));
-        layers.mattes = mattes.collect::<Result<_, _>>()?;
-    }
-    Ok(Some(layers))
+    let mattes = head.mattes.iter().map(|matte| {
+        let (kind, names) = (matte.kind, matte.names.clone());
+        Ok(Matte { kind, names, shares: shares(source, &layers, kind, n)? })
+    });
+    layers.mattes = mattes.collect::<Result<_, String>>()?;
+    Ok(layers)
 }
 
 /// How many samples a share of them is.
@@ -259,12 +279,24 @@ fn set(pixel: &mut Nearest, layer: Layer, c: usize, value: f32) {
     }
 }
 
-fn matte(source: &dyn Source, layers: &Layers, kind: MatteKind, n: usize) -> Result<Matte, String> {
+/// The names of a matte.
+fn matte(source: &dyn Source, layers: &Layers, kind: MatteKind) -> Result<Matte, String> {
     let name = matte_name(layers.wanted.names, kind);
     let text = source.text(&matte_attribute(&name, "manifest")).unwrap_or_default();
     let listed: BTreeMap<String, String> = serde_json::from_str(&text)
         .map_err(|_| format!("the manifest of `{name}` is malformed"))?;
     let names = listed.into_keys().map(|name| (name.clone(), id_of(&name))).collect();
+    Ok(Matte { kind, names, shares: Vec::new() })
+}
+
+/// Number and samples of every name in `n` pixels.
+fn shares(
+    source: &dyn Source,
+    layers: &Layers,
+    kind: MatteKind,
+    n: usize,
+) -> Result<Vec<Vec<(u32, u32)>>, String> {
+    let name = matte_name(layers.wanted.names, kind);
     let mut shares: Vec<Vec<(u32, u32)>> = vec![Vec::new(); n];
     for pair in ["r", "b"].into_iter().cycle().enumerate() {
         let (level, first) = (pair.0 / 2, pair.1);
@@ -278,5 +310,5 @@ fn matte(source: &dyn Source, layers: &Layers, kind: MatteKind, n: usize) -> Res
             }
         }
     }
-    Ok(Matte { kind, names, shares })
+    Ok(shares)
 }

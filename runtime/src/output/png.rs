@@ -8,33 +8,85 @@ use std::io;
 
 /// The tone-mapped picture, in 8 bits.
 pub fn encode_png(picture: &Picture) -> Result<Vec<u8>, OutputError> {
-    let (means, alphas) = straight(picture);
-    let pixels = tone_map(&means, picture.meta.exposure, picture.meta.tone_map);
-    let size = [picture.film.region.w, picture.film.region.h];
-    if alphas.is_empty() {
-        return encode_rgb(&pixels, size);
-    }
-    let with_alpha = |([r, g, b], alpha): (&[u8; 3], &f64)| [*r, *g, *b, eight_bits(*alpha)];
-    let pixels: Vec<[u8; 4]> = pixels.iter().zip(&alphas).map(with_alpha).collect();
-    encode_as(pixels.as_flattened(), size, image::ExtendedColorType::Rgba8)
+    encode_whole(PngRows::new(&picture.head(), false), picture)
 }
 
 /// The tone-mapped picture, in 16 bits.
 pub fn encode_png16(picture: &Picture) -> Result<Vec<u8>, OutputError> {
-    let (means, alphas) = straight(picture);
-    let encoder = SrgbEncoder::new(u16::MAX);
-    let curve = Curve::new(picture.meta.exposure, picture.meta.tone_map);
-    let pixels = means.iter().map(|rgb| rgb.map(|x| encoder.encode(curve.of(x))));
-    let size = [picture.film.region.w, picture.film.region.h];
-    if alphas.is_empty() {
-        let pixels: Vec<[u16; 3]> = pixels.collect();
-        let bytes = bytemuck::cast_slice(pixels.as_flattened());
-        return encode_as(bytes, size, image::ExtendedColorType::Rgb16);
+    encode_whole(PngRows::new(&picture.head(), true), picture)
+}
+
+fn encode_whole(mut rows: PngRows, picture: &Picture) -> Result<Vec<u8>, OutputError> {
+    rows.add(picture);
+    rows.finish()
+}
+
+/// A PNG that is made some rows at a time.
+pub struct PngRows {
+    size: [u32; 2],
+    has_alpha: bool,
+    is_deep: bool,
+    curve: Curve,
+    encoder: SrgbEncoder,
+    bytes: Vec<u8>,
+}
+
+impl PngRows {
+    /// Of the picture whose head this is; `is_deep`: in 16 bits.
+    #[must_use]
+    pub fn new(head: &Picture, is_deep: bool) -> Self {
+        let most = if is_deep { u16::MAX } else { u16::from(u8::MAX) };
+        Self {
+            size: [head.film.region.w, head.film.region.h],
+            has_alpha: head.layers.as_ref().is_some_and(|layers| layers.has(Layer::Alpha)),
+            is_deep,
+            curve: Curve::new(head.meta.exposure, head.meta.tone_map),
+            encoder: SrgbEncoder::new(most),
+            bytes: Vec::new(),
+        }
     }
-    let with_alpha = |([r, g, b], alpha): ([u16; 3], &f64)| [r, g, b, sixteen_bits(*alpha)];
-    let pixels: Vec<[u16; 4]> = pixels.zip(&alphas).map(with_alpha).collect();
-    let bytes = bytemuck::cast_slice(pixels.as_flattened());
-    encode_as(bytes, size, image::ExtendedColorType::Rgba16)
+
+    /// Adds the next rows.
+    pub fn add(&mut self, rows: &Picture) {
+        let (means, alphas) = straight(rows);
+        for (i, rgb) in means.iter().enumerate() {
+            for x in rgb {
+                self.push(self.encoder.encode(self.curve.of(*x)));
+            }
+            if self.has_alpha {
+                let alpha = alphas.get(i).copied().unwrap_or(1.0);
+                self.push(if self.is_deep { sixteen_bits(alpha) } else { eight_bits(alpha) });
+            }
+        }
+    }
+
+    fn push(&mut self, number: u16) {
+        // As the encoder of PNGs takes them.
+        let bytes = number.to_ne_bytes();
+        match u8::try_from(number) {
+            Ok(byte) if !self.is_deep => self.bytes.push(byte),
+            _ => self.bytes.extend(bytes),
+        }
+    }
+
+    /// Whether all rows are there.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        let sample = if self.is_deep { 2 } else { 1 };
+        let pixel = sample * if self.has_alpha { 4 } else { 3 };
+        self.bytes.len() as u64 == u64::from(self.size[0]) * u64::from(self.size[1]) * pixel
+    }
+
+    /// The file, once all rows are there.
+    pub fn finish(self) -> Result<Vec<u8>, OutputError> {
+        let kind = match (self.is_deep, self.has_alpha) {
+            (false, false) => image::ExtendedColorType::Rgb8,
+            (false, true) => image::ExtendedColorType::Rgba8,
+            (true, false) => image::ExtendedColorType::Rgb16,
+            (true, true) => image::ExtendedColorType::Rgba16,
+        };
+        encode_as(&self.bytes, self.size, kind)
+    }
 }
 
 /// The colours of what is there, not what of it is seen, as PNGs have them; and alpha where it is a layer.
@@ -51,8 +103,8 @@ fn straight(picture: &Picture) -> (Vec<[f64; 3]>, Vec<f64>) {
 
 /// A share from 0 to 1, which PNGs hold as it is.
 #[expect(clippy::cast_possible_truncation, reason = "at most 255")]
-fn eight_bits(share: f64) -> u8 {
-    (share.clamp(0.0, 1.0) * 255.0).round() as u8
+fn eight_bits(share: f64) -> u16 {
+    (share.clamp(0.0, 1.0) * 255.0).round() as u16
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "at most 65535")]
