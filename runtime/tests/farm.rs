@@ -22,7 +22,7 @@ fn rtr(folder: &Path, args: &[&str]) -> (Option<i32>, String) {
 }
 
 /// A folder with `marbles.pack` and a job for it, two batches a task.
-fn job(format: &str) -> (tempfile::TempDir, String) {
+fn job(format: &str, more: &[&str]) -> (tempfile::TempDir, String) {
     let folder = tempfile::tempdir().expect("a folder for tests");
     let pack = common::pack_bytes(&common::features());
     std::fs::write(folder.path().join("marbles.pack"), pack).expect("it can be written");
@@ -38,7 +38,7 @@ fn job(format: &str) -> (tempfile::TempDir, String) {
         "--device",
         "cpu",
     ];
-    let (code, log) = rtr(folder.path(), &args);
+    let (code, log) = rtr(folder.path(), &[&args, more].concat());
     assert_eq!(code, Some(0), "{log}");
     (folder, log)
 }
@@ -61,9 +61,9 @@ fn script(folder: &Path, words: &[&str]) -> (Option<i32>, String) {
 
 #[test]
 fn parts_of_a_script_merge_to_one_run() {
-    let (folder, log) = job("sh");
+    let (folder, log) = job("sh", &[]);
     let folder = folder.path();
-    assert!(log.contains("3 tasks of 32 samples"), "{log}");
+    assert!(log.contains("3 tasks of 2 batches (32 samples)"), "{log}");
     // In another order, and one of them twice.
     for task in ["2", "0", "0"] {
         let (code, log) = script(folder, &["task", task]);
@@ -90,10 +90,33 @@ fn parts_of_a_script_merge_to_one_run() {
     assert_eq!(png("marbles.png"), png("whole.png"));
 }
 
+/// Crops as well as samples: the frame of 72 x 40 pixels is cut into two columns and three rows.
+#[test]
+fn tiles_of_a_script_merge_to_one_run() {
+    let (folder, log) = job("sh", &["--tile", "40x16"]);
+    let folder = folder.path();
+    assert!(log.contains("18 tasks of 2 batches (32 samples) of 40x16 pixels"), "{log}");
+    let (code, log) = script(folder, &["task", "11"]);
+    assert_eq!(code, Some(0), "{log}");
+    let part = read_exr(&folder.join("parts/marbles.11.exr")).expect("a part").film;
+    assert_eq!(part.region.to_string(), "40,32,32,8");
+    assert_eq!(part.ranges, [SampleRange { start: 32, end: 64 }]);
+    let (code, log) = script(folder, &["merge"]);
+    assert!(code == Some(3) && log.contains("0..70 of crop 0,0,72,32"), "{log}");
+    let (code, log) = script(folder, &["all"]);
+    assert_eq!(code, Some(0), "{log}");
+    assert!(log.contains("parts/marbles.11.exr complete already"), "{log}");
+    let range = format!("0..{SPP}");
+    let whole =
+        rtr(folder, &["marbles.pack", "--device", "cpu", "--samples", &range, "-o", "whole.exr"]);
+    assert_eq!(whole.0, Some(0), "{}", whole.1);
+    assert_eq!(pixels(folder, "marbles.exr"), pixels(folder, "whole.exr"));
+}
+
 /// A part of another pack, of other samples, or that is no picture is rendered again.
 #[test]
 fn what_is_no_part_of_this_run_is_not_skipped() {
-    let (folder, _) = job("sh");
+    let (folder, _) = job("sh", &[]);
     let folder = folder.path();
     let part = folder.join("parts/marbles.0.exr");
     std::fs::create_dir(folder.join("parts")).expect("it can be made");
@@ -117,7 +140,7 @@ fn what_is_no_part_of_this_run_is_not_skipped() {
 /// What others read: the shape of each file. Whether they accept it is tried by `.ci/farm`.
 #[test]
 fn every_format_says_what_to_render() {
-    let (folder, log) = job("slurm");
+    let (folder, log) = job("slurm", &[]);
     let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).expect("it is there");
     let render = read("marbles.render.sbatch");
     assert!(
@@ -127,7 +150,7 @@ fn every_format_says_what_to_render() {
     assert!(render.contains("end=$((first + 32))") && render.contains("-gt 70"), "{render}");
     assert!(read("marbles.merge.sbatch").contains("--samples 0..70"));
     assert!(log.contains("sbatch --dependency=afterok:$render marbles.merge.sbatch"), "{log}");
-    let (folder, _) = job("openjd");
+    let (folder, _) = job("openjd", &[]);
     let text =
         std::fs::read_to_string(folder.path().join("marbles.openjd.yaml")).expect("it is there");
     for part in [
@@ -137,12 +160,20 @@ fn every_format_says_what_to_render() {
     ] {
         assert!(text.contains(part), "{part}: {text}");
     }
+    let (folder, _) = job("openjd", &["--tile", "40x16"]);
+    let text =
+        std::fs::read_to_string(folder.path().join("marbles.openjd.yaml")).expect("it is there");
+    for part in
+        ["name: Tile, type: INT, range: \"0-5\"", "--crop \"$x,$y,$w,$h\"", "--crop 0,0,72,40"]
+    {
+        assert!(text.contains(part), "{part}: {text}");
+    }
 }
 
 /// Without `--chunk` a short measurement says how much a task gets.
 #[test]
 fn a_measurement_gives_the_size_of_tasks() {
-    let (folder, _) = job("sh");
+    let (folder, _) = job("sh", &[]);
     let args = [
         "job",
         "marbles.pack",
@@ -161,7 +192,7 @@ fn a_measurement_gives_the_size_of_tasks() {
     assert_eq!(code, Some(0), "{log}");
     assert!(
         log.contains("a batch of 16 samples takes about")
-            && log.contains("1 tasks of 4096 samples"),
+            && log.contains("1 tasks of 256 batches (4096 samples)"),
         "{log}"
     );
 }

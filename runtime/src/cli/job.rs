@@ -40,13 +40,14 @@ fn write(args: &JobArgs, console: &Console) -> Result<(), Exit> {
     }
     job.seed = args.seed.unwrap_or(job.seed);
     job.threads = args.threads;
-    let samples = args.spp.unwrap_or(job.samples.count());
+    let (size, samples) = (job.image_size, args.spp.unwrap_or(job.samples.count()));
     job.check().map_err(|error| console.fail(&error, Exit::Usage))?;
     let batches = samples.div_ceil(BATCH);
     let chunk = if let Some(chunk) = args.chunk {
         chunk.min(batches)
     } else {
-        let batch = measured(args, console, (&scene, &guard), job)?;
+        let frame = measured(args, console, (&scene, &guard), job)?;
+        let batch = frame.mul_f64(share_of_task(size, args.tile));
         let chunk = chunk_for(batch, args.task_time, batches);
         console.note(&format!(
             "a batch of {BATCH} samples takes about {} here, {chunk} of them {}",
@@ -55,13 +56,12 @@ fn write(args: &JobArgs, console: &Console) -> Result<(), Exit> {
         ));
         if batch > args.task_time * 2 {
             console.warn(
-                "warning: no task can be shorter than a batch; one that is killed loses at most a minute, \
-                 the time between checkpoints",
+                "warning: no task can be shorter than a batch; --tile cuts the frame into crops, too",
             );
         }
         chunk
     };
-    let plan = plan(args, samples, chunk);
+    let plan = plan(args, size, samples, chunk);
     let (files, commands) = farm::files(&plan, engine(args.format));
     let folder = args.output.clone().unwrap_or_default();
     let paths: Vec<PathBuf> = files.iter().map(|file| folder.join(&file.name)).collect();
@@ -70,11 +70,7 @@ fn write(args: &JobArgs, console: &Console) -> Result<(), Exit> {
     for (path, file) in paths.iter().zip(&files) {
         save(console, path, file.text.as_bytes())?;
     }
-    console.note(&format!(
-        "{} tasks of {} samples; submit them with",
-        plan.tasks(),
-        plan.samples_of_task()
-    ));
+    console.note(&format!("{} tasks of {}; submit them with", plan.tasks(), plan.task_text()));
     for line in commands {
         console.note(&format!("  {line}"));
     }
@@ -89,7 +85,13 @@ fn engine(format: JobFormat) -> Engine {
     }
 }
 
-fn plan(args: &JobArgs, samples: u32, chunk: u32) -> Plan {
+/// How many of the frame's pixels a task has.
+fn share_of_task(size: [u32; 2], tile: Option<[u32; 2]>) -> f64 {
+    let pixels = |[w, h]: [u32; 2]| f64::from(w) * f64::from(h);
+    tile.map_or(1.0, |tile| (pixels(tile) / pixels(size)).min(1.0))
+}
+
+fn plan(args: &JobArgs, size: [u32; 2], samples: u32, chunk: u32) -> Plan {
     let mut flags = Vec::new();
     if let Some([width, height]) = args.size {
         flags.extend(["--size".to_owned(), format!("{width}x{height}")]);
@@ -105,7 +107,8 @@ fn plan(args: &JobArgs, samples: u32, chunk: u32) -> Plan {
         flags.extend(["--layers".to_owned(), names.join(",")]);
     }
     let name = args.pack.file_stem().map_or_else(|| "job".into(), |stem| stem.to_string_lossy());
-    Plan { name: name.into_owned(), pack: args.pack.display().to_string(), samples, chunk, flags }
+    let (name, pack) = (name.into_owned(), args.pack.display().to_string());
+    Plan { name, pack, size, tile: args.tile, samples, chunk, flags }
 }
 
 /// What a batch of the whole frame takes on this machine.

@@ -17,6 +17,8 @@ Examples:
   rtr job scene.pack --format sh --chunk 4      scene.job.sh, four batches a task:
     seq 0 15 | parallel --sshloginfile nodes --workdir . sh ./scene.job.sh task
     sh ./scene.job.sh merge
+  rtr job scene.pack --format slurm --size 7680x4320 --tile 960x540
+                                                crops as well as samples, for large frames
 
 Parts merge to the bits of one run. Tasks may be killed at any time and run twice (docs/farm.md).";
 
@@ -60,6 +62,10 @@ pub(super) struct JobArgs {
     /// Batches of 16 samples that a task renders [default: what takes --task-time here].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) chunk: Option<u32>,
+    /// Cut the frame into crops of this size, too: for frames of which a single batch takes too long [default: tasks
+    /// render all pixels].
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub(super) tile: Option<[u32; 2]>,
     /// How long a task should take.
     #[arg(long, default_value = "10m", value_name = "TIME", value_parser = parse_duration)]
     pub(super) task_time: Duration,

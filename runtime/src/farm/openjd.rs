@@ -1,6 +1,6 @@
 //! A job as a template of Open Job Description, version 2023-09, with chunks of tasks (RFC 1).
 
-use super::plan::{JobFile, Plan, comments, quoted};
+use super::plan::{JobFile, Plan, comments, indented, quoted};
 use pack::abi::BATCH;
 
 /// The template, and how it is run.
@@ -18,6 +18,13 @@ pub(super) fn files(plan: &Plan) -> (Vec<JobFile>, Vec<String>) {
 /// A text of YAML in double quotes: JSON's escapes are among those of YAML.
 fn yaml(text: &str) -> String {
     serde_json::Value::String(text.to_owned()).to_string()
+}
+
+/// Of the step that renders, where the frame is cut into crops.
+fn tile_parameter(plan: &Plan) -> String {
+    let last = plan.tiles() - 1;
+    let text = format!("        - {{ name: Tile, type: INT, range: \"0-{last}\" }}\n");
+    if plan.tile.is_some() { text } else { String::new() }
 }
 
 fn text(plan: &Plan, commands: &[String]) -> String {
@@ -52,7 +59,7 @@ steps:
           type: CHUNK[INT]
           range: \"0-{{{{Param.LastBatch}}}}\"
           chunks: {{ defaultTaskCount: \"{{{{Param.ChunkSize}}}}\", rangeConstraint: CONTIGUOUS }}
-    script:
+{tiles}    script:
       actions:
         onRun: {{ command: sh, args: [\"{{{{Task.File.Run}}}}\"] }}
       embeddedFiles:
@@ -64,9 +71,9 @@ steps:
             first=$((${{batches%%-*}} * {BATCH}))
             end=$(((${{batches##*-}} + 1) * {BATCH}))
             if [ \"$end\" -gt {{{{Param.Samples}}}} ]; then end={{{{Param.Samples}}}}; fi
-            mkdir -p '{{{{Param.Parts}}}}'
-            exec '{{{{Param.Rtr}}}}' '{{{{Param.Pack}}}}' --samples \"$first..$end\" \\
-                -o '{{{{Param.Parts}}}}'/{stem}.\"$first-$end\".exr --resume --skip-complete {{{{Param.Flags}}}}
+{find}            mkdir -p '{{{{Param.Parts}}}}'
+            exec '{{{{Param.Rtr}}}}' '{{{{Param.Pack}}}}' --samples \"$first..$end\"{crop} \\
+                -o '{{{{Param.Parts}}}}'/{stem}.{number}\"$first-$end\".exr --resume --skip-complete {{{{Param.Flags}}}}
   - name: Merge
     dependencies: [{{ dependsOn: Render }}]
     script:
@@ -77,10 +84,15 @@ steps:
           type: TEXT
           data: |
             set -eu
-            exec '{{{{Param.Rtr}}}}' merge '{{{{Param.Parts}}}}'/{stem}.*.exr --samples 0..{{{{Param.Samples}}}} \\
+            exec '{{{{Param.Rtr}}}}' merge '{{{{Param.Parts}}}}'/{stem}.*.exr --samples 0..{{{{Param.Samples}}}}{frame} \\
                 -o '{{{{Param.Picture}}}}'
 ",
         last = batches - 1,
+        tiles = tile_parameter(plan),
+        find = indented(&plan.tile_lines("{{Task.Param.Tile}}"), "            "),
+        number = if plan.tile.is_some() { "\"$tile\"." } else { "" },
+        crop = plan.crop_flag(),
+        frame = plan.frame_flag(),
         flags = yaml(flags.trim_start()),
     )
 }

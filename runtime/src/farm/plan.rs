@@ -11,6 +11,10 @@ pub struct Plan {
     pub name: String,
     /// The pack, as the tasks open it.
     pub pack: String,
+    /// The frame in pixels.
+    pub size: [u32; 2],
+    /// Pixels of the crops that the frame is cut into, as far as it goes; `None`: a task renders the whole frame.
+    pub tile: Option<[u32; 2]>,
     /// Samples a pixel of the whole picture.
     pub samples: u32,
     /// Batches of samples that a task renders, at least 1.
@@ -28,8 +32,75 @@ impl Plan {
 
     /// How many tasks there are.
     #[must_use]
-    pub fn tasks(&self) -> u32 {
-        self.batches().div_ceil(self.chunk)
+    pub fn tasks(&self) -> u64 {
+        u64::from(self.tiles()) * u64::from(self.batches().div_ceil(self.chunk))
+    }
+
+    /// How many crops there are.
+    #[must_use]
+    pub fn tiles(&self) -> u32 {
+        let [columns, rows] = self.grid();
+        columns * rows
+    }
+
+    /// Columns and rows of crops: at most as many as pixels.
+    fn grid(&self) -> [u32; 2] {
+        let [w, h] = self.tile.unwrap_or(self.size);
+        [self.size[0].div_ceil(w.max(1)), self.size[1].div_ceil(h.max(1))]
+    }
+
+    /// Lines of a shell that find the samples of `task`, from `first` to `end`, and its crop. Every crop has its first
+    /// samples before any has more, so that a picture can be merged early.
+    pub(super) fn task_lines(&self, task: &str) -> Vec<String> {
+        let step = self.samples_of_task();
+        let chunk = match self.tile {
+            Some(_) => format!("{task} / {}", self.tiles()),
+            None => task.to_owned(),
+        };
+        let samples = self.samples;
+        let mut lines = vec![
+            format!("first=$(({chunk} * {step}))"),
+            format!("end=$((first + {step}))"),
+            format!("if [ \"$end\" -gt {samples} ]; then end={samples}; fi"),
+        ];
+        lines.extend(self.tile_lines(&format!("{task} % {}", self.tiles())));
+        lines
+    }
+
+    /// Lines of a shell that find the crop of tile `tile`: `x`, `y`, `w` and `h`. None, where there is only one.
+    pub(super) fn tile_lines(&self, tile: &str) -> Vec<String> {
+        let Some([tile_width, tile_height]) = self.tile else { return Vec::new() };
+        let ([width, height], [columns, _]) = (self.size, self.grid());
+        vec![
+            format!("tile=$(({tile}))"),
+            format!(
+                "x=$((tile % {columns} * {tile_width})) y=$((tile / {columns} * {tile_height}))"
+            ),
+            format!("w=$(({width} - x)) h=$(({height} - y))"),
+            format!("if [ \"$w\" -gt {tile_width} ]; then w={tile_width}; fi"),
+            format!("if [ \"$h\" -gt {tile_height} ]; then h={tile_height}; fi"),
+        ]
+    }
+
+    /// The flag of a task that renders the crop which those lines find.
+    pub(super) fn crop_flag(&self) -> &'static str {
+        if self.tile.is_some() { " --crop \"$x,$y,$w,$h\"" } else { "" }
+    }
+
+    /// The flag of the merge that all crops must be there for.
+    pub(super) fn frame_flag(&self) -> String {
+        let [w, h] = self.size;
+        if self.tile.is_some() { format!(" --crop 0,0,{w},{h}") } else { String::new() }
+    }
+
+    /// What a task renders, as people read it.
+    #[must_use]
+    pub fn task_text(&self) -> String {
+        let (batches, samples) = (self.chunk, self.samples_of_task());
+        match self.tile {
+            Some([w, h]) => format!("{batches} batches ({samples} samples) of {w}x{h} pixels"),
+            None => format!("{batches} batches ({samples} samples)"),
+        }
     }
 
     /// Samples of a whole task.
@@ -54,13 +125,18 @@ pub struct JobFile {
     pub text: String,
 }
 
-/// Batches of a task that takes about `wanted`, where the whole frame took `measured` for a batch.
+/// Batches of a task that takes about `wanted`, where its pixels took `measured` for a batch.
 #[must_use]
 pub fn chunk_for(measured: Duration, wanted: Duration, batches: u32) -> u32 {
     let fits = wanted.as_secs_f64() / measured.as_secs_f64().max(1e-9);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
     let chunk = fits.round().clamp(1.0, f64::from(batches.max(1))) as u32;
     chunk
+}
+
+/// Lines, each with this much in front of it.
+pub(super) fn indented(lines: &[String], indent: &str) -> String {
+    lines.iter().flat_map(|line| [indent, line, "\n"]).collect()
 }
 
 /// Commands as comments of a script.
@@ -82,7 +158,18 @@ mod tests {
     use super::*;
 
     fn plan(samples: u32, chunk: u32) -> Plan {
-        Plan { name: "a".into(), pack: "a.pack".into(), samples, chunk, flags: Vec::new() }
+        let (size, tile) = ([640, 360], None);
+        let (name, pack) = ("a".into(), "a.pack".into());
+        Plan { name, pack, size, tile, samples, chunk, flags: Vec::new() }
+    }
+
+    #[test]
+    fn tiles_cover_the_frame() {
+        let tiled = |tile| Plan { tile: Some(tile), ..plan(256, 4) };
+        assert_eq!((tiled([640, 360]).tiles(), tiled([640, 360]).tasks()), (1, 4));
+        assert_eq!((tiled([320, 200]).tiles(), tiled([320, 200]).tasks()), (4, 16));
+        assert_eq!(tiled([639, 359]).tiles(), 4);
+        assert_eq!(tiled([1, 1]).tasks(), 4 * 640 * 360);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! A job as a POSIX shell script: one task at a time, or many through GNU parallel.
 
-use super::plan::{JobFile, Plan, comments, quoted};
+use super::plan::{JobFile, Plan, comments, indented, quoted};
 
 /// The script, and how it is run.
 pub(super) fn files(plan: &Plan) -> (Vec<JobFile>, Vec<String>) {
@@ -20,12 +20,12 @@ pub(super) fn files(plan: &Plan) -> (Vec<JobFile>, Vec<String>) {
 
 fn text(plan: &Plan, commands: &[String]) -> String {
     let usage = comments(commands);
-    let (samples, step, tasks) = (plan.samples, plan.samples_of_task(), plan.tasks());
+    let (samples, tasks) = (plan.samples, plan.tasks());
     let (name, pack) = (quoted(&plan.name), quoted(&plan.pack));
     let flags = plan.flags_text();
     format!(
         "#!/bin/sh
-# Renders {samples} samples a pixel in {tasks} tasks of {chunk} batches ({step} samples), and merges them.
+# Renders {samples} samples a pixel in {tasks} tasks of {what}, and merges them.
 # Tasks may run anywhere, in any order and twice: one that is complete is left alone, one that was
 # killed goes on at its last checkpoint. Machines share this folder, or the parts are copied back to it.
 #
@@ -37,16 +37,13 @@ NAME={name}
 
 # Renders task $1, from 0.
 task() {{
-    first=$(($1 * {step}))
-    end=$((first + {step}))
-    if [ \"$end\" -gt {samples} ]; then end={samples}; fi
-    mkdir -p parts
-    \"$RTR\" \"$PACK\" --samples \"$first..$end\" -o \"parts/$NAME.$1.exr\" --resume --skip-complete{flags}
+{find}    mkdir -p parts
+    \"$RTR\" \"$PACK\" --samples \"$first..$end\"{crop} -o \"parts/$NAME.$1.exr\" --resume --skip-complete{flags}
 }}
 
 # Adds all parts up; says what is missing.
 merge() {{
-    \"$RTR\" merge parts/\"$NAME\".*.exr --samples 0..{samples} -o \"$NAME.exr\" -o \"$NAME.png\"
+    \"$RTR\" merge parts/\"$NAME\".*.exr --samples 0..{samples}{frame} -o \"$NAME.exr\" -o \"$NAME.png\"
 }}
 
 case \"${{1:-}}\" in
@@ -66,6 +63,9 @@ all)
     ;;
 esac
 ",
-        chunk = plan.chunk,
+        what = plan.task_text(),
+        find = indented(&plan.task_lines("$1"), "    "),
+        crop = plan.crop_flag(),
+        frame = plan.frame_flag(),
     )
 }

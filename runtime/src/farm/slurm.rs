@@ -1,6 +1,6 @@
 //! A job for Slurm: an array of tasks, and the merge that waits for it.
 
-use super::plan::{JobFile, Plan, comments, quoted};
+use super::plan::{JobFile, Plan, comments, indented, quoted};
 
 /// Both scripts, and how they are submitted.
 pub(super) fn files(plan: &Plan) -> (Vec<JobFile>, Vec<String>) {
@@ -20,7 +20,7 @@ pub(super) fn files(plan: &Plan) -> (Vec<JobFile>, Vec<String>) {
 
 fn render_text(plan: &Plan, commands: &[String]) -> String {
     let usage = comments(commands);
-    let (samples, step, tasks) = (plan.samples, plan.samples_of_task(), plan.tasks());
+    let (samples, tasks) = (plan.samples, plan.tasks());
     let (name, pack) = (quoted(&plan.name), quoted(&plan.pack));
     let flags = plan.flags_text();
     format!(
@@ -30,22 +30,21 @@ fn render_text(plan: &Plan, commands: &[String]) -> String {
 #SBATCH --requeue
 #SBATCH --open-mode=append
 #SBATCH --output=%x.%a.log
-# Renders {samples} samples a pixel in {tasks} tasks of {chunk} batches ({step} samples).
+# Renders {samples} samples a pixel in {tasks} tasks of {what}.
 # A task that is requeued goes on at its last checkpoint; one that is complete is left alone.
 # Submit it from the folder of the pack, which all nodes share:
 #
 {usage}
 set -eu
-first=$((SLURM_ARRAY_TASK_ID * {step}))
-end=$((first + {step}))
-if [ \"$end\" -gt {samples} ]; then end={samples}; fi
-mkdir -p parts
-exec \"${{RTR:-rtr}}\" {pack} --samples \"$first..$end\" \\
+{find}mkdir -p parts
+exec \"${{RTR:-rtr}}\" {pack} --samples \"$first..$end\"{crop} \\
     -o parts/{name}.\"$SLURM_ARRAY_TASK_ID\".exr --resume --skip-complete \\
     --threads \"${{SLURM_CPUS_ON_NODE:-$(nproc)}}\"{flags}
 ",
         last = tasks - 1,
-        chunk = plan.chunk,
+        what = plan.task_text(),
+        find = indented(&plan.task_lines("SLURM_ARRAY_TASK_ID"), ""),
+        crop = plan.crop_flag(),
     )
 }
 
@@ -57,7 +56,8 @@ fn merge_text(plan: &Plan) -> String {
 #SBATCH --output=%x.log
 # Adds the parts up; says what is missing, and the command that renders it.
 set -eu
-exec \"${{RTR:-rtr}}\" merge parts/{name}.*.exr --samples 0..{samples} -o {name}.exr -o {name}.png
-"
+exec \"${{RTR:-rtr}}\" merge parts/{name}.*.exr --samples 0..{samples}{frame} -o {name}.exr -o {name}.png
+",
+        frame = plan.frame_flag(),
     )
 }
