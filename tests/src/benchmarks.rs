@@ -99,7 +99,6 @@ pub fn page(names: &[String]) -> Result<String, Box<dyn Error>> {
 }
 
 fn header(names: &[String]) -> String {
-    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let mut text = String::from("# Benchmarks\n\n");
     let command = "cargo run --release -p tests --bin benchmarks";
     let _ = match names {
@@ -113,13 +112,18 @@ fn header(names: &[String]) -> String {
     let _ = writeln!(
         text,
         "CPU seconds are user + system time of the process, medians of {ROUNDS} interleaved rounds. \
-         Compare rows of one page, not pages: machines differ.\n\n\
-         Machine: {} {}, {threads} hardware threads, {}.",
-        std::env::consts::ARCH,
-        std::env::consts::OS,
-        processor(),
+         Compare rows of one page, not pages: machines differ.\n\n{}",
+        machine(),
     );
     text
+}
+
+/// On which kind of machine this runs, as a line of a page.
+#[must_use]
+pub fn machine() -> String {
+    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let [arch, system] = [std::env::consts::ARCH, std::env::consts::OS];
+    format!("Machine: {arch} {system}, {threads} hardware threads, {}.", processor())
 }
 
 fn processor() -> String {

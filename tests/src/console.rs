@@ -6,3 +6,8 @@ use std::io::Write;
 pub fn line(text: &str) {
     let _ = writeln!(std::io::stdout().lock(), "{text}");
 }
+
+/// How far a long measurement is, on standard error.
+pub fn progress(text: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
+}

@@ -12,6 +12,7 @@ pub mod benchmarks;
 pub mod console;
 pub mod edits;
 pub mod exr_file;
+pub mod farm;
 pub mod features;
 pub mod flips;
 pub mod furnace;

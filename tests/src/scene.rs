@@ -48,8 +48,8 @@ pub fn example(example: &Example, defines: &[(&str, &str)]) -> Compiled {
 /// # Panics
 /// As `example`.
 #[must_use]
-pub fn full_example(example: &Example, layout: Layout) -> Compiled {
-    example_as(example, &[], Extent::Full, layout)
+pub fn full_example(example: &Example, defines: &[(&str, &str)], layout: Layout) -> Compiled {
+    example_as(example, defines, Extent::Full, layout)
 }
 
 fn example_as(

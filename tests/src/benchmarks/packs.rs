@@ -32,7 +32,7 @@ impl Packs {
         }
         let example = scenes::catalog::find(name).ok_or("there is no such example")?;
         let path = self.folder.path().join(format!("{name}-{layout}.pack"));
-        std::fs::write(&path, scene::bytes(&scene::full_example(example, layout)))?;
+        std::fs::write(&path, scene::bytes(&scene::full_example(example, &[], layout)))?;
         self.made.insert((name, layout.name()), path.clone());
         Ok(path)
     }

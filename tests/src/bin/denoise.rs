@@ -101,7 +101,7 @@ impl Measured {
 
 fn scene_of(name: &str) -> Result<Scene, Box<dyn Error>> {
     let example = scenes::catalog::find(name).ok_or("no such scene")?;
-    let compiled = scene::full_example(example, compiler::bvh::Layout::default());
+    let compiled = scene::full_example(example, &[], compiler::bvh::Layout::default());
     Ok(Scene::new(Pack::from_bytes(scene::bytes(&compiled))?))
 }
 

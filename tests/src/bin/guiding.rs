@@ -60,7 +60,7 @@ const HEADER: &str = "# What path guiding and manifold next-event estimation cou
 /// Adds the row of a scene.
 fn row(text: &mut String, name: &str) -> Result<(), Box<dyn Error>> {
     let example = scenes::catalog::find(name).ok_or("no such scene")?;
-    let compiled = scene::full_example(example, compiler::bvh::Layout::default());
+    let compiled = scene::full_example(example, &[], compiler::bvh::Layout::default());
     let scene = Scene::new(Pack::from_bytes(scene::bytes(&compiled))?);
     let mut moments = Vec::new();
     for seed in 1..=SEEDS {
