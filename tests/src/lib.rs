@@ -19,6 +19,7 @@ pub mod furnace;
 pub mod fuzz;
 pub mod guiding;
 pub mod kernel;
+pub mod kills;
 pub mod layers;
 pub mod mapped;
 pub mod picture;
