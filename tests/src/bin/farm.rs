@@ -1,5 +1,6 @@
 //! `cargo run --release -p tests --bin farm`: what the 8K frame of the shrine costs, on one machine and on many. Prints
-//! a section of `docs/farm.md` and rewrites `docs/farm-crop.png`. `farm quick` measures less and writes no picture.
+//! a section of `docs/farm.md` and rewrites `docs/farm-crop.png`. `farm quick` measures less and writes no picture;
+//! `farm merging` prints what merging parts of such a frame takes.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -8,6 +9,7 @@ use std::process::ExitCode;
 use compiler::bvh::Layout;
 use runtime::{Rect, Scene};
 use tests::farm::cost::Costs;
+use tests::farm::merging;
 use tests::farm::page::{Measured, page};
 use tests::farm::tasks::{self, Merging, Parts, StartUp};
 use tests::{console, mapped, scene};
@@ -30,8 +32,13 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     let word = arguments.next();
     match word.as_deref() {
         Some(tasks::CHILD) => Ok(ExitCode::from(tasks::child(arguments))),
+        Some(merging::CHILD) => Ok(ExitCode::from(merging::child(arguments))),
+        Some("merging") => {
+            console::line(&merging::page()?);
+            Ok(ExitCode::SUCCESS)
+        }
         Some("quick") => measure(&QUICK, None),
-        Some(_) => Err("the only choice is `quick`".into()),
+        Some(_) => Err("the choices are `quick` and `merging`".into()),
         None => {
             let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
             measure(&FULL, Some(docs.join("farm-crop.png")))
