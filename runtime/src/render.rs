@@ -211,6 +211,7 @@ fn meta(scene: &Scene, job: &Job) -> Meta {
         clamp_indirect: job.clamp_indirect,
         adaptive: job.measure.as_ref().is_some_and(|measure| measure.adaptive),
         precision: job.precision.name().to_owned(),
+        commit: commit::COMMIT.unwrap_or_default().to_owned(),
         exposure: scene.settings().exposure,
         tone_map: scene.settings().tone_map,
         ..Meta::default()

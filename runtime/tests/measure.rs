@@ -120,15 +120,34 @@ fn a_reference_judges_and_must_show_the_same() {
 }
 
 #[test]
-fn replicates_are_no_parts_and_cannot_be_resumed() {
+fn crops_of_a_measured_run_merge_and_cannot_be_resumed() {
     let folder = folder();
     let folder = folder.path();
-    said(folder, &["marbles.pack", "-o", "a.exr", "--spp", "16", "--report", "a.csv"]);
-    let mut merge = Command::new(env!("CARGO_BIN_EXE_rtr"));
-    merge.current_dir(folder).args(["merge", "a.exr", "-o", "b.exr"]);
-    let output = merge.output().expect("rtr starts");
-    assert_eq!(output.status.code(), Some(3));
-    assert!(text(&output.stderr).contains("the mean of the replicates"));
+    let measured = ["--spp", "16", "--report", "a.csv"];
+    let of = |name, crop: &[&str]| {
+        said(folder, &[&["marbles.pack", "-o", name][..], crop, &measured].concat());
+    };
+    of("whole.exr", &[]);
+    of("left.exr", &["--crop", "0,0,30,40"]);
+    of("right.exr", &["--crop", "30,0,42,40"]);
+    said(folder, &["marbles.pack", "-o", "other.exr", "--samples", "0..4", "--crop", "30,0,42,40"]);
+    let merge = |parts: &[&str]| {
+        let mut merge = Command::new(env!("CARGO_BIN_EXE_rtr"));
+        merge.current_dir(folder).arg("merge").args(parts).args(["-o", "b.exr"]);
+        let output = merge.output().expect("rtr starts");
+        (output.status.code(), text(&output.stderr))
+    };
+    let (code, log) = merge(&["right.exr", "left.exr"]);
+    assert_eq!(code, Some(0), "{log}");
+    let read = |name: &str| {
+        let film = runtime::output::read_exr(&folder.join(name)).expect("a picture").film;
+        (film.means(), film.variance, film.counts, film.ranges)
+    };
+    assert!(read("b.exr") == read("whole.exr"));
+    assert!(!read("b.exr").1.is_empty());
+    let (code, log) = merge(&["left.exr", "other.exr"]);
+    assert_eq!(code, Some(3));
+    assert!(log.contains("the mean of the replicates"), "{log}");
     for other in [&["--resume"][..], &["--samples", "0..4"], &["--watch"]] {
         let output = rtr(folder, &[&["marbles.pack", "--report", "a.csv"], other].concat());
         assert_eq!(output.status.code(), Some(2), "{other:?}");

@@ -32,7 +32,8 @@ fn an_exr_file_gives_the_picture_back() {
     for (crop, residual, tolerance) in
         [(None, true, 1e-14), (crop, true, 1e-14), (crop, false, 6e-8)]
     {
-        let written = picture(range(16, 21), crop);
+        let mut written = picture(range(16, 21), crop);
+        written.meta.commit = "v0.1.0-12-g0123456789ab".to_owned();
         write(&at("a.exr"), &written, residual).expect("it can be written");
         let read = read_exr(&at("a.exr")).expect("it can be read");
         assert_eq!(read.meta, written.meta);
@@ -62,10 +63,13 @@ fn uneven_samples_survive_the_file() {
 fn parts_from_files_merge_to_the_whole() {
     let (_folder, at) = folder();
     write(&at("a.exr"), &picture(range(0, 32), None), true).expect("it can be written");
-    write(&at("b.exr"), &picture(range(32, 64), None), true).expect("it can be written");
+    let mut later = picture(range(32, 64), None);
+    later.meta.commit = "01ab".to_owned();
+    write(&at("b.exr"), &later, true).expect("it can be written");
     let read = |name: &str| read_exr(&at(name)).expect("it can be read");
     let merged = merge(vec![read("a.exr"), read("b.exr")]).expect("they are parts");
     let whole = picture(range(0, 64), None);
+    assert!(merged.meta.commit.ends_with("01ab"), "{}", merged.meta.commit);
     assert_eq!(merged.film.ranges, whole.film.ranges);
     assert_eq!(merged.film.counters, whole.film.counters);
     for (a, b) in merged.film.sums.iter().flatten().zip(whole.film.sums.iter().flatten()) {

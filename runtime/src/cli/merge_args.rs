@@ -13,8 +13,8 @@ Examples:
   rtr merge parts/*.exr --samples 0..256 --crop 0,0,7680,4320 -o c.exr
                                                           and which pixels
 
-The pixels are those of one run. The parts are read a few rows at a time: memory depends on the width of the picture
-alone, but for a PNG and for --denoise, which needs all of it.";
+The pixels are those of one run. Parts are read some rows at a time, so memory depends on the width
+of the picture; only a PNG, and a picture for --denoise, are in memory as a whole.";
 
 #[derive(Debug, clap::Args)]
 pub(super) struct MergeArgs {

@@ -24,6 +24,7 @@ impl Film {
     pub(crate) fn place(&mut self, part: &Self) {
         place((&mut self.sums, self.region), (&part.sums, part.region));
         place((&mut self.counts, self.region), (&part.counts, part.region));
+        place((&mut self.variance, self.region), (&part.variance, part.region));
     }
 }
 

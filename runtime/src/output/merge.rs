@@ -15,6 +15,8 @@ use super::picture::{Meta, OutputError, Picture};
 use super::survey::Survey;
 use crate::film::Film;
 use crate::region::Rect;
+use crate::replicate::REPLICATES_U32;
+use crate::zeros::zeros;
 use rayon::prelude::*;
 use std::io::{Seek, Write};
 use std::ops::Range;
@@ -23,6 +25,8 @@ use std::ops::Range;
 pub trait Part: Sync {
     /// What is known of it before its pixels are.
     fn head(&self) -> Picture;
+    /// Whether its pixels have a variance: then it is the mean of replicates.
+    fn has_variance(&self) -> bool;
     /// Some rows, counted from the first of its region.
     fn rows(&self, rows: &Range<u32>) -> Result<Picture, OutputError>;
 }
@@ -30,6 +34,10 @@ pub trait Part: Sync {
 impl Part for Picture {
     fn head(&self) -> Picture {
         self.head()
+    }
+
+    fn has_variance(&self) -> bool {
+        !self.film.variance.is_empty()
     }
 
     fn rows(&self, rows: &Range<u32>) -> Result<Picture, OutputError> {
@@ -40,6 +48,10 @@ impl Part for Picture {
 impl Part for ExrFile {
     fn head(&self) -> Picture {
         self.head().clone()
+    }
+
+    fn has_variance(&self) -> bool {
+        self.has_variance()
     }
 
     fn rows(&self, rows: &Range<u32>) -> Result<Picture, OutputError> {
@@ -53,6 +65,7 @@ pub struct Merge<P> {
     parts: Vec<P>,
     tiles: Vec<Tile>,
     head: Picture,
+    has_variance: bool,
 }
 
 /// The picture of these parts, as [`Merge`] makes it.
@@ -65,10 +78,12 @@ impl<P: Part> Merge<P> {
     /// Finds out what the parts are together. They must be of the same pack, size and seed, with crops that are equal or
     /// apart and, in each, disjoint sample ranges; all crops together must be a rectangle and have the same samples.
     /// Sums are taken by ascending first sample, so the order of the parts does not matter. What was denoised of them
-    /// is no part of the whole.
+    /// is no part of the whole. Crops of a measured run merge with each other, but not with other samples: what four
+    /// replicates say of their variance is nothing that adds up.
     pub fn new(parts: Vec<P>, expected: Expected) -> Result<Self, MergeError> {
         let heads: Vec<Picture> = parts.iter().map(Part::head).collect();
         let arranged = arrange(&heads, expected)?;
+        let has_variance = check_replicates(&parts, &arranged.tiles)?;
         let mut order = arranged.tiles.iter().flat_map(|tile| &tile.parts).map(|i| &heads[*i]);
         let mut head = order.next().ok_or(MergeError::Nothing)?.clone();
         head.denoised = None;
@@ -79,7 +94,7 @@ impl<P: Part> Merge<P> {
         if let Some(layers) = &mut head.layers {
             layers.samples = head.film.ranges.iter().map(|range| range.count()).sum();
         }
-        Ok(Self { parts, tiles: arranged.tiles, head })
+        Ok(Self { parts, tiles: arranged.tiles, head, has_variance })
     }
 
     /// The picture without its pixels.
@@ -103,6 +118,9 @@ impl<P: Part> Merge<P> {
             return Ok(whole);
         }
         whole.film = of_all(&self.head.film, Film::try_new(self.head.film.image_size, region)?);
+        if self.has_variance {
+            whole.film.variance = zeros(region.pixels())?;
+        }
         whole.layers = whole.layers.map(|layers| layers.blank(whole.film.sums.len()));
         for tile in &self.tiles {
             let first = region.y.max(tile.crop.y);
@@ -142,7 +160,9 @@ impl<P: Part> Merge<P> {
             self.each(|rows| survey.add(rows))?;
             survey
         } else {
-            Survey::even(self.head.film.ranges.iter().map(|range| range.count()).sum())
+            let samples: u32 = self.head.film.ranges.iter().map(|range| range.count()).sum();
+            let replicates = if self.has_variance { REPLICATES_U32 } else { 1 };
+            Survey::even(samples.saturating_mul(replicates), self.has_variance)
         };
         exr::write(out, (&self.head, &survey), true, |band| {
             let rows = self.rows(band)?;
@@ -175,16 +195,23 @@ fn of_all(head: &Film, film: Film) -> Film {
     Film { ranges: head.ranges.clone(), counters: head.counters, ..film }
 }
 
+/// Whether the parts are crops of a measured run. All must be, and none may be added to another.
+fn check_replicates<P: Part>(parts: &[P], tiles: &[Tile]) -> Result<bool, MergeError> {
+    let Some(first) = parts.iter().position(Part::has_variance) else { return Ok(false) };
+    let part = first + 1;
+    let alone = tiles.iter().all(|tile| tile.parts.len() == 1);
+    let all = parts.iter().all(Part::has_variance);
+    if alone && all { Ok(true) } else { Err(MergeError::Replicates { part }) }
+}
+
 /// Whether the pixels have as many samples as the header says.
 fn check_pixels(part: usize, picture: &Picture) -> Result<(), MergeError> {
-    if picture.film.replicates() > 1 {
-        return Err(MergeError::Replicates { part });
-    }
     let (least, most) = picture.film.samples();
     if least != most || most == 0 {
         return Err(MergeError::Uneven { part, least, most });
     }
     let said: u32 = picture.film.ranges.iter().map(|range| range.count()).sum();
+    let said = said.saturating_mul(picture.film.replicates());
     if most != said {
         return Err(MergeError::Samples { part, found: most, said });
     }
@@ -212,9 +239,19 @@ fn add_head(whole: &mut Picture, part: &Picture) {
 }
 
 fn add_meta(whole: &mut Meta, part: &Meta) {
-    if !whole.device.split(" + ").any(|device| device == part.device) {
-        whole.device = format!("{} + {}", whole.device, part.device);
-    }
+    join(&mut whole.device, &part.device);
+    join(&mut whole.commit, &part.commit);
     whole.seconds += part.seconds;
     whole.complete &= part.complete;
+}
+
+/// Adds a name to a list, unless it is there or empty.
+fn join(list: &mut String, name: &str) {
+    if name.is_empty() || list.split(" + ").any(|known| known == name) {
+        return;
+    }
+    if !list.is_empty() {
+        list.push_str(" + ");
+    }
+    list.push_str(name);
 }

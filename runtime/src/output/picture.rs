@@ -101,6 +101,8 @@ pub struct Meta {
     pub precision: String,
     /// Devices that rendered it, in order.
     pub device: String,
+    /// Commits of the programs that rendered it, in order, as far as they know theirs.
+    pub commit: String,
     /// Seconds of rendering; of merged parts, their sum.
     pub seconds: f64,
     /// Exposure of the PNG in stops; not applied to the EXR.

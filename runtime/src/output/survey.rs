@@ -29,8 +29,8 @@ impl Survey {
     }
 
     /// Of a picture of so many samples a pixel, of whose pixels nothing else is asked (`is_needed`).
-    pub(super) fn even(samples: u32) -> Self {
-        Self { samples: Some((samples, samples)), ..Self::default() }
+    pub(super) fn even(samples: u32, has_variance: bool) -> Self {
+        Self { samples: Some((samples, samples)), has_variance, ..Self::default() }
     }
 
     /// Whether the file of a picture with this head says more of its pixels than how many samples they have.

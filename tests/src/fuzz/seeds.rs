@@ -301,6 +301,7 @@ fn parts() -> Made {
         estimator: 0,
         precision: "f32".to_owned(),
         device: "CPU kernel (f32, 2 threads)".to_owned(),
+        commit: String::new(),
         seconds: 1.5,
         exposure: -0.5,
         tone_map: 1,

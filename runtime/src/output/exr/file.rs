@@ -2,6 +2,7 @@
 
 use super::channels::{self, Rows};
 use super::header;
+use super::names::VARIANCE;
 use crate::film::Film;
 use crate::output::picture::{OutputError, Picture};
 use crate::output::planes;
@@ -60,6 +61,12 @@ impl ExrFile {
     #[must_use]
     pub fn head(&self) -> &Picture {
         &self.head
+    }
+
+    /// Whether its pixels have a variance.
+    #[must_use]
+    pub fn has_variance(&self) -> bool {
+        self.header.channels.list.iter().any(|channel| channel.name.eq(VARIANCE))
     }
 
     /// Bytes that all channels of a pixel take.

@@ -79,6 +79,9 @@ fn attributes_of(head: &Picture, survey: &Survey) -> Vec<(Text, AttributeValue)>
     if let Some(denoised) = &head.denoised {
         list.push((DENOISER, text(&denoised.by)));
     }
+    if !meta.commit.is_empty() {
+        list.push(("commit", text(&meta.commit)));
+    }
     if meta.adaptive {
         list.push(("adaptive", text("1")));
     }
@@ -108,6 +111,7 @@ pub(super) fn parse(header: &Header) -> Result<Picture, String> {
         adaptive: fields.number::<u32>("adaptive").is_ok_and(|n| n == 1),
         precision: fields.text("precision")?,
         device: fields.text("device")?,
+        commit: fields.text("commit").unwrap_or_default(),
         seconds: fields.float("seconds")?,
         exposure: single(fields.float("exposure_stops")?),
         tone_map: fields.number("tone_map")?,

@@ -36,6 +36,10 @@ pub(super) struct Arranged {
 
 pub(super) fn arrange(heads: &[Picture], expected: Expected) -> Result<Arranged, MergeError> {
     let first = heads.first().ok_or(MergeError::Nothing)?;
+    let size = first.film.image_size;
+    if let Some(crop) = expected.crop.filter(|crop| !crop.fits(size)) {
+        return Err(MergeError::Outside { crop, size });
+    }
     let mut tiles: Vec<Tile> = Vec::new();
     for (i, head) in heads.iter().enumerate() {
         check_shared(i + 1, head, first)?;
@@ -48,7 +52,7 @@ pub(super) fn arrange(heads: &[Picture], expected: Expected) -> Result<Arranged,
     tiles.sort_by_key(|tile| (tile.crop.y, tile.crop.x));
     let region = expected.crop.unwrap_or_else(|| bounds(&tiles));
     let ranges = expected.samples.map_or_else(|| union(&tiles), |samples| vec![samples]);
-    let missing = missing(&tiles, region, &ranges, first.film.image_size);
+    let missing = missing(&tiles, region, &ranges, size);
     if !missing.is_empty() {
         return Err(MergeError::Missing(missing));
     }
@@ -294,6 +298,9 @@ mod tests {
         let crop = Some(Rect { x: 0, y: 0, w: 4, h: 4 });
         let text = error(&parts[..1], Expected { samples: None, crop });
         assert_eq!(text, "part 1: its crop 0,0,4,6 leaves 0,0,4,4");
+        let crop = Some(Rect { x: 4, y: 0, w: 5, h: 4 });
+        let text = error(&parts[..1], Expected { samples: None, crop });
+        assert_eq!(text, "crop 4,0,5,4 leaves the image of 8x6 pixels");
     }
 
     #[test]

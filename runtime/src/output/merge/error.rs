@@ -70,7 +70,7 @@ pub enum MergeError {
     },
     /// A picture whose error was measured.
     #[error(
-        "part {part}: it is the mean of the replicates of a measured run, which cannot be merged"
+        "part {part}: it is the mean of the replicates of a measured run, which merges with other crops of that run only"
     )]
     Replicates {
         /// Number of the part, from 1.
@@ -120,6 +120,14 @@ pub enum MergeError {
         found: Rect,
         /// What is asked for.
         expected: Rect,
+    },
+    /// The pixels that are asked for are not all in the image.
+    #[error("crop {crop} leaves the image of {}x{} pixels", size[0], size[1])]
+    Outside {
+        /// What is asked for.
+        crop: Rect,
+        /// The image.
+        size: [u32; 2],
     },
     /// A part cannot be read.
     #[error(transparent)]
