@@ -3,13 +3,6 @@
 use crate::region::Rect;
 use std::ops::Range;
 
-impl Rect {
-    /// Some of its rows, counted from its first.
-    pub(crate) fn rows(self, rows: &Range<u32>) -> Self {
-        Self { y: self.y + rows.start, h: rows.end - rows.start, ..self }
-    }
-}
-
 /// Where the pixels of some rows are in a plane so many pixels wide.
 pub(crate) fn pixels(width: u32, rows: &Range<u32>) -> Range<usize> {
     let width = width as usize;

@@ -5,6 +5,7 @@
 
 use pack::abi::BATCH;
 use std::fmt;
+use std::ops::Range;
 
 /// Pixels `x .. x + w`, `y .. y + h`; origin top left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -40,6 +41,12 @@ impl Rect {
             && self.h > 0
             && end(self.x, self.w) <= u64::from(size[0])
             && end(self.y, self.h) <= u64::from(size[1])
+    }
+
+    /// Some of its rows, counted from its first.
+    #[must_use]
+    pub(crate) fn rows(self, rows: &Range<u32>) -> Self {
+        Self { y: self.y + rows.start, h: rows.end - rows.start, ..self }
     }
 
     /// Two parts along the longer side, cut at a multiple of 8 pixels; `None` at 8 × 8 or less.

@@ -19,7 +19,9 @@ const MOST: usize = 8;
 
 pub(super) fn command(args: &MergeArgs) -> Exit {
     let console = Console::with_progress(args.quiet).beside(&args.output);
-    match merge(args, &console) {
+    let merged = merge(args, &console);
+    console.end_progress();
+    match merged {
         Ok(()) => Exit::Done,
         Err(exit) => exit,
     }
@@ -61,8 +63,8 @@ fn write(
     let pngs = RefCell::new(fresh());
     let seen = |rows: &output::Picture| {
         pngs.borrow_mut().iter_mut().for_each(|png| png.add(rows));
-        let film = &rows.film.region;
-        let done = film.y + film.h - merge.head().film.region.y;
+        let region = rows.film.region;
+        let done = region.y + region.h - merge.head().film.region.y;
         console.advance(f64::from(done) / f64::from(height), "of the rows are merged");
     };
     let mut exit = Ok(());
@@ -98,7 +100,6 @@ fn write(
         let bytes = png.finish().map_err(|error| console.fail(&error, Exit::Bug))?;
         exit = save(console, path, &bytes).and(exit);
     }
-    console.end_progress();
     exit
 }
 
@@ -109,8 +110,7 @@ fn write_denoised(
     merge: &Merge<ExrFile>,
     (denoiser, outputs): (&Denoiser, &[(&Path, Format)]),
 ) -> Result<(), Exit> {
-    let whole = merge.rows(&(0..merge.head().film.region.h));
-    let mut picture = whole.map_err(|error| explain(args, console, &error))?;
+    let mut picture = merge.read().map_err(|error| explain(args, console, &error))?;
     let mut exit = denoise::denoise(console, denoiser, &mut picture);
     for (path, format) in outputs {
         let bytes = output::encode(*format, &picture, true);

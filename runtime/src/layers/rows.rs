@@ -3,15 +3,23 @@
 use super::{Group, Layer, Layers, Matte, Nearest};
 use crate::plane::place;
 use crate::region::Rect;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 impl Layers {
-    /// Some of the pixels.
+    /// The same layers without pixels.
+    pub(crate) fn head(&self) -> Self {
+        let mut head = self.pixels(&(0..0));
+        head.take_names(self);
+        head
+    }
+
+    /// Some of the pixels. The names of mattes, of which there may be thousands, are left to the head.
     pub(crate) fn pixels(&self, at: &Range<usize>) -> Self {
         let group = |group: &Group| Group { sums: some(&group.sums, at), ..named(group) };
         let matte = |matte: &Matte| Matte {
             kind: matte.kind,
-            names: matte.names.clone(),
+            names: BTreeMap::new(),
             shares: some(&matte.shares, at),
         };
         Self {
@@ -26,13 +34,19 @@ impl Layers {
         }
     }
 
-    /// The same layers with `n` pixels that show nothing.
+    /// Takes the names of mattes from the head of the same layers.
+    pub(crate) fn take_names(&mut self, head: &Self) {
+        let mattes = self.mattes.iter_mut().zip(&head.mattes);
+        mattes.for_each(|(matte, head)| matte.names.clone_from(&head.names));
+    }
+
+    /// The same layers with `n` pixels that show nothing, without the names of mattes.
     pub(crate) fn blank(&self, n: usize) -> Self {
         let sums = |layer| if self.has(layer) { vec![[0.0; 3]; n] } else { Vec::new() };
         let group = |group: &Group| Group { sums: vec![[0.0; 3]; n], ..named(group) };
         let matte = |matte: &Matte| Matte {
             kind: matte.kind,
-            names: matte.names.clone(),
+            names: BTreeMap::new(),
             shares: vec![Vec::new(); n],
         };
         let is_nearest = self.wanted.layers.iter().any(|layer| layer.is_nearest());

@@ -27,7 +27,7 @@ pub trait Part: Sync {
     fn head(&self) -> Picture;
     /// Whether its pixels have a variance: then it is the mean of replicates.
     fn has_variance(&self) -> bool;
-    /// Some rows, counted from the first of its region.
+    /// Some rows, counted from the first of its region, without the names of mattes.
     fn rows(&self, rows: &Range<u32>) -> Result<Picture, OutputError>;
 }
 
@@ -71,7 +71,7 @@ pub struct Merge<P> {
 /// The picture of these parts, as [`Merge`] makes it.
 pub fn merge(parts: Vec<Picture>) -> Result<Picture, MergeError> {
     let merge = Merge::new(parts, Expected::default())?;
-    merge.rows(&(0..merge.head().film.region.h))
+    merge.read()
 }
 
 impl<P: Part> Merge<P> {
@@ -103,7 +103,14 @@ impl<P: Part> Merge<P> {
         &self.head
     }
 
-    /// Some rows of the picture, counted from the first of its region.
+    /// All of the picture.
+    pub fn read(&self) -> Result<Picture, MergeError> {
+        let mut picture = self.rows(&(0..self.head.film.region.h))?;
+        picture.take_names(&self.head);
+        Ok(picture)
+    }
+
+    /// Some rows of the picture, counted from the first of its region, without the names of mattes.
     pub fn rows(&self, rows: &Range<u32>) -> Result<Picture, MergeError> {
         let region = self.head.film.region.rows(rows);
         let mut whole = self.head.clone();
@@ -111,10 +118,6 @@ impl<P: Part> Merge<P> {
             let sum = self.sum(tile, rows)?;
             whole.film = of_all(&self.head.film, sum.film);
             whole.layers = sum.layers;
-            if let (Some(layers), Some(head)) = (&mut whole.layers, &self.head.layers) {
-                let mattes = layers.mattes.iter_mut().zip(&head.mattes);
-                mattes.for_each(|(matte, all)| matte.names.clone_from(&all.names));
-            }
             return Ok(whole);
         }
         whole.film = of_all(&self.head.film, Film::try_new(self.head.film.image_size, region)?);

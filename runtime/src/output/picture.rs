@@ -41,12 +41,12 @@ impl Picture {
         Self {
             film,
             meta: self.meta.clone(),
-            layers: self.layers.as_ref().map(|layers| layers.pixels(&(0..0))),
+            layers: self.layers.as_ref().map(Layers::head),
             denoised: denoised.map(|denoised| denoised.of(Vec::new())),
         }
     }
 
-    /// Some rows of it, counted from the first of its region.
+    /// Some rows of it, counted from the first of its region, without the names of mattes.
     pub(crate) fn rows(&self, rows: &Range<u32>) -> Self {
         let at = pixels(self.film.region.w, rows);
         let denoised = self.denoised.as_ref();
@@ -55,6 +55,13 @@ impl Picture {
             meta: self.meta.clone(),
             layers: self.layers.as_ref().map(|layers| layers.pixels(&at)),
             denoised: denoised.map(|denoised| denoised.of(denoised.pixels[at].to_vec())),
+        }
+    }
+
+    /// Takes the names of mattes from the head of the same picture, so that all of it is there.
+    pub(crate) fn take_names(&mut self, head: &Self) {
+        if let (Some(layers), Some(head)) = (&mut self.layers, &head.layers) {
+            layers.take_names(head);
         }
     }
 

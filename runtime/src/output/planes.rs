@@ -187,7 +187,7 @@ pub(super) fn head(source: &dyn Source) -> Result<Option<Layers>, String> {
     Ok(Some(layers))
 }
 
-/// The layers of `head` with the `n` pixels of `source`.
+/// The layers of `head` with the `n` pixels of `source`, without the names of mattes.
 pub(super) fn pixels(head: &Layers, source: &dyn Source, n: usize) -> Result<Layers, String> {
     let mut layers = Layers { wanted: head.wanted.clone(), ..Layers::default() };
     layers.samples = head.samples;
@@ -207,7 +207,7 @@ pub(super) fn pixels(head: &Layers, source: &dyn Source, n: usize) -> Result<Lay
         layers.nearest = nearest(source, &layers, n)?;
     }
     let mattes = head.mattes.iter().map(|matte| {
-        let (kind, names) = (matte.kind, matte.names.clone());
+        let (kind, names) = (matte.kind, BTreeMap::new());
         Ok(Matte { kind, names, shares: shares(source, &layers, kind, n)? })
     });
     layers.mattes = mattes.collect::<Result<_, String>>()?;

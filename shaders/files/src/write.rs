@@ -75,6 +75,17 @@ fn quiet(result: io::Result<()>) -> io::Result<()> {
 mod tests {
     use super::*;
     use std::os::unix::fs::{MetadataExt as _, PermissionsExt as _, symlink};
+    use std::path::PathBuf;
+    use std::thread::JoinHandle;
+
+    /// A pipe, and what somebody reads from it.
+    fn pipe(dir: &Path) -> (PathBuf, JoinHandle<Vec<u8>>) {
+        let pipe = dir.join("pipe");
+        let mode = rustix::fs::Mode::from_raw_mode(0o600);
+        rustix::fs::mkfifoat(rustix::fs::CWD, &pipe, mode).expect("a pipe");
+        let from = pipe.clone();
+        (pipe, std::thread::spawn(move || std::fs::read(from).expect("its bytes")))
+    }
 
     #[test]
     fn links_are_followed_and_the_mode_stays() {
@@ -103,13 +114,7 @@ mod tests {
         #[cfg(target_os = "linux")]
         assert!(write(Path::new("/dev/full"), |out| out.write_all(b"no room")).is_err());
         let dir = tempfile::tempdir().unwrap();
-        let pipe = dir.path().join("pipe");
-        let mode = rustix::fs::Mode::from_raw_mode(0o600);
-        rustix::fs::mkfifoat(rustix::fs::CWD, &pipe, mode).unwrap();
-        let reader = {
-            let pipe = pipe.clone();
-            std::thread::spawn(move || std::fs::read(pipe).unwrap())
-        };
+        let (pipe, reader) = pipe(dir.path());
         write(&pipe, |out| out.write_all(b"through it")).unwrap();
         assert_eq!(reader.join().unwrap(), b"through it");
     }
@@ -125,13 +130,7 @@ mod tests {
         let path = dir.path().join("a");
         write_seekable(&path, content).unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), b"well");
-        let pipe = dir.path().join("pipe");
-        let mode = rustix::fs::Mode::from_raw_mode(0o600);
-        rustix::fs::mkfifoat(rustix::fs::CWD, &pipe, mode).unwrap();
-        let reader = {
-            let pipe = pipe.clone();
-            std::thread::spawn(move || std::fs::read(pipe).unwrap())
-        };
+        let (pipe, reader) = pipe(dir.path());
         write_seekable(&pipe, content).unwrap();
         assert_eq!(reader.join().unwrap(), b"well");
     }

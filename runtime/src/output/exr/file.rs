@@ -53,7 +53,7 @@ impl ExrFile {
         let rows = Rows { planes: blank(&header, 0), header: &header };
         head.layers = planes::head(&rows).map_err(foreign)?;
         // What is missing is missing in every row.
-        head = channels::parse(&head, head.film.clone(), &rows).map_err(foreign)?;
+        channels::parse(&head, head.film.clone(), &rows).map_err(foreign)?;
         Ok(Self { path: path.to_owned(), header, layer, head, stamp })
     }
 
@@ -75,14 +75,16 @@ impl ExrFile {
         self.header.channels.bytes_per_pixel
     }
 
-    /// Some rows, counted from the first of the picture's region, by one thread.
+    /// Some rows, counted from the first of the picture's region, without the names of mattes; by one thread.
     pub fn rows(&self, rows: &Range<u32>) -> Result<Picture, OutputError> {
         self.parse(rows, false)
     }
 
     /// All rows.
     pub fn read(&self) -> Result<Picture, OutputError> {
-        self.parse(&(0..self.head.film.region.h), true)
+        let mut picture = self.parse(&(0..self.head.film.region.h), true)?;
+        picture.take_names(&self.head);
+        Ok(picture)
     }
 
     fn parse(&self, rows: &Range<u32>, is_alone: bool) -> Result<Picture, OutputError> {
