@@ -124,13 +124,15 @@ fn render_groups(avx2: V3, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
         texel_words: scalar.texel_words,
         companion: Companion { scalar, avx2, small, stack: packet::Stack::default() },
     };
-    for y in 0..size[1] {
-        for x in (0..size[0]).step_by(8) {
+    for y in (0..size[1]).step_by(2) {
+        for x in (0..size[0]).step_by(4) {
             if is_over() {
                 return false;
             }
-            let x = v::add_u(v::u(x), v::u_of([0, 1, 2, 3, 4, 5, 6, 7]));
-            render_eight(&mut kernel, v::lt_u(x, v::u(size[0])), v::V2 { x, y: v::u(y) });
+            let x = v::add_u(v::u(x), v::u_of([0, 1, 2, 3, 0, 1, 2, 3]));
+            let y = v::add_u(v::u(y), v::u_of([0, 0, 0, 0, 1, 1, 1, 1]));
+            let inside = v::and_b(v::lt_u(x, v::u(size[0])), v::lt_u(y, v::u(size[1])));
+            render_eight(&mut kernel, inside, v::V2 { x, y });
         }
     }
     true
