@@ -46,6 +46,7 @@ mod slot;
 #[warn(clippy::wildcard_enum_match_arm)]
 pub(crate) mod texture;
 mod transform;
+mod tuples;
 mod unused;
 
 pub use define::Options;

@@ -265,6 +265,10 @@ pub enum FieldType {
     Spectrum(Bounds),
     /// Two or three lengths above zero.
     Size(usize),
+    /// A list of points, three lengths each.
+    Points,
+    /// A list of faces, three or four whole numbers each; faces of four become two of three.
+    Faces,
     /// Width and height in whole pixels.
     Pixels,
     /// A colour, each channel at most this.
@@ -399,11 +403,11 @@ pub fn unit_of(ty: FieldType) -> Option<(Dim, &'static str)> {
         | FieldType::Spectrum(b)
         | FieldType::Interval(b) => Some((b.dim, b.unit)),
         FieldType::Quantity(choices) => choices.first().copied(),
-        FieldType::Integer(..) | FieldType::IntegerOr(..) | FieldType::Scale => {
+        FieldType::Integer(..) | FieldType::IntegerOr(..) | FieldType::Scale | FieldType::Faces => {
             Some((Dim::NONE, ""))
         }
         FieldType::Vector(dim, unit) => Some((dim, unit)),
-        FieldType::Size(_) => Some((Dim::LENGTH, "m")),
+        FieldType::Size(_) | FieldType::Points => Some((Dim::LENGTH, "m")),
         FieldType::Pixels => Some((Dim::PIXEL, "px")),
         FieldType::Color(_)
         | FieldType::ColorSlot(_)
@@ -441,6 +445,8 @@ pub fn type_text(ty: FieldType) -> String {
         FieldType::Spectrum(b) => format!("{}, or three", noun(b.dim)),
         FieldType::Vector(dim, _) => dim.several(3),
         FieldType::Size(n) => format!("{n} lengths"),
+        FieldType::Points => "list of points".to_owned(),
+        FieldType::Faces => "list of faces".to_owned(),
         FieldType::Pixels => "width and height in pixels".to_owned(),
         FieldType::Color(_) => "colour".to_owned(),
         FieldType::ColorSlot(_) => "colour or texture".to_owned(),
@@ -487,6 +493,8 @@ pub fn range_text(ty: FieldType) -> String {
         FieldType::Scale => "not zero".to_owned(),
         FieldType::Group => format!("letters, digits, `_` and `-`, at most {MAX_GROUP}"),
         FieldType::Vector(..)
+        | FieldType::Points
+        | FieldType::Faces
         | FieldType::NormalSlot
         | FieldType::Word(_)
         | FieldType::Words(_)

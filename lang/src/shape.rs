@@ -8,9 +8,9 @@ use crate::schema::{Bounds, Default, Field, FieldType, Kind, TypeSchema, types, 
 use crate::source::Span;
 use crate::units::{self, Dim};
 
-types!(ShapeType { Sphere = SPHERE, Rectangle = RECTANGLE, Quad = QUAD, Box = BOX });
+types!(ShapeType { Sphere = SPHERE, Rectangle = RECTANGLE, Quad = QUAD, Box = BOX, Mesh = MESH });
 
-/// Arguments of a call by name, metres.
+/// Arguments of a call by name: lengths in metres, indices as they are; lists of tuples one after the other.
 pub(crate) type Lengths = BTreeMap<&'static str, Vec<f64>>;
 
 /// Geometry of an instance, object frame, metres.
@@ -35,6 +35,13 @@ pub enum Shape {
     Box {
         /// Sizes along x, y, z.
         size: [f64; 3],
+    },
+    /// A mesh whose points are in the text; flat, without texture coordinates.
+    Faces {
+        /// Positions.
+        points: Vec<[f64; 3]>,
+        /// Indices into `points`, counter-clockwise seen from the front. All of them exist.
+        triangles: Vec<[u32; 3]>,
     },
     /// A mesh file, or parts of it (OBJ group or object; solid of STL; glTF node or mesh).
     Mesh {
@@ -107,6 +114,12 @@ impl Shape {
                 Self::Quad { corners: [corner("a")?, corner("b")?, corner("c")?] }
             }
             ShapeType::Box => Self::Box { size: of("size")?.try_into().ok()? },
+            ShapeType::Mesh => Self::Faces {
+                points: of("points")?.as_chunks().0.to_vec(),
+                triangles: (of("faces")?.as_chunks().0.iter())
+                    .map(|corners: &[f64; 3]| corners.map(|index| index as u32))
+                    .collect(),
+            },
         })
     }
 
@@ -129,6 +142,19 @@ impl Shape {
             Self::Box { size: [x, y, z] } => {
                 Some(format!("box(size: ({}, {}, {})m)", number(*x), number(*y), number(*z)))
             }
+            Self::Faces { points, triangles } => {
+                let three = |[x, y, z]: &[f64; 3]| {
+                    format!("({}, {}, {})", number(*x), number(*y), number(*z))
+                };
+                let points: Vec<String> = points.iter().map(|p| three(p) + "m").collect();
+                let faces = triangles.iter().map(|corners| three(&corners.map(f64::from)));
+                let faces: Vec<String> = faces.collect();
+                Some(format!(
+                    "mesh(points: [{}], faces: [{}])",
+                    points.join(", "),
+                    faces.join(", ")
+                ))
+            }
             Self::Mesh { .. } => None,
         }
     }
@@ -140,6 +166,7 @@ impl Shape {
             Self::Rectangle { size } => size,
             Self::Quad { corners } => corners.as_flattened_mut(),
             Self::Box { size } => size,
+            Self::Faces { points, .. } => points.as_flattened_mut(),
             Self::Mesh { .. } => &mut [],
         }
     }
@@ -156,6 +183,12 @@ impl Shape {
         let around =
             |size: [f64; 3]| Some([size.map(|side| -0.5 * side), size.map(|side| 0.5 * side)]);
         match *self {
+            Self::Faces { ref points, .. } => {
+                let most = |k: usize, of: fn(f64, f64) -> f64| {
+                    points.iter().map(|p| p[k]).reduce(of).unwrap_or_default()
+                };
+                Some([[0, 1, 2].map(|k| most(k, f64::min)), [0, 1, 2].map(|k| most(k, f64::max))])
+            }
             Self::Sphere { radius } => around([2.0 * radius; 3]),
             Self::Rectangle { size: [x, z] } => around([x, 0.0, z]),
             Self::Quad { corners: [a, b, c] } => {
@@ -169,17 +202,42 @@ impl Shape {
         }
     }
 
-    /// Whether a quad has no area to speak of, because its corners lie on a line.
-    pub(crate) fn is_line(&self) -> bool {
-        let Self::Quad { corners: [a, b, c] } = self else { return false };
-        let edge = |p: &[f64; 3]| [0, 1, 2].map(|k| p[k] - b[k]);
-        let (u, v) = (edge(a), edge(c));
-        let length = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let cross =
-            [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-        // The sine of the angle between its sides.
-        let sine = length(cross) / (length(u) * length(v));
-        sine.is_nan() || sine < 1e-6
+    /// What is wrong with it, and what to write there.
+    pub(crate) fn flaw(&self) -> Option<Flaw> {
+        match self {
+            Self::Quad { corners } if is_line(corners) => {
+                let text = "the corners of this quad lie on a line: it has no area".to_owned();
+                Some(Flaw { text, label: "no area", face: None })
+            }
+            Self::Faces { points, triangles } => {
+                let n = points.len();
+                let lost = |index: &&u32| **index as usize >= n;
+                let wrong = |corners: &[u32; 3]| corners.iter().find(lost).copied();
+                let (face, index) =
+                    triangles.iter().enumerate().find_map(|(i, face)| Some((i, wrong(face)?)))?;
+                let text = format!("this face asks for point {index}, but there are {n} points");
+                let label = "points are counted from 0";
+                Some(Flaw { text, label, face: Some(face) })
+            }
+            _ => None,
+        }
+    }
+
+    /// Six times the volume that the triangles of a closed mesh of the text enclose; below 0 where their fronts look
+    /// inwards. `None` for all else.
+    #[must_use]
+    pub fn signed_volume(&self) -> Option<f64> {
+        let Self::Faces { points, triangles } = self else { return None };
+        if self.open().is_some() {
+            return None;
+        }
+        let volume = |corners: &[u32; 3]| {
+            let [a, b, c] = corners.map(|i| points[i as usize]);
+            a[0] * (b[1] * c[2] - b[2] * c[1])
+                + a[1] * (b[2] * c[0] - b[0] * c[2])
+                + a[2] * (b[0] * c[1] - b[1] * c[0])
+        };
+        Some(triangles.iter().map(volume).sum())
     }
 
     /// No point is farther from the origin, along any axis; 0 for a mesh.
@@ -188,7 +246,7 @@ impl Shape {
         match *self {
             Self::Sphere { radius } => radius,
             Self::Rectangle { size: [x, z] } => x.max(z),
-            Self::Quad { .. } => {
+            Self::Quad { .. } | Self::Faces { .. } => {
                 let ends = self.bounds().unwrap_or_default();
                 ends.as_flattened().iter().fold(0.0, |most, x| x.abs().max(most))
             }
@@ -203,9 +261,46 @@ impl Shape {
         match self {
             Self::Rectangle { .. } => Some("a rectangle"),
             Self::Quad { .. } => Some("a quad"),
+            Self::Faces { triangles, .. } if !is_closed(triangles) => {
+                Some("a mesh with open edges")
+            }
+            Self::Faces { .. } => None,
             Self::Sphere { .. } | Self::Box { .. } | Self::Mesh { .. } => None,
         }
     }
+}
+
+/// What is wrong with a shape.
+pub(crate) struct Flaw {
+    /// The message.
+    pub(crate) text: String,
+    /// What stands under the place.
+    pub(crate) label: &'static str,
+    /// The triangle that it is about, or else the whole shape.
+    pub(crate) face: Option<usize>,
+}
+
+/// Whether a quad has no area to speak of, because its corners lie on a line.
+fn is_line([a, b, c]: &[[f64; 3]; 3]) -> bool {
+    let edge = |p: &[f64; 3]| [0, 1, 2].map(|k| p[k] - b[k]);
+    let (u, v) = (edge(a), edge(c));
+    let length = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let cross = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    // The sine of the angle between its sides.
+    let sine = length(cross) / (length(u) * length(v));
+    sine.is_nan() || sine < 1e-6
+}
+
+/// Whether each edge has one triangle on either side.
+fn is_closed(triangles: &[[u32; 3]]) -> bool {
+    let mut sides: BTreeMap<[u32; 2], i64> = BTreeMap::new();
+    for [a, b, c] in triangles {
+        for [from, to] in [[a, b], [b, c], [c, a]] {
+            let way = if from < to { 1 } else { -1 };
+            *sides.entry([*from.min(to), *from.max(to)]).or_default() += way;
+        }
+    }
+    sides.values().all(|sum| *sum == 0)
 }
 
 /// The corner of a parallelogram that three others leave.
@@ -272,4 +367,31 @@ const BOX: TypeSchema = TypeSchema {
         "Full extent along x, y and z.",
     )],
     foreign: &[("cube", "Mitsuba, Blender"), ("cuboid", "common use")],
+};
+
+const MESH: TypeSchema = TypeSchema {
+    kind: Kind::Shape,
+    name: "mesh",
+    doc: "A small mesh whose points and faces are written here; larger ones come from files. Faces are flat. It has no \
+          texture coordinates, and an inside if every edge has a face on either side.",
+    example: "instance roof {
+  shape = mesh(
+    points: [(-1, 0, 1)m, (1, 0, 1)m, (1, 0, -1)m, (-1, 0, -1)m, (0, 1, 0)m],
+    faces: [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4), (3, 2, 1, 0)]
+  )
+  material = clay
+}",
+    fields: &[
+        Field::new("points", FieldType::Points, Default::Required, "Corners of its faces.")
+            .foreign(&[("vertices", "common use"), ("P", "pbrt"), ("positions", "Mitsuba")]),
+        Field::new(
+            "faces",
+            FieldType::Faces,
+            Default::Required,
+            "Three or four points of each face, counted from 0, counter-clockwise seen from its front. Of four, the \
+             edge from the first to the third is the fold.",
+        )
+        .foreign(&[("indices", "pbrt"), ("triangles", "common use"), ("face_indices", "POV-Ray")]),
+    ],
+    foreign: &[("trianglemesh", "pbrt"), ("mesh2", "POV-Ray"), ("polyhedron", "OpenSCAD")],
 };

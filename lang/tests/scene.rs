@@ -249,6 +249,39 @@ fn power_is_spread_over_the_sphere() {
 }
 
 #[test]
+fn a_mesh_of_the_text_has_points_and_faces() {
+    let mesh = |points: &str, faces: &str| {
+        let clay = "material clay: diffuse { color = linear(0.5) }";
+        let shape = format!("mesh(points: {points}, faces: {faces})");
+        with_view(&format!("{clay}\ninstance roof {{ shape = {shape}, material = clay }}"))
+    };
+    let tent = "[(0, 0, 0)m, (1, 0, 0)m, (1, 0, -1)m, (0, 0, -1)m, (50, 100, -50)cm]";
+    let closed = "[(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4), (3, 2, 1, 0)]";
+    let scene = scene_of_text(&mesh(tent, closed));
+    let shape = &scene.instances[0].shape;
+    let Shape::Faces { points, triangles } = shape else { panic!("{shape:?}") };
+    assert_eq!((points[4], triangles.len()), ([0.5, 1.0, -0.5], 6));
+    assert_eq!(triangles[4..], [[3, 2, 1], [3, 1, 0]]);
+    assert_eq!(shape.bounds(), Some([[0.0, 0.0, -1.0], [1.0, 1.0, 0.0]]));
+    // A third of the base times the height, six times.
+    assert_eq!((shape.open(), shape.signed_volume()), (None, Some(2.0)));
+    let open = scene_of_text(&mesh(tent, "[(0, 1, 4), (1, 2, 4)]"));
+    assert_eq!(open.instances[0].shape.open(), Some("a mesh with open edges"));
+    for (points, faces, wanted) in [
+        (tent, "[(0, 1, 5)]", "this face asks for point 5, but there are 5 points"),
+        (tent, "[(0, 1, 2.5)]", "a face names points by whole numbers from 0, found 2.5"),
+        (tent, "[(0, 1)]", "a face needs three or four plain numbers, found two plain numbers"),
+        (tent, "[(0, 1, -1)]", "a face names points by whole numbers from 0, found -1"),
+        (tent, "7", "`faces` needs a list of faces such as `[(0, 1, 2)]`"),
+        ("[(0, 0, 0)]", "[(0, 0, 0)]", "a point needs lengths, found plain numbers"),
+        ("[(0, 0)m]", "[(0, 0, 0)]", "a point needs three lengths, found two lengths"),
+    ] {
+        let errors = describe(&check_text(&mesh(points, faces)));
+        assert!(errors.contains(wanted), "{errors}");
+    }
+}
+
+#[test]
 fn a_quad_has_its_corners_and_an_area() {
     let quad = |corners: &str| {
         let clay = "material clay: diffuse { color = linear(0.5) }";

@@ -77,6 +77,7 @@ pub(super) fn corners(instance: &Instance, assets: &[MeshFacts]) -> Vec<[f64; 3]
             let d = fourth([*a, *b, *c]);
             return [*a, *b, *c, d].map(|p| place(instance, p)).to_vec();
         }
+        Shape::Faces { points, .. } => return points.iter().map(|p| place(instance, *p)).collect(),
         Shape::Sphere { .. } | Shape::Rectangle { .. } | Shape::Box { .. } => {
             instance.shape.bounds().into_iter().collect()
         }
@@ -107,7 +108,7 @@ pub(super) fn tight(instance: &Instance, assets: &[MeshFacts], meshes: &Meshes) 
             let end = |sign: f64| [0, 1, 2].map(|k| center[k] + sign * reach[k]);
             Bounds::of([end(-1.0), end(1.0)])
         }
-        Shape::Rectangle { .. } | Shape::Quad { .. } | Shape::Box { .. } => {
+        Shape::Rectangle { .. } | Shape::Quad { .. } | Shape::Box { .. } | Shape::Faces { .. } => {
             Bounds::of(corners(instance, assets))
         }
         Shape::Mesh { asset, parts } => {
@@ -125,6 +126,7 @@ pub(super) fn triangles(instance: &Instance, assets: &[MeshFacts]) -> Option<u64
         Shape::Sphere { .. } => None,
         Shape::Rectangle { .. } | Shape::Quad { .. } => Some(2),
         Shape::Box { .. } => Some(12),
+        Shape::Faces { triangles, .. } => Some(triangles.len() as u64),
         Shape::Mesh { asset, parts } => {
             let file = assets.get(*asset)?;
             let chosen = file.chosen(parts);

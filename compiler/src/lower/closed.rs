@@ -33,6 +33,9 @@ pub(super) fn check(
         if let Some(what) = instance.shape.open() {
             diagnostics.push(open(instance, &filling, format!("{what} has no inside")));
         }
+        if instance.shape.signed_volume().is_some_and(|volume| volume < 0.0) {
+            diagnostics.push(inverted(instance, &filling));
+        }
         let Shape::Mesh { asset, parts } = &instance.shape else { continue };
         let found = surface(*asset, parts, (files, stages))?;
         if found.boundary_edges > 0 {
@@ -103,8 +106,13 @@ fn open(instance: &Instance, filling: &Filling<'_>, what: String) -> Diagnostic 
 
 fn inverted(instance: &Instance, filling: &Filling<'_>) -> Diagnostic {
     let text = format!("this mesh of `{}` is inside out", filling.material);
+    let help = if matches!(instance.shape, Shape::Faces { .. }) {
+        "name the points of each face in the other order"
+    } else {
+        "flip the normals of the mesh in the program that made it"
+    };
     Diagnostic::error(Code("E0510"), text)
         .at(instance.shape_span, "the volume that its triangles enclose is negative")
         .with_note("triangles must be counter-clockwise seen from outside")
-        .with_help("flip the normals of the mesh in the program that made it")
+        .with_help(help)
 }

@@ -211,11 +211,11 @@ impl Placement {
         self.sphere_objects.push(object);
     }
 
-    /// A rectangle that loses one of its two triangles is no rectangle light.
+    /// What loses a triangle, because it has no area, is no light.
     fn add_faces(&mut self, stage: &Stage<'_>, object: u32, faces: &[Face], material: u32) {
         for face in faces {
             let first = self.corners.len() as u32;
-            for [a, b, c] in Face::TRIANGLES {
+            for [a, b, c] in face.halves().iter().copied() {
                 let uv = |corner: usize| face.uvs[corner].as_vec2().to_array();
                 let shade = abi::TriShade {
                     material,
@@ -228,14 +228,16 @@ impl Placement {
                 };
                 self.add(stage, &[a, b, c].map(|corner| face.corners[corner]), shade);
             }
-            let is_whole = self.corners.len() as u32 == first + 2;
+            let count = face.halves().len() as u32;
+            let is_whole = self.corners.len() as u32 == first + count;
             if is_whole && stage.materials.looks(material).glows {
                 // Between opposite corners.
                 let middle = 0.5 * (face.corners[0] + face.corners[2]);
+                let kind = if face.half { LightKind::Triangle } else { LightKind::Rectangle };
                 self.emitters.push(Emitter {
-                    kind: LightKind::Rectangle,
+                    kind,
                     primitive: first,
-                    count: 2,
+                    count,
                     material,
                     area: stage.receivers.weigh(face.area, middle),
                     facing: [0.0; 5],

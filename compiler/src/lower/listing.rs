@@ -45,7 +45,8 @@ pub fn listing(scene: &Scene, files: &dyn Files) -> Result<Listing, ImportError>
             Shape::Sphere { .. }
             | Shape::Rectangle { .. }
             | Shape::Quad { .. }
-            | Shape::Box { .. } => None,
+            | Shape::Box { .. }
+            | Shape::Faces { .. } => None,
         };
         by_asset.entry(asset).or_default().push(index);
     }

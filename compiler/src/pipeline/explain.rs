@@ -86,6 +86,7 @@ impl Explain<'_> {
             Shape::Rectangle { .. }
             | Shape::Quad { .. }
             | Shape::Box { .. }
+            | Shape::Faces { .. }
             | Shape::Mesh { .. } => false,
         };
         let first = |wanted: &dyn Fn(&Shape) -> bool, text: String| {

@@ -129,6 +129,7 @@ impl Context<'_> {
             Shape::Rectangle { .. } => ("rectangle", None),
             Shape::Quad { .. } => ("quad", None),
             Shape::Box { .. } => ("box", None),
+            Shape::Faces { .. } => ("mesh", None),
             Shape::Mesh { asset, parts } => ("mesh", Some((*asset, parts))),
         };
         let asset = mesh.and_then(|(asset, _)| self.scene.assets.get(asset));

@@ -218,6 +218,8 @@ impl Evaluator<'_> {
             FieldType::Vector(dim, unit) => self.fit_vector(slot, value, (dim, unit), 3),
             FieldType::Spectrum(bounds) => self.fit_spectrum(slot, value, bounds),
             FieldType::Size(n) => self.fit_size(slot, value, n),
+            FieldType::Points => self.fit_points(slot, value),
+            FieldType::Faces => self.fit_faces(slot, &value),
             FieldType::Pixels => self.fit_pixels(slot, value),
             FieldType::Color(max) => self.fit_color(slot, value, max),
             FieldType::ColorSlot(max) => match value {

@@ -176,9 +176,22 @@ impl Fields {
         let numbers = |field: &Field| match self.get(field.name)? {
             Value::Number(value, _) => Some((field.name, vec![value])),
             Value::Vector(values, _) => Some((field.name, values)),
+            Value::List(items) => {
+                let numbers = |(item, _): &(Value, Span)| match item {
+                    Value::Vector(values, _) => values.clone(),
+                    _ => Vec::new(),
+                };
+                Some((field.name, items.iter().flat_map(numbers).collect()))
+            }
             _ => None,
         };
         self.schema.fields.iter().filter_map(numbers).collect()
+    }
+
+    /// Where the entry of a list stands.
+    pub(crate) fn place_in(&self, name: &str, entry: usize) -> Option<Span> {
+        let Some(Value::List(items)) = self.get(name) else { return None };
+        items.get(entry).map(|(_, span)| *span)
     }
 
     /// A constant colour.

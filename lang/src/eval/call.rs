@@ -9,6 +9,7 @@ use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::resolve::{Found, did_you_mean, item_kind};
 use crate::scene::Shape;
 use crate::schema::{self, Kind};
+use crate::shape::Flaw;
 use crate::source::Span;
 use crate::syntax::{Arg, Expr, ExprKind, Ident, Path};
 use crate::units::Dim;
@@ -31,10 +32,9 @@ impl Evaluator<'_> {
         if let Some(schema) = schema::find_type(Kind::Shape, &name.text) {
             let fields = self.call_fields(schema, name, args, scope);
             let shape = Shape::read(schema, &fields.lengths()).filter(|_| fields.ok);
-            if shape.as_ref().is_some_and(Shape::is_line) {
-                let text = "the corners of this quad lie on a line: it has no area";
-                let error = Diagnostic::error(Code("E0401"), text).at(span, "no area");
-                return self.fault(error);
+            if let Some(Flaw { text, label, face }) = shape.as_ref().and_then(Shape::flaw) {
+                let place = face.and_then(|face| fields.place_in("faces", face)).unwrap_or(span);
+                return self.fault(Diagnostic::error(Code("E0401"), text).at(place, label));
             }
             return shape
                 .map_or(Value::Poison, |shape| Value::Shape(Rc::new(ShapeValue::Plain(shape))));

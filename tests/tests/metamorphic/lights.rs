@@ -58,6 +58,46 @@ fn a_quad_is_the_rectangle_with_its_corners() {
     assert_ne!(film(&down).means(), film(&quad).means());
 }
 
+/// A mesh of the text is the box with its corners, to the last bit, and mirrored, too.
+#[test]
+fn a_mesh_of_the_text_is_the_box_with_its_corners() {
+    let block = |shape: &str, scale: &str| {
+        let at = "at = (0.7, 0.5, 0.9)m, rotate = (0, 30, 0)deg";
+        let own = format!("instance block {{ shape = {shape}, material = clay, {at}{scale} }}\n");
+        compile(&self::text(&[SKY, PANEL, &own].concat()))
+    };
+    let mesh = "mesh(
+  points: [
+    (0.25, -0.5, -0.125)m, (0.25, 0.5, -0.125)m, (0.25, 0.5, 0.125)m, (0.25, -0.5, 0.125)m,
+    (-0.25, -0.5, -0.125)m, (-0.25, 0.5, -0.125)m, (-0.25, 0.5, 0.125)m, (-0.25, -0.5, 0.125)m,
+  ],
+  faces: [
+    (0, 1, 2, 3), (4, 7, 6, 5), (5, 6, 2, 1), (4, 0, 3, 7), (7, 3, 2, 6), (4, 5, 1, 0),
+  ],
+)";
+    for scale in ["", ", scale = (-1, 1, 2)"] {
+        let boxed = film(&block("box(size: (0.5, 1, 0.25)m)", scale));
+        assert_exact("a mesh of the text", &boxed, &film(&block(mesh, scale)), 1.0);
+    }
+    let smaller = mesh.replace("-0.125)m", "-0.0625)m");
+    assert_ne!(film(&block(&smaller, "")).means(), film(&block(mesh, "")).means());
+}
+
+/// A mesh of the text that glows is lights, as bright as the rectangle with its corners.
+#[test]
+fn a_glowing_mesh_of_the_text_is_as_bright_as_the_rectangle() {
+    let panel = |shape: &str| {
+        let own = format!("instance panel {{ shape = {shape}, material = lamp }}\n");
+        compile(&self::text(&[GLOBE, &own].concat()))
+    };
+    let corners = "[(-1, 3, -0.5)m, (1, 3, -0.5)m, (1, 3, 0.5)m, (-1, 3, 0.5)m]";
+    let mesh = panel(&format!("mesh(points: {corners}, faces: [(0, 1, 2, 3)])"));
+    let rectangle = panel("quad(a: (-1, 3, -0.5)m, b: (1, 3, -0.5)m, c: (1, 3, 0.5)m)");
+    assert_eq!((mesh.lowered.lights.len(), rectangle.lowered.lights.len()), (3, 2));
+    let means = [(&mesh, 3000), (&rectangle, 4000)].map(|(scene, seed)| Means::of(scene, seed));
+    assert_same_mean("a glowing mesh", &means[0], &means[1]);
+}
+
 /// A light that is off is an opaque black thing: the compiler makes no light of it, and every number is the
 /// same.
 #[test]

@@ -11,7 +11,7 @@ use lang::scene::{Instance, Light, Parts, Scene, Shape};
 use pack::abi::{self, NONE};
 
 use super::transform::Transform;
-use crate::import::{ImportError, PartFacts};
+use crate::import::ImportError;
 use crate::lower::grain;
 use crate::lower::light;
 use crate::lower::material::{MaterialRef, MaterialTable};
@@ -57,10 +57,12 @@ pub(in crate::lower) struct Ball {
     pub(in crate::lower) share: f64,
 }
 
-/// A parallelogram in the world, metres.
+/// A parallelogram or a triangle in the world, metres.
 pub(in crate::lower) struct Face {
     /// Counter-clockwise seen from its front.
     pub(in crate::lower) corners: [DVec3; 4],
+    /// It is the triangle of the first three corners.
+    pub(in crate::lower) half: bool,
     pub(in crate::lower) uvs: [DVec2; 4],
     /// Square metres.
     pub(in crate::lower) area: f64,
@@ -193,7 +195,7 @@ impl Body {
                     for uv in face.uvs {
                         key.floats(&uv.to_array());
                     }
-                    key.floats(&[face.area]);
+                    key.floats(&[face.area]).number(face.half);
                 }
                 material(key, *index);
             }
@@ -274,6 +276,7 @@ impl Maker<'_, '_> {
             Shape::Rectangle { size } => self.faces(&[rectangle(*size)]),
             Shape::Quad { corners } => self.faces(&[quad(*corners)]),
             Shape::Box { size } => self.faces(&box_faces(*size)),
+            Shape::Faces { points, triangles } => self.triangles(points, triangles, diagnostics),
             Shape::Mesh { asset, parts } => {
                 let mesh = self.mesh(*asset, parts, sheets, diagnostics);
                 match stored {
@@ -313,22 +316,47 @@ impl Maker<'_, '_> {
 
     fn faces(&mut self, faces: &[Parallelogram]) -> Form {
         let material = self.material(MaterialRef::Default);
-        let face = |[corner, edge1, edge2]: &Parallelogram| {
-            let origin = self.transform.point(*corner);
-            let (mut edge1, mut edge2) =
-                (self.transform.linear * *edge1, self.transform.linear * *edge2);
-            let mut uv = [DVec2::X, DVec2::Y];
+        Form::Faces(faces.iter().map(|face| self.face(face)).collect(), material)
+    }
+
+    /// A mesh of the text.
+    fn triangles(
+        &mut self,
+        points: &[[f64; 3]],
+        triangles: &[[u32; 3]],
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Form {
+        let material = self.material(MaterialRef::Default);
+        if reads_textures(&self.materials.records()[material as usize]) {
+            diagnostics.push(self.without_uvs("this mesh".to_owned()));
+        }
+        let face = |corners: &[u32; 3]| {
+            let place = |i: u32| self.transform.point(DVec3::from(points[i as usize]));
+            let [a, mut b, mut c] = corners.map(place);
             if self.transform.mirrors {
-                (edge1, edge2) = (edge2, edge1);
-                uv.swap(0, 1);
+                (b, c) = (c, b);
             }
-            Face {
-                corners: [origin, origin + edge1, origin + edge1 + edge2, origin + edge2],
-                uvs: [DVec2::ZERO, uv[0], DVec2::ONE, uv[1]],
-                area: edge1.cross(edge2).length(),
-            }
+            let area = 0.5 * (b - a).cross(c - a).length();
+            Face { corners: [a, b, c, c], uvs: [DVec2::ZERO; 4], half: true, area }
         };
-        Form::Faces(faces.iter().map(face).collect(), material)
+        Form::Faces(triangles.iter().map(face).collect(), material)
+    }
+
+    fn face(&self, [corner, edge1, edge2]: &Parallelogram) -> Face {
+        let origin = self.transform.point(*corner);
+        let (mut edge1, mut edge2) =
+            (self.transform.linear * *edge1, self.transform.linear * *edge2);
+        let mut uv = [DVec2::X, DVec2::Y];
+        if self.transform.mirrors {
+            (edge1, edge2) = (edge2, edge1);
+            uv.swap(0, 1);
+        }
+        Face {
+            corners: [origin, origin + edge1, origin + edge1 + edge2, origin + edge2],
+            uvs: [DVec2::ZERO, uv[0], DVec2::ONE, uv[1]],
+            half: false,
+            area: edge1.cross(edge2).length(),
+        }
     }
 
     fn mesh(
@@ -360,7 +388,12 @@ impl Maker<'_, '_> {
             }
             parts.push((index, material));
         }
-        diagnostics.extend(bare.map(|part| self.without_uvs(part)));
+        diagnostics.extend(bare.map(|part| {
+            self.without_uvs(match part.name.as_str() {
+                "" => format!("the mesh of `{}`", self.instance.name.text),
+                name => format!("`{name}`"),
+            })
+        }));
         MeshForm { asset, parts, own: is_own, sheets, content: content.end() }
     }
 
@@ -381,11 +414,7 @@ impl Maker<'_, '_> {
 
     /// Textures are to be read where there are no texture coordinates. A file that says both itself is taken
     /// as it is: its textures are read at one point.
-    fn without_uvs(&self, part: &PartFacts) -> Diagnostic {
-        let name = match part.name.as_str() {
-            "" => format!("the mesh of `{}`", self.instance.name.text),
-            name => format!("`{name}`"),
-        };
+    fn without_uvs(&self, name: String) -> Diagnostic {
         let text = format!("{name} has no texture coordinates, but its material reads textures");
         let mesh = self.instance.shape_span;
         match self.instance.material_span {
@@ -443,11 +472,13 @@ impl Maker<'_, '_> {
 }
 
 impl Face {
-    /// Its two triangles, by corner.
-    pub(in crate::lower) const TRIANGLES: [[usize; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
+    /// Its triangles, by corner.
+    pub(in crate::lower) fn halves(&self) -> &'static [[usize; 3]] {
+        if self.half { &[[0, 1, 2]] } else { &[[0, 1, 2], [0, 2, 3]] }
+    }
 
-    pub(in crate::lower) fn triangles(&self) -> [[DVec3; 3]; 2] {
-        Self::TRIANGLES.map(|corners| corners.map(|corner| self.corners[corner]))
+    pub(in crate::lower) fn triangles(&self) -> impl Iterator<Item = [DVec3; 3]> {
+        self.halves().iter().map(|corners| corners.map(|corner| self.corners[corner]))
     }
 }
 
