@@ -463,6 +463,22 @@ fn mtl_transparency_emission_and_images() {
     assert_eq!(mesh.report.files.len(), 4, "the mesh, the library, the image in two roles");
 }
 
+/// MeshLab writes `Tr 1` for what is opaque.
+#[test]
+fn what_would_be_invisible_is_opaque() {
+    let mtl: &[u8] = b"newmtl a\nTr 1\nillum 2\nnewmtl b\nd 0\nTr 1\n";
+    let text = format!("mtllib a.mtl\n{SQUARE}usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n");
+    let mesh = load_with(text.as_bytes(), &[("a.mtl", mtl)]).expect("good");
+    let [a, b] = &mesh.materials[..] else { panic!("{:?}", mesh.materials) };
+    assert_eq!((a.alpha, b.alpha), (1.0, 0.0));
+    let said = warnings(&mesh);
+    assert_eq!(said.len(), 1, "{said:?}");
+    assert!(
+        said[0].ends_with("`Tr 1` would make it invisible; it is taken for opaque"),
+        "{said:?}"
+    );
+}
+
 #[test]
 fn thread_count_does_not_change_the_result() {
     let mut text = String::new();

@@ -88,12 +88,12 @@ fn a_mesh_of_the_text_is_the_box_with_its_corners() {
 fn a_glowing_mesh_of_the_text_is_as_bright_as_the_rectangle() {
     let panel = |shape: &str| {
         let own = format!("instance panel {{ shape = {shape}, material = lamp }}\n");
-        compile(&self::text(&[GLOBE, &own].concat()))
+        compile(&self::text(&[SKY, GLOBE, &own].concat()))
     };
     let corners = "[(-1, 3, -0.5)m, (1, 3, -0.5)m, (1, 3, 0.5)m, (-1, 3, 0.5)m]";
     let mesh = panel(&format!("mesh(points: {corners}, faces: [(0, 1, 2, 3)])"));
     let rectangle = panel("quad(a: (-1, 3, -0.5)m, b: (1, 3, -0.5)m, c: (1, 3, 0.5)m)");
-    assert_eq!((mesh.lowered.lights.len(), rectangle.lowered.lights.len()), (3, 2));
+    assert_eq!((mesh.lowered.lights.len(), rectangle.lowered.lights.len()), (4, 3));
     let means = [(&mesh, 3000), (&rectangle, 4000)].map(|(scene, seed)| Means::of(scene, seed));
     assert_same_mean("a glowing mesh", &means[0], &means[1]);
 }

@@ -270,7 +270,7 @@ fn convert(
     out.alpha_map = maps.load(mtl.dissolve_texture.as_deref(), ColorSpace::Data, Alpha::Mask)?;
     set_colors(&mut out, mtl, &place, report);
     set_gloss(&mut out, mtl);
-    set_transparency(&mut out, mtl);
+    set_transparency(&mut out, mtl, &place, report);
     Ok(out)
 }
 
@@ -325,8 +325,18 @@ fn set_gloss(out: &mut ImportedMaterial, mtl: &tobj::Material) {
     }
 }
 
-fn set_transparency(out: &mut ImportedMaterial, mtl: &tobj::Material) {
-    let tr = mtl.unknown_param.get("Tr").and_then(|s| s.parse::<f64>().ok());
+/// `Tr` is one less `d`; but `Tr 1` alone is how MeshLab writes what is opaque, and nobody what is not there.
+fn set_transparency(
+    out: &mut ImportedMaterial,
+    mtl: &tobj::Material,
+    place: &str,
+    report: &mut ImportReport,
+) {
+    let mut tr = mtl.unknown_param.get("Tr").and_then(|s| s.parse::<f64>().ok());
+    if mtl.dissolve.is_none() && tr.is_some_and(|tr| tr >= 1.0) {
+        tr = None;
+        report.warn(place, "`Tr 1` would make it invisible; it is taken for opaque");
+    }
     let coverage = mtl.dissolve.map(f64::from).or(tr.map(|tr| 1.0 - tr));
     let coverage = coverage.map(|d| d.clamp(0.0, 1.0));
     match (mtl.illumination_model, coverage) {
