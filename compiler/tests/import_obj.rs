@@ -463,7 +463,7 @@ fn mtl_transparency_emission_and_images() {
     assert_eq!(mesh.report.files.len(), 4, "the mesh, the library, the image in two roles");
 }
 
-/// MeshLab writes `Tr 1` for what is opaque.
+/// Some programs write `Tr 1` for what is opaque.
 #[test]
 fn what_would_be_invisible_is_opaque() {
     let mtl: &[u8] = b"newmtl a\nTr 1\nillum 2\nnewmtl b\nd 0\nTr 1\n";

@@ -78,6 +78,16 @@ const CASES: &[(&str, &[&str])] = &[
          instance hill { shape = rock, material = m, scale = 30, at = (0, -2, 0)m }",
         &["W0717 the camera is inside of `hill`, and no light is in there (write `fit = hill` in the camera)"],
     ),
+    (
+        "instance tent {
+           shape = mesh(
+             points: [(-30, -20, -20)m, (30, -20, -20)m, (0, -20, 40)m, (0, 40, 0)m],
+             faces: [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)],
+           )
+           material = m
+         }",
+        &["W0717 the camera is inside of `tent`, and no light is in there (write `fit = tent` in the camera)"],
+    ),
     // A room is no mistake, nor is what is open or lets light through.
     (
         "instance room { shape = box(size: (20, 20, 20)m), material = m }
@@ -87,6 +97,36 @@ const CASES: &[(&str, &[&str])] = &[
     (
         "asset rock = obj(\"rock.obj\", unit: m, up: +y)
          instance hill { shape = rock.sides, material = m, scale = 30, at = (0, -2, 0)m }",
+        &[],
+    ),
+    (
+        "instance tent {
+           shape = mesh(
+             points: [(-30, -20, -20)m, (30, -20, -20)m, (0, -20, 40)m, (0, 40, 0)m],
+             faces: [(0, 1, 3), (1, 2, 3), (2, 0, 3)],
+           )
+           material = m
+         }",
+        &[],
+    ),
+    (
+        "instance tent {
+           shape = mesh(
+             points: [(-30, -20, -20)m, (30, -20, -20)m, (0, -20, 40)m, (0, 40, 0)m],
+             faces: [(0, 2, 1), (1, 2, 3), (2, 0, 3)],
+           )
+           material = m
+         }",
+        &[],
+    ),
+    (
+        "instance tent {
+           shape = mesh(
+             points: [(-30, -20, -20)m, (30, -20, -20)m, (0, -20, 40)m, (0, 40, 0)m],
+             faces: [(0, 2, 1), (0, 1, 3), (2, 0, 3)],
+           )
+           material = m
+         }",
         &[],
     ),
     (

@@ -116,9 +116,7 @@ impl Shape {
             ShapeType::Box => Self::Box { size: of("size")?.try_into().ok()? },
             ShapeType::Mesh => Self::Faces {
                 points: of("points")?.as_chunks().0.to_vec(),
-                triangles: (of("faces")?.as_chunks().0.iter())
-                    .map(|corners: &[f64; 3]| corners.map(|index| index as u32))
-                    .collect(),
+                triangles: of("faces")?.as_chunks().0.iter().map(indices).collect(),
             },
         })
     }
@@ -219,11 +217,15 @@ impl Shape {
                 let label = "points are counted from 0";
                 Some(Flaw { text, label, face: Some(face) })
             }
-            _ => None,
+            Self::Quad { .. }
+            | Self::Sphere { .. }
+            | Self::Rectangle { .. }
+            | Self::Box { .. }
+            | Self::Mesh { .. } => None,
         }
     }
 
-    /// Six times the volume that the triangles of a closed mesh of the text enclose; below 0 where their fronts look
+    /// The volume that the triangles of a closed mesh of the text enclose, cubic metres; below 0 where their fronts look
     /// inwards. `None` for all else.
     #[must_use]
     pub fn signed_volume(&self) -> Option<f64> {
@@ -237,7 +239,7 @@ impl Shape {
                 + a[1] * (b[2] * c[0] - b[0] * c[2])
                 + a[2] * (b[0] * c[1] - b[1] * c[0])
         };
-        Some(triangles.iter().map(volume).sum())
+        Some(triangles.iter().map(volume).sum::<f64>() / 6.0)
     }
 
     /// No point is farther from the origin, along any axis; 0 for a mesh.
@@ -264,10 +266,15 @@ impl Shape {
             Self::Faces { triangles, .. } if !is_closed(triangles) => {
                 Some("a mesh with open edges")
             }
-            Self::Faces { .. } => None,
-            Self::Sphere { .. } | Self::Box { .. } | Self::Mesh { .. } => None,
+            Self::Faces { .. } | Self::Sphere { .. } | Self::Box { .. } | Self::Mesh { .. } => None,
         }
     }
+}
+
+/// The corners of a face.
+#[expect(clippy::cast_possible_truncation, reason = "they were checked to be whole and inside u32")]
+fn indices(corners: &[f64; 3]) -> [u32; 3] {
+    corners.map(|index| index as u32)
 }
 
 /// What is wrong with a shape.

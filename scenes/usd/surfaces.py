@@ -129,7 +129,8 @@ class Surfaces:
         fits = len(files) == 1 and all(not isinstance(x, Texture) or x.channels == channel
                                        for x, channel in ((rough, "g"), (metal, "b")))
         if files and not fits:
-            self.say(f"material {name}: textures of roughness and metallic are not green and blue of one image; left out")
+            self.say(f"material {name}: textures of roughness and metallic are not green and blue of one image; they are "
+                     "left out")
         for key, value, default in (("roughnessFactor", rough, 0.5), ("metallicFactor", metal, 0.0)):
             if isinstance(value, Texture):
                 pbr[key] = 1.0 if fits else default

@@ -28,7 +28,8 @@ DISK = 48
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("stage", type=Path, help="a .usd, .usda, .usdc or .usdz file")
-    parser.add_argument("-o", "--output", type=Path, help="the scene text [default: the stage's name in the working folder]")
+    parser.add_argument("-o", "--output", type=Path,
+                        help="the scene text [default: the stage's name in the working folder]")
     parser.add_argument("--time", type=float, help="time code of the moment that is shown [default: the first]")
     parser.add_argument("--camera", help="path or name of the camera [default: the first]")
     args = parser.parse_args()
@@ -261,8 +262,8 @@ class Converter:
         angle = 2 * math.degrees(math.atan(camera.GetHorizontalApertureAttr().Get(self.time) / (2 * focal)))
         if camera.GetProjectionAttr().Get() == UsdGeom.Tokens.orthographic:
             width = camera.GetHorizontalApertureAttr().Get(self.time) * tenth
-            return (f"camera eye: orthographic {{ from = {numbers(at)}m, to = {numbers(at + view)}m, up = {numbers(up)}, "
-                    f"width = {width:.7g}m }}", size)
+            return (f"camera eye: orthographic {{ from = {numbers(at)}m, to = {numbers(at + view)}m, "
+                    f"up = {numbers(up)}, width = {width:.7g}m }}", size)
         return (f"camera eye: perspective {{ from = {numbers(at)}m, to = {numbers(at + view * focus)}m, "
                 f"up = {numbers(up)}, fov.horizontal = {angle:.7g}deg{lens} }}", size)
 

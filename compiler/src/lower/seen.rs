@@ -189,7 +189,7 @@ impl Look<'_> {
             Form::Faces(faces, _) => {
                 let triangles = faces.iter().flat_map(Face::triangles);
                 let hits = triangles.filter(|corners| hit_triangle(corners, p).is_some());
-                faces.len() > 1 && odd(hits.count())
+                !self.is_open(body) && odd(hits.count())
             }
             Form::Mesh(_) | Form::Stored(..) => {
                 let instance = self.scene.instances.get(body.object as usize);
@@ -200,6 +200,12 @@ impl Look<'_> {
                 self.mesh_encloses((*asset, parts), body, p)?
             }
         })
+    }
+
+    /// Whether a shape that needs no file encloses nothing.
+    fn is_open(&self, body: &Body) -> bool {
+        let instance = self.scene.instances.get(body.object as usize);
+        instance.is_some_and(|instance| instance.shape.open().is_some())
     }
 
     fn mesh_encloses(
@@ -254,11 +260,10 @@ impl Look<'_> {
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Result<(), ImportError> {
         let lamps: Vec<&Boxed<'_>> = things.iter().filter(|thing| thing.glows).collect();
-        let solids = things.iter().enumerate().filter(|(i, thing)| {
-            // A rectangle encloses nothing.
-            let flat = matches!(&thing.body.form, Form::Faces(faces, _) if faces.len() == 1);
-            thing.opaque && !flat && !rooms.contains(i)
-        });
+        let solids = things
+            .iter()
+            .enumerate()
+            .filter(|(i, thing)| thing.opaque && !self.is_open(thing.body) && !rooms.contains(i));
         let solids: Vec<&Boxed<'_>> = solids.map(|(_, thing)| thing).collect();
         if lamps.len().saturating_mul(solids.len()) > MOST_PAIRS {
             return Ok(());

@@ -325,7 +325,7 @@ fn set_gloss(out: &mut ImportedMaterial, mtl: &tobj::Material) {
     }
 }
 
-/// `Tr` is one less `d`; but `Tr 1` alone is how MeshLab writes what is opaque, and nobody what is not there.
+/// `Tr` is one less `d`. `Tr 1` alone would make a surface invisible, but some programs write it for opaque ones.
 fn set_transparency(
     out: &mut ImportedMaterial,
     mtl: &tobj::Material,

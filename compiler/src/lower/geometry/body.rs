@@ -328,7 +328,7 @@ impl Maker<'_, '_> {
     ) -> Form {
         let material = self.material(MaterialRef::Default);
         if reads_textures(&self.materials.records()[material as usize]) {
-            diagnostics.push(self.without_uvs("this mesh".to_owned()));
+            diagnostics.push(self.without_uvs("this mesh"));
         }
         let face = |corners: &[u32; 3]| {
             let place = |i: u32| self.transform.point(DVec3::from(points[i as usize]));
@@ -388,11 +388,9 @@ impl Maker<'_, '_> {
             }
             parts.push((index, material));
         }
-        diagnostics.extend(bare.map(|part| {
-            self.without_uvs(match part.name.as_str() {
-                "" => format!("the mesh of `{}`", self.instance.name.text),
-                name => format!("`{name}`"),
-            })
+        diagnostics.extend(bare.map(|part| match part.name.as_str() {
+            "" => self.without_uvs(&format!("the mesh of `{}`", self.instance.name.text)),
+            name => self.without_uvs(&format!("`{name}`")),
         }));
         MeshForm { asset, parts, own: is_own, sheets, content: content.end() }
     }
@@ -414,7 +412,7 @@ impl Maker<'_, '_> {
 
     /// Textures are to be read where there are no texture coordinates. A file that says both itself is taken
     /// as it is: its textures are read at one point.
-    fn without_uvs(&self, name: String) -> Diagnostic {
+    fn without_uvs(&self, name: &str) -> Diagnostic {
         let text = format!("{name} has no texture coordinates, but its material reads textures");
         let mesh = self.instance.shape_span;
         match self.instance.material_span {
