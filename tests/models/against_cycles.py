@@ -189,7 +189,8 @@ def main():
             try:
                 rows.append(compare(model, args, work))
             except Refused as error:
-                rows.append([f"`{model.name}`", *["-"] * (len(rows[0]) - 2), str(error)])
+                said = str(error).replace(f"{model.parent}/", "")
+                rows.append([f"`{model.name}`", *["-"] * (len(rows[0]) - 2), said])
     import bpy
 
     table = "\n".join("| " + " | ".join(row) + " |" for row in rows)
