@@ -474,7 +474,7 @@ fn what_would_be_invisible_is_opaque() {
     let said = warnings(&mesh);
     assert_eq!(said.len(), 1, "{said:?}");
     assert!(
-        said[0].ends_with("`Tr 1` would make it invisible; it is taken for opaque"),
+        said[0].ends_with("`Tr 1` would make this material invisible; it is read as opaque"),
         "{said:?}"
     );
 }

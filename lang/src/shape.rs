@@ -36,7 +36,7 @@ pub enum Shape {
         /// Sizes along x, y, z.
         size: [f64; 3],
     },
-    /// A mesh whose points are in the text; flat, without texture coordinates.
+    /// A mesh that is written in the scene; without normals and texture coordinates.
     Faces {
         /// Positions.
         points: Vec<[f64; 3]>,
@@ -200,7 +200,7 @@ impl Shape {
         }
     }
 
-    /// What is wrong with it, and what to write there.
+    /// What is wrong with it, if anything.
     pub(crate) fn flaw(&self) -> Option<Flaw> {
         match self {
             Self::Quad { corners } if is_line(corners) => {
@@ -213,8 +213,8 @@ impl Shape {
                 let wrong = |corners: &[u32; 3]| corners.iter().find(lost).copied();
                 let (face, index) =
                     triangles.iter().enumerate().find_map(|(i, face)| Some((i, wrong(face)?)))?;
-                let text = format!("this face asks for point {index}, but there are {n} points");
-                let label = "points are counted from 0";
+                let text = format!("this face has index {index}, but there are {n} points");
+                let label = "indices start at 0";
                 Some(Flaw { text, label, face: Some(face) })
             }
             Self::Quad { .. }
@@ -225,7 +225,7 @@ impl Shape {
         }
     }
 
-    /// The volume that the triangles of a closed mesh of the text enclose, cubic metres; below 0 where their fronts look
+    /// The volume that a closed mesh in the scene encloses, cubic metres; below 0 where their fronts look
     /// inwards. `None` for all else.
     #[must_use]
     pub fn signed_volume(&self) -> Option<f64> {
@@ -379,8 +379,8 @@ const BOX: TypeSchema = TypeSchema {
 const MESH: TypeSchema = TypeSchema {
     kind: Kind::Shape,
     name: "mesh",
-    doc: "A small mesh whose points and faces are written here; larger ones come from files. Faces are flat. It has no \
-          texture coordinates, and an inside if every edge has a face on either side.",
+    doc: "A small mesh written in the scene; larger ones come from files. Its normals are those of its faces, and it \
+          has no texture coordinates. It has an inside if every edge belongs to two faces.",
     example: "instance roof {
   shape = mesh(
     points: [(-1, 0, 1)m, (1, 0, 1)m, (1, 0, -1)m, (-1, 0, -1)m, (0, 1, 0)m],
@@ -395,8 +395,8 @@ const MESH: TypeSchema = TypeSchema {
             "faces",
             FieldType::Faces,
             Default::Required,
-            "Three or four points of each face, counted from 0, counter-clockwise seen from its front. Of four, the \
-             edge from the first to the third is the fold.",
+            "Indices of the three or four points of each face, from 0, counter-clockwise seen from its front. Four are \
+             split along the diagonal from the first to the third.",
         )
         .foreign(&[("indices", "pbrt"), ("triangles", "common use"), ("face_indices", "POV-Ray")]),
     ],

@@ -269,10 +269,10 @@ fn a_mesh_of_the_text_has_points_and_faces() {
     let open = scene_of_text(&mesh(tent, "[(0, 1, 4), (1, 2, 4)]"));
     assert_eq!(open.instances[0].shape.open(), Some("a mesh with open edges"));
     for (points, faces, wanted) in [
-        (tent, "[(0, 1, 5)]", "this face asks for point 5, but there are 5 points"),
-        (tent, "[(0, 1, 2.5)]", "a face names points by whole numbers from 0, found 2.5"),
+        (tent, "[(0, 1, 5)]", "this face has index 5, but there are 5 points"),
+        (tent, "[(0, 1, 2.5)]", "an index of a point is a whole number from 0, found 2.5"),
         (tent, "[(0, 1)]", "a face needs three or four plain numbers, found two plain numbers"),
-        (tent, "[(0, 1, -1)]", "a face names points by whole numbers from 0, found -1"),
+        (tent, "[(0, 1, -1)]", "an index of a point is a whole number from 0, found -1"),
         (tent, "7", "`faces` needs a list of faces such as `[(0, 1, 2)]`"),
         ("[(0, 0, 0)]", "[(0, 0, 0)]", "a point needs lengths, found plain numbers"),
         ("[(0, 0)m]", "[(0, 0, 0)]", "a point needs three lengths, found two lengths"),

@@ -66,11 +66,10 @@ def triangles(mesh, time, faces=None):
         starts.append(at)
         at += count
     all_faces = [list(indices[s:s + n]) for s, n in zip(starts, counts)]
-    normal, uv = normals(mesh, time), uvs(mesh, time)
+    normal, uv, sign = normals(mesh, time), uvs(mesh, time), 1
     if normal is None and mesh.GetSubdivisionSchemeAttr().Get() != UsdGeom.Tokens.none:
-        normal = smooth(points, all_faces)
-    # Outwards, as the corners are turned.
-    sign = -1 if left and normal and not normals(mesh, time) else 1
+        # Turned as the corners are.
+        normal, sign = smooth(points, all_faces), -1 if left else 1
     out = []
     for face, corners in enumerate(all_faces):
         if face in holes or wanted is not None and face not in wanted:

@@ -102,9 +102,9 @@ class Converter:
             self.glb.node(str(prim.GetPath()), mesh, [x for row in matrix for x in row])
 
     def mesh(self, prim):
-        """The index of its mesh; instances share theirs."""
+        """The index of its mesh; instances that look the same share theirs."""
         source = prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim
-        key = source.GetPath()
+        key = source.GetPath(), self.material(prim)
         if key not in self.meshes:
             primitives = [self.glb.primitive(corners, material) for corners, material in self.parts(prim) if corners]
             self.meshes[key] = self.glb.mesh(prim.GetName(), primitives) if primitives else None

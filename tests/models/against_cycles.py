@@ -46,7 +46,7 @@ repository.
 
 - **Mean, largest difference**: of the luminance of tiles of {tile} x {tile} pixels, over that of the tile in Cycles. Only
   tiles that show the model count.
-- **Noise**: what the mean would be of two pictures that differ by noise alone.
+- **Noise**: the mean difference that noise alone would give.
 """
 
 

@@ -30,8 +30,8 @@ PAGE = """# Against an earlier build
 
 <!-- Printed by `tests/peers/builds.py`. -->
 
-What equal error costs now and before. The builds take turns on one machine with the same texts; each says its own
-noise, by how its pictures of several seeds differ, so that models may have changed in between.
+What equal error costs now and before. The builds take turns on one machine with the same texts. The
+noise of each is estimated from its own pictures of several seeds, so that models may have changed in between.
 
 Old: {old}. New: {new}. {spp} samples a pixel, {seeds} pictures of each; {threads} threads of {machine}.
 
@@ -41,7 +41,7 @@ Old: {old}. New: {new}. {spp} samples a pixel, {seeds} pictures of each; {thread
 - **relMSE**: the variance of a pixel's luminance Y over Y^2 + e^2, where e is a hundredth of the mean of the picture;
   the worst 0.1 % of the pixels are left out, the others averaged.
 - **CPU s for equal error**: cost times relMSE, as errors of independent samples go. Sobol's fall a little faster, so a
-  gain in noise is worth rather more than it says.
+  gain in noise is worth slightly more than shown.
 """
 
 # Too long to build for what they say here.

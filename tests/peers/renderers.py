@@ -5,11 +5,9 @@ has a home folder of its own, where Dr.Jit would find compiled kernels.
 """
 
 import math
-import os
 import shutil
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import mitsuba as mi

@@ -107,7 +107,7 @@ fn open(instance: &Instance, filling: &Filling<'_>, what: String) -> Diagnostic 
 fn inverted(instance: &Instance, filling: &Filling<'_>) -> Diagnostic {
     let text = format!("this mesh of `{}` is inside out", filling.material);
     let help = if matches!(instance.shape, Shape::Faces { .. }) {
-        "name the points of each face in the other order"
+        "reverse the order of the points in each face"
     } else {
         "flip the normals of the mesh in the program that made it"
     };

@@ -211,7 +211,7 @@ impl Placement {
         self.sphere_objects.push(object);
     }
 
-    /// What loses a triangle, because it has no area, is no light.
+    /// A face that loses a triangle without area is no light.
     fn add_faces(&mut self, stage: &Stage<'_>, object: u32, faces: &[Face], material: u32) {
         for face in faces {
             let first = self.corners.len() as u32;

@@ -43,8 +43,8 @@ impl Evaluator<'_> {
             };
             let index = |x: &f64| x.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(x);
             if let Some(wrong) = corners.iter().find(|x| !index(x)) {
-                let text = format!("a face names points by whole numbers from 0, found {wrong}");
-                let error = Diagnostic::error(Code("E0401"), text).at(*span, "no point");
+                let text = format!("an index of a point is a whole number from 0, found {wrong}");
+                let error = Diagnostic::error(Code("E0401"), text).at(*span, "no index");
                 return self.number_fault(error);
             }
             for [b, c] in corners[1..].array_windows() {

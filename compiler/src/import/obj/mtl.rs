@@ -335,7 +335,7 @@ fn set_transparency(
     let mut tr = mtl.unknown_param.get("Tr").and_then(|s| s.parse::<f64>().ok());
     if mtl.dissolve.is_none() && tr.is_some_and(|tr| tr >= 1.0) {
         tr = None;
-        report.warn(place, "`Tr 1` would make it invisible; it is taken for opaque");
+        report.warn(place, "`Tr 1` would make this material invisible; it is read as opaque");
     }
     let coverage = mtl.dissolve.map(f64::from).or(tr.map(|tr| 1.0 - tr));
     let coverage = coverage.map(|d| d.clamp(0.0, 1.0));

@@ -95,7 +95,7 @@ lanes! {
     fn ne_b(a: B, b: B) -> B { xor_b(a, b) }
 
     // One or the other, lane by lane. By bytes, floats too: a blend of words that is stored where its old value came
-    // from becomes a store under a mask, which takes AMD's processors some twenty operations.
+    // from becomes a masked store, which is slow on processors of AMD.
     fn select_f(m: B, yes: F, no: F) -> F {
         let (no, yes) = (_mm256_castps_si256(no.0), _mm256_castps_si256(yes.0));
         F(_mm256_castsi256_ps(_mm256_blendv_epi8(no, yes, m.0)))
