@@ -104,7 +104,7 @@ fn pixel(
         let key = kernel.sample_key(pixel, sample, job.seed);
         let mut path = kernel.path_begin(key, pixel);
         while !kernel.path_ended(path) {
-            let ray = kernel.path_ray(path);
+            let ray = kernel.path_ray(&mut path);
             let before = path.segments;
             let hit = kernel.trace(ray);
             if sample < job.samples.start + recorded {

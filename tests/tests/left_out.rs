@@ -40,7 +40,7 @@ const CASES: &[Case] = &[
         without: "",
         busy: "medium thin: homogeneous { sigma_s = (0.1, 0, 0)/m }\nAIR thin\n",
         bits: bit::MEDIA | bit::SCATTERING,
-        words: &["homogeneous_sample", "phase_sample", "struct Volume"],
+        words: &["homogeneous_weight", "phase_sample", "struct Volume"],
     },
     Case {
         name: "a medium that nothing is filled with",

@@ -114,7 +114,7 @@ macro_rules! precision {
                 let mut path = kernel.path_begin(key, pixel);
                 let mut found = Sample::default();
                 while !kernel.path_ended(path) {
-                    let ray = kernel.path_ray(path);
+                    let ray = kernel.path_ray(&mut path);
                     let shadow = path.shadow_light != NONE;
                     let pdf = if shadow { 0.0 } else { f64::from(path.pdf) };
                     let throughput = path.throughput;

@@ -71,7 +71,7 @@ macro_rules! precision {
                 let (mut met, mut of_sky) = (false, false);
                 while !kernel.path_ended(*path) {
                     let (light, scattered) = (path.shadow_light, path.scattered);
-                    let ray = kernel.path_ray(*path);
+                    let ray = kernel.path_ray(path);
                     let hit = kernel.trace(ray);
                     let found = kernel.lights_advance(path, hit);
                     let emitter = match (light, hit.prim, hit.prim & k::PRIM_SPHERE) {

@@ -76,7 +76,9 @@ pub(crate) fn segment(features: &FeatureSet) -> String {
         "kernel/segment.wgsl",
         "kernel/state.wgsl",
         "kernel/vertex.wgsl",
+        "scene/constants.wgsl",
         "scene/fog.wgsl",
+        "scene/records.wgsl",
         "trace/ray.wgsl",
     ]);
     let medium = match (features.media, features.scattering) {
@@ -91,6 +93,14 @@ pub(crate) fn segment(features: &FeatureSet) -> String {
     } else {
         String::new()
     };
+    // Fog glows along the whole segment, wherever a medium scatters the path.
+    let reach = match (features.media && features.scattering, features.fog) {
+        (true, false) => "    return segment_reach(path);\n",
+        (true, true) => "    return select(RAY_FAR, segment_reach(path), load_frame_fog() == NONE);\n",
+        (false, _) => "    return RAY_FAR;\n",
+    };
+    let comment = "How far along the path's next segment its ray has to look.";
+    function(&mut text, comment, "dispatch_segment_reach(path: ptr<function, Path>) -> f32", reach);
     let comment =
         "The path's segment up to `hit`: true if the path is scattered on the way, in `v`.";
     let head =
@@ -210,7 +220,7 @@ pub(crate) fn shadow(features: &FeatureSet) -> String {
     function(
         &mut text,
         "What is left of the path's next ray, which is `ray` in whole, behind what it went through as a shadow ray.",
-        "dispatch_shadow_rest(path: Path, ray: Ray) -> Ray",
+        "dispatch_shadow_rest(path: ptr<function, Path>, ray: Ray) -> Ray",
         with("    return shadow_ray_rest(path, ray);\n", "    return ray;\n"),
     );
     function(

@@ -69,14 +69,14 @@ pub(crate) fn probe(features: &FeatureSet) -> String {
     );
     let next = with("smooth_probe_ray(path, ray)", "ray");
     let next = if features.alpha_blend {
-        format!("    var next = {next};\n    next.key = path.key;\n    return next;\n")
+        format!("    var next = {next};\n    next.key = (*path).key;\n    return next;\n")
     } else {
         format!("    return {next};\n")
     };
     function(
         &mut text,
         "The ray to trace next, if it is not `ray`.",
-        "dispatch_probe_ray(path: Path, ray: Ray) -> Ray",
+        "dispatch_probe_ray(path: ptr<function, Path>, ray: Ray) -> Ray",
         &next,
     );
     function(

@@ -37,7 +37,7 @@ fn aov(@builtin(global_invocation_id) gid: vec3<u32>) {
     var path = path_begin(sample_key(pixel, frame.sample_first, frame.seed), pixel);
     loop {
         if (path.key.sample == end) { break; }
-        aov_advance(&path, &found, trace(path_ray(path)));
+        aov_advance(&path, &found, trace(path_ray(&path)));
         if (!path.open) {
             found.rays = path.segments;
             aov_store(place, found);

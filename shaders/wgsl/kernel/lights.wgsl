@@ -16,7 +16,7 @@ struct LightsFound {
     emitted: vec3f,
     // From media on the way.
     glow: vec3f,
-    // The path has met something that scatters it.
+    // The path has met something that scatters it, or would if it were not at its end.
     met: bool,
 }
 
@@ -37,22 +37,21 @@ fn lights_advance(path: ptr<function, Path>, hit: Hit) -> LightsFound {
     }
     (*path).segments += 1u;
     var v: Vertex;
-    var met = dispatch_segment(path, hit, &v);
+    let in_medium = dispatch_segment(path, hit, &v);
+    var goes_on = in_medium && (*path).open;
     let glow = (*path).radiance;
     (*path).radiance = vec3f(0.0);
-    if (met) {
-        met = (*path).open;
-    } else if (hit.prim == NONE) {
+    if (!in_medium && hit.prim == NONE) {
         (*path).radiance = (*path).throughput * dispatch_miss((*path).dir, (*path).pdf);
         (*path).open = false;
-    } else {
-        met = vertex_surface(path, hit, &v);
+    } else if (!in_medium) {
+        goes_on = vertex_surface(path, hit, &v);
     }
     let emitted = (*path).radiance;
     // Before the path is scattered, which may have to know it.
     (*path).radiance = before + glow + emitted;
-    if (met) {
+    if (goes_on) {
         vertex_scatter(path, v);
     }
-    return LightsFound(emitted, glow, met);
+    return LightsFound(emitted, glow, in_medium || goes_on);
 }

@@ -19,13 +19,17 @@ fn path_begin(key: SampleKey, pixel: vec2u) -> Path {
 }
 
 // The ray to trace next.
-fn path_ray(path: Path) -> Ray {
-    let shadow = path.shadow_light != NONE;
-    let dir = select(path.dir, path.shadow_dir, shadow);
-    let t_max = select(RAY_FAR, path.shadow_t, shadow);
-    let origin = dispatch_origin(path.point, path.ray_offset, path.start, dir);
-    let skip = dispatch_skip(path.skip, path.ray_offset, path.start, dir);
-    let ray = dispatch_shadow_rest(path, ray_new(origin, dir, t_max, skip, path.shadow_light, path.time));
+fn path_ray(path: ptr<function, Path>) -> Ray {
+    var dir = (*path).shadow_dir;
+    var t_max = (*path).shadow_t;
+    if ((*path).shadow_light == NONE) {
+        dir = (*path).dir;
+        t_max = dispatch_segment_reach(path);
+    }
+    let origin = dispatch_origin((*path).point, (*path).ray_offset, (*path).start, dir);
+    let skip = dispatch_skip((*path).skip, (*path).ray_offset, (*path).start, dir);
+    let whole = ray_new(origin, dir, t_max, skip, (*path).shadow_light, (*path).time);
+    let ray = dispatch_shadow_rest(path, whole);
     return dispatch_probe_ray(path, ray);
 }
 

@@ -25,7 +25,7 @@ fn render(@builtin(global_invocation_id) gid: vec3<u32>) {
     loop {
         if (path.key.sample == end) { break; }
         film.rays += dispatch_counted_rays(&path);
-        path_advance(&path, trace(path_ray(path)));
+        path_advance(&path, trace(path_ray(&path)));
         if (path_ended(path)) {
             let sample = path.key.sample;
             let kept = indirect_clamped(&path);

@@ -30,10 +30,10 @@ fn shadow_ray_advance(path: ptr<function, Path>, hit: Hit) -> bool {
 }
 
 // The part of the shadow ray that is left.
-fn shadow_ray_rest(path: Path, whole: Ray) -> Ray {
+fn shadow_ray_rest(path: ptr<function, Path>, whole: Ray) -> Ray {
     var ray = whole;
-    ray.t_min = path.passage.t;
-    ray.last = path.passage.last;
+    ray.t_min = (*path).passage.t;
+    ray.last = (*path).passage.last;
     return ray;
 }
 

@@ -53,13 +53,13 @@ fn smooth_probe_aim(path: ptr<function, Path>, bulge: vec3f) {
 }
 
 // The ray to trace next: the probe, or else `ray`.
-fn smooth_probe_ray(path: Path, ray: Ray) -> Ray {
-    if (path.start.state != SMOOTH_START_PROBE) {
+fn smooth_probe_ray(path: ptr<function, Path>, ray: Ray) -> Ray {
+    if ((*path).start.state != SMOOTH_START_PROBE) {
         return ray;
     }
-    let length = sqrt(dot(path.start.bulge, path.start.bulge));
-    let dir = vector_unit_or(path.start.bulge, ray.dir);
-    return ray_new(path.point + path.ray_offset, dir, length, path.skip, NONE, path.time);
+    let length = sqrt(dot((*path).start.bulge, (*path).start.bulge));
+    let dir = vector_unit_or((*path).start.bulge, ray.dir);
+    return ray_new((*path).point + (*path).ray_offset, dir, length, (*path).skip, NONE, (*path).time);
 }
 
 // Takes the probe's answer, if the ray was the probe. What it has met hides all that is below the triangle.

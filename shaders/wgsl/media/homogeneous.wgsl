@@ -1,45 +1,49 @@
 // A medium that is the same everywhere: where it scatters.
+//
+// A channel k is chosen, its free path sampled, and the result weighted by the one-sample balance heuristic over the
+// channels (Veach 1997, 9.2.4), with e = exp(-sigma_t t):
+//   scattered:  sigma_s e / sum P_k sigma_t,k e_k       passed:  e / sum P_k e_k
+// The part of e that is common to all channels cancels. In a grey medium the weight is the albedo, and 1.
 
 #import "abi/medium.wgsl"
 #import "math/beer.wgsl"
 #import "math/vector.wgsl"
 
-// The end of a segment. `weight`: what the throughput is multiplied with.
-struct HomogeneousStep {
-    weight: vec3f,
-    // Length up to the point where the medium scatters; meaningful if `scatters`.
-    t: f32,
-    // The medium scatters before the segment ends.
-    scatters: bool,
+// How far a path of weight `throughput` comes in the medium if nothing else is in its way; `u` in [0, 1 - 2^-24]^2.
+fn homogeneous_free_path(m: Medium, throughput: vec3f, u: vec2f) -> f32 {
+    let sigma_t = m.sigma_a + m.sigma_s;
+    var chosen = sigma_t.x;
+    if (!homogeneous_is_grey(sigma_t)) {
+        let p = homogeneous_shares(m, sigma_t, throughput);
+        chosen = select(select(sigma_t.z, sigma_t.y, u.x < p.x + p.y), sigma_t.x, u.x < p.x);
+    }
+    // At least 1e-30: the channel is clear, and its free path longer than any segment.
+    return beer_depth(u.y) / max(chosen, 1e-30);
 }
 
-// Samples where a path of weight `throughput` is scattered within `t_max`, if it is. `u` in
-// [0, 1 - 2^-24]^2. A channel k is chosen, its free path sampled, and the result weighted by the one-sample
-// balance heuristic over the channels (Veach 1997, 9.2.4), with e = exp(-sigma_t t):
-//   scattered:  sigma_s e / sum P_k sigma_t,k e_k       passed:  e / sum P_k e_k
-// The part of e that is common to all channels cancels. In a grey medium the weight is the albedo, and 1.
-fn homogeneous_sample(m: Medium, throughput: vec3f, t_max: f32, u: vec2f) -> HomogeneousStep {
+// What the throughput is multiplied with where that path, whose free path is `t`, has come to the end of a segment of
+// length `t_max`, or has been scattered before it.
+fn homogeneous_weight(m: Medium, throughput: vec3f, t: f32, t_max: f32) -> vec3f {
     let sigma_t = m.sigma_a + m.sigma_s;
-    let least = min(min(sigma_t.x, sigma_t.y), sigma_t.z);
-    let most = vector_max(sigma_t);
-    if (least == most) {
-        let t = beer_depth(u.y) / most;
-        let scatters = t < t_max;
-        return HomogeneousStep(select(vec3f(1.0), m.sigma_s / most, scatters), t, scatters);
+    let scatters = t < t_max;
+    if (homogeneous_is_grey(sigma_t)) {
+        return select(vec3f(1.0), m.sigma_s / sigma_t.x, scatters);
     }
     let p = homogeneous_shares(m, sigma_t, throughput);
-    let chosen = select(select(sigma_t.z, sigma_t.y, u.x < p.x + p.y), sigma_t.x, u.x < p.x);
-    // At least 1e-30: the channel is clear, and its free path longer than any segment.
-    let t = beer_depth(u.y) / max(chosen, 1e-30);
-    let scatters = t < t_max;
+    let least = min(min(sigma_t.x, sigma_t.y), sigma_t.z);
     let fade = beer_transmittance((sigma_t - least) * min(t, t_max));
     let density = select(fade, sigma_t * fade, scatters);
     let all = dot(p, density);
     if (all <= 0.0) {
         // Only where rounding has chosen a channel without a share.
-        return HomogeneousStep(vec3f(0.0), t, false);
+        return vec3f(0.0);
     }
-    return HomogeneousStep(select(fade, m.sigma_s * fade, scatters) / all, t, scatters);
+    return select(fade, m.sigma_s * fade, scatters) / all;
+}
+
+// Whether all channels lose the same.
+fn homogeneous_is_grey(sigma_t: vec3f) -> bool {
+    return sigma_t.x == sigma_t.y && sigma_t.y == sigma_t.z;
 }
 
 // Probability of each channel: by what it carries, and by how much of that would be scattered. The least

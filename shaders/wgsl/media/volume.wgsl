@@ -3,6 +3,7 @@
 #import "media/medium_stack.wgsl"
 #import "scene/constants.wgsl"
 #import "scene/records.wgsl"
+#import "trace/ray.wgsl"
 
 struct Volume {
     // The medium stack of the path.
@@ -12,6 +13,8 @@ struct Volume {
     // The same of the shadow ray.
     shadow_media: vec4u,
     shadow_medium: u32,
+    // How far the path comes along its next segment before the medium scatters it, if nothing else is in its way.
+    free_path: f32,
     // As `FilmPixel::stack_errors`.
     stack_errors: u32,
 }
@@ -29,7 +32,7 @@ struct Interface {
 fn volume_begin() -> Volume {
     let media = load_frame_inside();
     let medium = volume_medium(media);
-    return Volume(media, medium, media, medium, 0u);
+    return Volume(media, medium, media, medium, RAY_FAR, 0u);
 }
 
 // The medium at the top of the stack `media`, or the atmosphere.

@@ -70,10 +70,12 @@ fn step(
         ..Record::ZERO
     };
     let u = Vec2::new(stream.unit24(), stream.unit24());
-    let found = kernel.homogeneous_sample(record, throughput.as_vec3(), edge as f32, u);
+    let (throughput, edge) = (throughput.as_vec3(), edge as f32);
+    let t = kernel.homogeneous_free_path(record, throughput, u);
+    let weight = kernel.homogeneous_weight(record, throughput, t, edge);
     // What passes is beyond the edge, by how much does not matter.
-    let d = if found.scatters { f64::from(found.t) } else { f64::INFINITY };
-    (depth + d * mu, found.weight.as_dvec3())
+    let d = if t < edge { f64::from(t) } else { f64::INFINITY };
+    (depth + d * mu, weight.as_dvec3())
 }
 
 /// What one walk brings back through the front, and through the back.
