@@ -10,6 +10,7 @@
 #![expect(clippy::inline_always, reason = "what is not inlined is not compiled for the processor")]
 
 mod build;
+mod crossings;
 mod gather;
 mod lanes;
 mod node;
@@ -22,6 +23,7 @@ pub use stack::FAR_END;
 pub use tree::{Block, Companion, Node, Step, Tree};
 
 use crate::kernel::{CHILD_INNER, CHILD_OUT, CHILD_SPHERES, Hit, Kernel, NONE, Ray};
+use crossings::Crossings;
 use lanes::{Halves, Lanes};
 use node::Walker;
 use stack::{Stack, Waiting};
@@ -32,19 +34,20 @@ use triangles::Sheared;
 /// nearest.
 pub fn trace(kernel: &mut Kernel<'_>, ray: Ray) -> Hit {
     let Some(tree) = kernel.companion.tree else { return kernel.generated_trace(ray) };
+    let walk = Walk { kernel, tree, ray, lane: 0 };
     #[cfg(target_arch = "x86_64")]
     if let Some(avx2) = pulp::x86::V3::try_new() {
-        return avx2.vectorize(Avx2(Walk { kernel, tree, ray }, avx2));
+        return avx2.vectorize(Avx2(walk, avx2));
     }
-    Walk { kernel, tree, ray }.walk(Halves)
+    walk.walk(Halves)
 }
 
-/// The same for who is compiled for AVX2 himself.
+/// The same for who is compiled for AVX2 himself, and whose paths are told apart by `lane`, below eight.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
-pub fn trace_here(avx2: pulp::x86::V3, kernel: &mut Kernel<'_>, ray: Ray) -> Hit {
+pub fn trace_here(avx2: pulp::x86::V3, kernel: &mut Kernel<'_>, ray: Ray, lane: usize) -> Hit {
     let Some(tree) = kernel.companion.tree else { return kernel.generated_trace(ray) };
-    Walk { kernel, tree, ray }.walk(avx2)
+    Walk { kernel, tree, ray, lane }.walk(avx2)
 }
 
 /// A walk that is to be done.
@@ -52,6 +55,7 @@ struct Walk<'k, 'a> {
     kernel: &'k mut Kernel<'a>,
     tree: &'a Tree,
     ray: Ray,
+    lane: usize,
 }
 
 /// A walk that is to be done with AVX2.
@@ -71,10 +75,17 @@ impl pulp::NullaryFnOnce for Avx2<'_, '_> {
 impl Walk<'_, '_> {
     #[inline(always)]
     fn walk<L: Lanes>(self, lanes: L) -> Hit {
-        let mut stack = std::mem::take(&mut self.kernel.companion.stack);
+        let Self { kernel, tree, ray, lane } = self;
+        let mut stack = std::mem::take(&mut kernel.companion.stack);
         stack.clear();
-        let hit = Self::with(self.kernel, self.tree, self.ray, lanes, &mut stack);
-        self.kernel.companion.stack = stack;
+        let mut crossings = std::mem::take(&mut kernel.companion.crossings);
+        let mut crossed = crossings.get_mut(lane).filter(|_| ray.light != NONE);
+        let hit = match crossed.as_mut().and_then(|crossed| crossed.next(&ray)) {
+            Some(hit) => hit,
+            None => Self::with(kernel, tree, ray, lanes, &mut stack, crossed),
+        };
+        kernel.companion.crossings = crossings;
+        kernel.companion.stack = stack;
         hit
     }
 
@@ -85,6 +96,7 @@ impl Walk<'_, '_> {
         ray: Ray,
         lanes: L,
         stack: &mut Stack,
+        mut crossed: Option<&mut Crossings>,
     ) -> Hit {
         let mut hit = kernel.ray_miss(ray.t_max);
         let mut child = tree.root;
@@ -94,6 +106,9 @@ impl Walk<'_, '_> {
         let mut walker = Walker::new(lanes, &walk.ray, walk.inverse, t_min);
         let mut sheared = Sheared::new(walk.ray.origin, &walk.leaf);
         let shadow = ray.light != NONE;
+        if let Some(crossed) = &mut crossed {
+            crossed.begin(ray);
+        }
         // Such a ray can be hit by every triangle.
         let all = tree.uncut && !shadow;
         if child == NONE {
@@ -118,21 +133,27 @@ impl Walk<'_, '_> {
                     continue;
                 }
             } else {
-                if child & CHILD_SPHERES != 0 {
-                    hit = kernel.leaf_trace(child, walk.ray, walk.leaf, hit);
-                } else if child & MOVING != 0 {
-                    let leaf = tree.moving(child);
-                    hit = kernel.leaf_trace(leaf, walk.ray, walk.leaf, hit);
-                } else {
+                if child & (CHILD_SPHERES | MOVING) == 0 {
                     let blocks = tree.blocks(child);
-                    hit = triangles::leaf(kernel, blocks, &walk.ray, &sheared, all, hit);
+                    let crossed = crossed.as_deref_mut();
+                    hit = triangles::leaf(kernel, blocks, &walk.ray, &sheared, all, hit, crossed);
+                } else {
+                    let leaf = if child & CHILD_SPHERES != 0 { child } else { tree.moving(child) };
+                    let found = kernel.leaf_trace(leaf, walk.ray, walk.leaf, hit);
+                    match &mut crossed {
+                        Some(crossed) if found.prim != NONE && !kernel.dispatch_ends(found) => {
+                            hit.t = crossed.add_last(kernel, found, hit.t);
+                        }
+                        _ => hit = found,
+                    }
                 }
-                if shadow && hit.prim != NONE && kernel.dispatch_ends(hit) {
+                if shadow && hit.prim != NONE {
                     return hit;
                 }
             }
-            let Some(next) = stack.pop(hit.t) else { return hit };
+            let Some(next) = stack.pop(hit.t) else { break };
             child = next;
         }
+        crossed.map_or(hit, |crossed| crossed.first(hit))
     }
 }

@@ -97,7 +97,7 @@ pub(crate) fn trace(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::R
     while left != 0 {
         let lane = left.trailing_zeros() as usize & 7;
         left &= left - 1;
-        hits[lane] = walk::trace_here(*avx2, scalar, rays.lane(lane));
+        hits[lane] = walk::trace_here(*avx2, scalar, rays.lane(lane), lane);
     }
     kernel::Hit::of(&hits)
 }

@@ -3,6 +3,7 @@
 //! It is not in the pack: `build` makes it from the pack's wide nodes when a scene is first rendered on a CPU. What it
 //! decides is only which triangles a ray is tested with, and in what order.
 
+use super::crossings::Crossings;
 use super::stack::Stack;
 use pack::abi::{CHILD_INNER, CHILD_INSTANCE, CHILD_SPHERES, NONE};
 
@@ -18,6 +19,9 @@ pub(super) const TWO_BLOCKS: u32 = 1 << 27;
 pub(super) const MOVING: u32 = 1 << 28;
 /// The bits of an index of blocks.
 pub(super) const BLOCK_INDEX: u32 = TWO_BLOCKS - 1;
+
+/// Paths that one kernel takes forward side by side, at most.
+const LANES: usize = 8;
 
 /// The nodes of a small tree, at most.
 const SMALL: usize = 128;
@@ -159,13 +163,16 @@ impl Tree {
 pub struct Companion<'a> {
     pub(super) tree: Option<&'a Tree>,
     pub(super) stack: Stack,
+    /// Of as many paths as are traced side by side, what their shadow rays go through.
+    pub(super) crossings: Vec<Crossings>,
 }
 
 impl<'a> Companion<'a> {
     /// For walks through `tree`, if there is one.
     #[must_use]
     pub fn new(tree: Option<&'a Tree>) -> Self {
-        Self { tree, stack: Stack::new(tree.map_or(0, |tree| tree.need)) }
+        let (need, paths) = tree.map_or((0, 0), |tree| (tree.need, LANES));
+        Self { tree, stack: Stack::new(need), crossings: vec![Crossings::default(); paths] }
     }
 
     /// The tree, if there is one.

@@ -3,6 +3,7 @@
 //! Each lane does the operations of `triangle_intersect` (`shape/triangle.wgsl`, where it says why) in
 //! their order, so that its bits are the same. Which hit counts is then asked one by one.
 
+use super::crossings::Crossings;
 use super::tree::{BLOCK, Block};
 use crate::kernel::{Hit, Kernel, NONE, Ray, TriangleShear};
 use bytemuck::cast;
@@ -56,7 +57,8 @@ impl Sheared {
     }
 }
 
-/// The better of `best` and the hits in `blocks`; `all`: none is to be asked whether it counts for such a ray.
+/// The better of `best` and the hits in `blocks`; `all`: none is to be asked whether it counts for such a ray. Of a shadow
+/// ray a hit that hides its light, or else `best`, up to the distance where `crossed` has all that the ray goes through.
 #[inline(always)]
 pub(super) fn leaf(
     kernel: &mut Kernel<'_>,
@@ -65,12 +67,13 @@ pub(super) fn leaf(
     sheared: &Sheared,
     all: bool,
     best: Hit,
+    crossed: Option<&mut Crossings>,
 ) -> Hit {
     // Asked once, and not in every test.
     match sheared.axis {
-        0 => leaf_along::<0>(kernel, blocks, ray, sheared, all, best),
-        1 => leaf_along::<1>(kernel, blocks, ray, sheared, all, best),
-        _ => leaf_along::<2>(kernel, blocks, ray, sheared, all, best),
+        0 => leaf_along::<0>(kernel, blocks, ray, sheared, all, best, crossed),
+        1 => leaf_along::<1>(kernel, blocks, ray, sheared, all, best, crossed),
+        _ => leaf_along::<2>(kernel, blocks, ray, sheared, all, best, crossed),
     }
 }
 
@@ -82,6 +85,7 @@ fn leaf_along<const AXIS: u32>(
     sheared: &Sheared,
     all: bool,
     best: Hit,
+    mut crossed: Option<&mut Crossings>,
 ) -> Hit {
     let mut hit = best;
     for block in blocks {
@@ -105,7 +109,13 @@ fn leaf_along<const AXIS: u32>(
                 new.t = t;
             }
             if new.t > 0.0 && new.t <= hit.t && counts(kernel, &new, &hit, ray, all) {
-                hit = new;
+                match &mut crossed {
+                    Some(crossed) if !kernel.dispatch_ends(new) => {
+                        hit.t = crossed.add(kernel, new, hit.t);
+                    }
+                    Some(_) => return new,
+                    None => hit = new,
+                }
             }
         }
     }
