@@ -97,7 +97,7 @@ pub fn read_gltf(
     let table = primitive::Table::new(&document, variant, &placed, &mut reader, &mut report)?;
     let mut images = ImageSet::default();
     let mut source = Images { document: &document, buffers: &buffers, folder, reader };
-    let materials = material::convert(&table.used, &mut source, &mut images, &mut report)?;
+    let materials = material::convert(&table, &mut source, &mut images, &mut report)?;
     let Images { reader, .. } = source;
     let parts = bake::parts((&placed, &skins), &table, &materials, &buffers, &mut report)?;
     let images = images.decode(limits, &mut report)?;

@@ -66,10 +66,8 @@ fn find(
     materials: &[Converted],
     material: Option<Index<Material>>,
 ) -> (Option<u32>, Option<&Converted>) {
-    let Some(index) = material else {
-        return (None, None);
-    };
-    let found = materials.iter().position(|material| material.index == index.value());
+    let index = material.map(|index| index.value());
+    let found = materials.iter().position(|material| material.index == index);
     (found.and_then(|i| u32::try_from(i).ok()), found.map(|i| &materials[i]))
 }
 

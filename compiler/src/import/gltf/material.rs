@@ -7,16 +7,19 @@ use super::super::report::ImportReport;
 use super::container::Images;
 use super::layers::{self, unit};
 use super::maps::{Maps, Notes, UvTransform};
+use super::primitive::Table;
 use super::specular_glossiness;
-use ::gltf::json::Index;
 use ::gltf::json::material::{AlphaMode, Material};
 use ::gltf::json::validation::Checked;
 use lang::scene::ColorSpace;
 
+/// The material of primitives that name none: white rough metal, as the specification has it (glTF 2.0, 3.7.2.1).
+const DEFAULT: &str = "default";
+
 /// A material with what its UVs need.
 pub(super) struct Converted {
-    /// Index in the file.
-    pub(super) index: usize,
+    /// Index in the file; `None`: that of primitives which name no material.
+    pub(super) index: Option<usize>,
     pub(super) imported: ImportedMaterial,
     /// The `n` of `TEXCOORD_n`.
     pub(super) uv_set: u32,
@@ -25,14 +28,14 @@ pub(super) struct Converted {
 
 /// Converts the materials in use and asks for their images.
 pub(super) fn convert<'a>(
-    used: &[Index<Material>],
+    table: &Table,
     source: &mut Images<'a, '_>,
     images: &mut ImageSet<'a>,
     report: &mut ImportReport,
 ) -> Result<Vec<Converted>, ImportError> {
     let mut notes = Notes::default();
-    let mut converted = Vec::with_capacity(used.len());
-    for index in used {
+    let mut converted = Vec::with_capacity(table.used.len());
+    for index in &table.used {
         let what = format!("material {}", index.value());
         let document = source.document;
         let Some(material) = document.root.get(*index) else {
@@ -43,7 +46,12 @@ pub(super) fn convert<'a>(
         let imported = convert_one(material, name, &mut maps, &mut notes)?;
         notes.uv_sets += u64::from(maps.differ);
         let (uv_set, uv_transform) = maps.lookup.unwrap_or((0, None));
-        converted.push(Converted { index: index.value(), imported, uv_set, uv_transform });
+        let index = Some(index.value());
+        converted.push(Converted { index, imported, uv_set, uv_transform });
+    }
+    if table.unnamed {
+        let imported = ImportedMaterial::named(DEFAULT.to_owned());
+        converted.push(Converted { index: None, imported, uv_set: 0, uv_transform: None });
     }
     notes.report(source.document.file, report);
     Ok(converted)

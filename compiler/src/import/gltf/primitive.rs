@@ -18,6 +18,8 @@ use std::collections::BTreeMap;
 pub(super) struct Table {
     /// Materials in use, in ascending order.
     pub(super) used: Vec<Index<Material>>,
+    /// Some primitives name no material.
+    pub(super) unnamed: bool,
     /// The variant of materials.
     pub(super) variant: Option<u32>,
     /// How often each mesh is placed.
@@ -74,7 +76,7 @@ impl Table {
         for placed in placed {
             uses[placed.mesh] = uses[placed.mesh].saturating_add(1);
         }
-        let mut used = BTreeMap::new();
+        let (mut used, mut unnamed) = (BTreeMap::new(), false);
         let (mut n_triangles, mut n_bytes) = (0_u64, 0_u64);
         let mut left_out = [0_u64; 2];
         for (mesh_idx, mesh) in document.root.meshes.iter().enumerate() {
@@ -92,8 +94,11 @@ impl Table {
                 };
                 let material = variant::material(primitive, variant);
                 left_out[1] += u64::from(has_tangents(document, primitive, material));
-                if let Some(material) = material {
-                    used.insert(material.value(), material);
+                match material {
+                    Some(material) => {
+                        used.insert(material.value(), material);
+                    }
+                    None => unnamed = true,
                 }
                 n_triangles = n_triangles.saturating_add(
                     n_uses.saturating_mul(claimed(document, primitive, mode, &what)?),
@@ -115,7 +120,7 @@ impl Table {
         for (count, what) in left_out.into_iter().zip(what).filter(|(count, _)| *count > 0) {
             report.warn(document.file, format!("{count} {what}"));
         }
-        Ok(Self { used: used.into_values().collect(), variant, uses })
+        Ok(Self { used: used.into_values().collect(), unnamed, variant, uses })
     }
 }
 
