@@ -35,6 +35,7 @@ pub(crate) mod light;
 mod lint;
 #[warn(clippy::wildcard_enum_match_arm)]
 mod material;
+mod mix;
 mod motion;
 mod object;
 mod pattern;
@@ -159,6 +160,7 @@ impl Checker {
                 self.check_decl(ev, kind, id);
             }
         }
+        mix::check(ev, &self.fields);
         let objects = ids_of(ev.program, Kind::Object);
         self.world.objects.check(ev, &objects);
         for id in ids_of(ev.program, Kind::Instance) {

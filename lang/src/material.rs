@@ -12,7 +12,7 @@ mod principled;
 mod sheet;
 mod specular;
 
-pub use param::{Color, Filling, Grain, Inside, NormalMap, Pattern, Scalar, Waves};
+pub use param::{Color, Filling, Grain, Ingredient, Inside, NormalMap, Pattern, Scalar, Waves};
 pub(crate) use param::{Param, Reader, Shown};
 
 use crate::scene::{Name, Rgb};
@@ -56,7 +56,22 @@ pub trait Traits {
     fn grain(&self) -> Option<Grain> {
         None
     }
+
+    /// The materials that it is made of.
+    fn ingredients(&self) -> [Option<Ingredient>; 2] {
+        [None; 2]
+    }
+
+    /// Why light does more than to be scattered by its front or back, if it does.
+    fn unmixable(&self) -> Option<&'static str> {
+        None
+    }
 }
+
+const GLOWS: &str = "it gives off light";
+const HAS_INSIDE: &str = "it has an inside, which light enters";
+const IS_SHEET: &str = "light goes straight through it";
+const HAS_HOLES: &str = "not all of it is there: `alpha`";
 
 /// A thin sheet, of which a mesh holds many pieces.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -197,6 +212,14 @@ impl Traits for MaterialModel {
     fn grain(&self) -> Option<Grain> {
         self.as_traits().grain()
     }
+
+    fn ingredients(&self) -> [Option<Ingredient>; 2] {
+        self.as_traits().ingredients()
+    }
+
+    fn unmixable(&self) -> Option<&'static str> {
+        self.as_traits().unmixable()
+    }
 }
 
 materials! {
@@ -280,6 +303,10 @@ materials! {
         }
         also: [fields::NORMAL, fields::NORMAL_STRENGTH],
         traits: {
+            fn unmixable(&self) -> Option<&'static str> {
+                Some(HAS_INSIDE)
+            }
+
             fn inside(&self) -> Option<Inside> {
                 Some(self.inside)
             }
@@ -333,6 +360,10 @@ materials! {
             both_sides: bool = [fields::EMISSIVE_SIDES],
         }
         traits: {
+            fn unmixable(&self) -> Option<&'static str> {
+                Some(GLOWS)
+            }
+
             fn emission(&self) -> Option<(Color, f64)> {
                 Some((self.color, self.strength))
             }
@@ -385,6 +416,19 @@ materials! {
         }
         also: [fields::NORMAL, fields::NORMAL_STRENGTH],
         traits: {
+            fn unmixable(&self) -> Option<&'static str> {
+                let dark = matches!(self.emission, Color::Constant(rgb) if rgb == [0.0; 3]);
+                if self.emission_strength > 0.0 && !dark {
+                    Some(GLOWS)
+                } else if self.transmission != Scalar::Constant(0.0) {
+                    Some(IS_SHEET)
+                } else if self.alpha != Scalar::Constant(1.0) {
+                    Some(HAS_HOLES)
+                } else {
+                    None
+                }
+            }
+
             fn emission(&self) -> Option<(Color, f64)> {
                 Some((self.emission, self.emission_strength))
             }
@@ -489,6 +533,10 @@ materials! {
             gap: f64 = [sheet::LEAF_GAP],
         }
         traits: {
+            fn unmixable(&self) -> Option<&'static str> {
+                Some(IS_SHEET)
+            }
+
             fn sheet(&self) -> Option<Sheet> {
                 let thickness = self.thickness;
                 Some(Sheet { thickness, gap: self.gap, pillow: 0.0, tilt: 0.0 })
@@ -531,9 +579,40 @@ materials! {
             tilt: f64 = [sheet::PETAL_TILT],
         }
         traits: {
+            fn unmixable(&self) -> Option<&'static str> {
+                Some(IS_SHEET)
+            }
+
             fn sheet(&self) -> Option<Sheet> {
                 let thickness = self.thickness[0].max(self.thickness[1]);
                 Some(Sheet { thickness, gap: 0.0, pillow: self.pillow, tilt: self.tilt })
+            }
+        }
+    }
+    /// One of two materials, by chance.
+    Mix "mix" {
+        doc: "Two materials on one surface, each with its share: rust on steel, dust on varnish. A mask as `amount` says \
+              where which one is. The parts may be mixes. They reflect and scatter light at their surface: none has an \
+              inside, gives off light, is cut out or lets light straight through.",
+        example: "material worn: mix { a = paint, b = steel, amount = mask.r }",
+        elsewhere: &[
+        ("blend", "common use"),
+        ("blendbsdf", "Mitsuba"),
+        ("mix_shader", "Blender"),
+        ("layered", "common use"),
+    ],
+        lints: Lints::NONE,
+        fields: {
+            /// The first.
+            a: Ingredient = [fields::MIX_A],
+            /// The second.
+            b: Ingredient = [fields::MIX_B],
+            /// Share of the second, 0 ..= 1.
+            amount: Scalar = [fields::MIX_AMOUNT],
+        }
+        traits: {
+            fn ingredients(&self) -> [Option<Ingredient>; 2] {
+                [self.a, self.b].map(Some)
             }
         }
     }
@@ -555,6 +634,10 @@ materials! {
             waves: Option<Waves> = [fields::WATER_WAVES, fields::WATER_WAVES_SCALE, fields::WATER_WAVES_HEIGHT],
         }
         traits: {
+            fn unmixable(&self) -> Option<&'static str> {
+                Some(HAS_INSIDE)
+            }
+
             fn inside(&self) -> Option<Inside> {
                 // Water that names no medium may be a sea, open at its rim.
                 Some(self.filling.inside).filter(|inside| inside.medium.is_some())

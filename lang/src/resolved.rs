@@ -21,7 +21,7 @@ use crate::units::{self, Dim};
 
 /// What fields may refer to.
 fn shown(scene: &Scene) -> Shown<'_> {
-    Shown::new(&scene.textures, &scene.expressions, &scene.media)
+    Shown::new(&scene.textures, &scene.expressions, (&scene.media, &scene.materials))
 }
 
 /// Every declaration of the scene, sorted by kind and name.

@@ -125,6 +125,8 @@ pub const CASES: &[Case] = &[
     case("rough dielectric of a texture", &[SKY, LAMP, PANEL, WEAR, WORN_GLASS, BALL, QUILT]),
     case("clearcoat", &[GRADIENT, SPHERE_LIGHT, LACQUER, BALL, TENT, FLOOR]),
     case("clearcoat with gloss", &[SKY, LAMP, PANEL, GLAZE, BALL, FLOOR]),
+    case("mix", &[GRADIENT, SPHERE_LIGHT, MIXED, BALL, TENT, FLOOR]),
+    case("mix of mixes by a mask", &[SKY, LAMP, PANEL, WEAR, MASKED, BALL, QUILT]),
     case("leaf", &[GRADIENT, SPHERE_LIGHT, LEAF, BALL, TENT, FLOOR]),
     case("petal", &[GRADIENT, SPHERE_LIGHT, PETAL, BALL, TENT, FLOOR]),
     // Lights, seen by each sort of lobe.
@@ -492,6 +494,14 @@ const WORN_METAL: &str = "material m: conductor { color = paint.rgb, roughness =
 const FROSTED: &str = "material m: dielectric { ior = 1.5, roughness = 0.4 }\n";
 const WORN_GLASS: &str = "material m: dielectric { ior = 1.3, roughness = wear.b }\n";
 const LACQUER: &str = "material m: clearcoat { color = linear(0.7, 0.1, 0.1) }\n";
+const MIXED: &str = "material m: mix { a = shiny, b = rough, amount = 0.3 }
+material shiny: metal { color = linear(0.9, 0.7, 0.4), fuzz = 0.1 }
+material rough: stone { color = linear(0.5, 0.3, 0.2), bump.strength = 20mm }\n";
+const MASKED: &str = "material m: mix { a = metals, b = rough, amount = wear.r }
+material metals: mix { a = brushed, b = varnish, amount = checker(3) }
+material brushed: conductor { color = linear(0.9), roughness = 0.3, anisotropy = 0.8 }
+material varnish: clearcoat { color = linear(0.2, 0.5, 0.3) }
+material rough: diffuse { color = linear(0.4, 0.3, 0.2) }\n";
 const GLAZE: &str = "material m: clearcoat {
   color = linear(0.9)
   fuzz = 0
@@ -596,6 +606,7 @@ material lacquer: clearcoat { color = linear(0.7, 0.1, 0.1) }
 material maple: leaf { color = linear(0.5, 0.2, 0.1) }
 material sakura: petal { color = linear(0.9, 0.6, 0.7) }
 material gauze: principled { color = linear(0.7, 0.2, 0.3), alpha = 0.6 }
+material rusty: mix { a = steel, b = clay, amount = checker(6) * 0.8 }
 asset tent = obj(\"tent.obj\", unit: m, up: +y)
 instance a { shape = sphere(radius: 60cm), material = glass, at = (-1.5, 0.6, 1)m, velocity = (20, 0, 0)m/s }
 instance b { shape = box(size: (1, 1, 1)m), material = clay, rotate = (0, 30, 0)deg, at = (1.8, 0.5, -1)m }
@@ -607,6 +618,7 @@ instance g { shape = sphere(radius: 30cm), material = frosted, at = (0.1, 0.3, 2
 instance h { shape = sphere(radius: 30cm), material = lacquer, at = (-0.7, 0.3, 2)m }
 instance i { shape = sphere(radius: 30cm), material = maple, at = (-2.2, 0.3, -0.4)m }
 instance k { shape = box(size: (0.5, 0.5, 0.5)m), material = gauze, at = (-0.5, 1, 1)m, rotate = (0, 20, 30)deg }
+instance l { shape = sphere(radius: 20cm), material = rusty, at = (1.6, 0.2, 2)m }
 instance j { shape = tent, material = sakura, at = (-0.6, 0, 2.2)m, scale = (0.6, 0.8, 0.6) }\n";
 
 /// A four-sided tent with normals and texture coordinates.
@@ -769,5 +781,6 @@ pub fn sample_at(
         MaterialKind::Petal => kernel.petal_sample(s, wo, u, v, v),
         MaterialKind::Leaf => kernel.leaf_sample(s, wo, u, v),
         MaterialKind::Water => kernel.water_sample(s, wo, v),
+        MaterialKind::Mix => kernel.mix_sample(),
     }
 }

@@ -16,6 +16,8 @@ mod frame;
 mod lights;
 #[path = "metamorphic/meshes.rs"]
 mod meshes;
+#[path = "metamorphic/mixes.rs"]
+mod mixes;
 #[path = "metamorphic/tiles.rs"]
 mod tiles;
 

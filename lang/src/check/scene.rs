@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::instance::Placed;
 use super::light::{Lit, Panel};
 use super::render::name;
-use super::{Checker, dark, ids_of, is_in_world, light, material, medium, motion, sky};
+use super::{Checker, dark, ids_of, is_in_world, light, material, medium, mix, motion, sky};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::eval::value::ShapeValue;
@@ -19,11 +19,11 @@ use crate::scene::{
 use crate::schema::Kind;
 use crate::shape::{MeshEdit, Parts};
 
-/// Indices in the scene of what materials name: textures, expressions of them, media.
+/// Indices in the scene of what materials name: textures, expressions of them, media, materials.
 type Index<'a> = (
     &'a dyn Fn(ItemId) -> usize,
     &'a dyn Fn(&TextureExpression<ItemId>) -> usize,
-    &'a BTreeMap<ItemId, usize>,
+    [&'a BTreeMap<ItemId, usize>; 2],
 );
 
 impl Checker {
@@ -38,6 +38,7 @@ impl Checker {
         let mut placed = std::mem::take(&mut self.world.placed);
         placed.sort_by(|a, b| a.key.cmp(&b.key));
         let used: BTreeSet<ItemId> = placed.iter().flat_map(Placed::materials).collect();
+        let used = mix::with_parts(used, &self.fields);
         let read: BTreeSet<ItemId> =
             used.iter().filter_map(|id| self.sound(*id)).flat_map(material::textures).collect();
         let meshes: BTreeSet<ItemId> = placed
@@ -60,8 +61,9 @@ impl Checker {
         let expression = |of: &TextureExpression<ItemId>| {
             intern(&mut expressions.borrow_mut(), of.named(&|id| texture(*id)))
         };
-        let materials = self.materials(&material_order, (&texture, &expression, &medium_at))?;
         let material_at = index(&material_order);
+        let indices = [&medium_at, &material_at];
+        let materials = self.materials(&material_order, (&texture, &expression, indices))?;
         let model = |id| Some(&materials.get(*material_at.get(&id)?)?.model);
         let warnings = dark::groups(&placed, model);
         let mut scene = Scene {
@@ -112,11 +114,12 @@ impl Checker {
     fn materials(
         &self,
         order: &[(Name, ItemId)],
-        (textures, expressions, media): Index<'_>,
+        (textures, expressions, [media, materials]): Index<'_>,
     ) -> Option<Vec<Material>> {
         let material = |(name, id): &(Name, ItemId)| {
             let fields = self.sound(*id)?;
-            let model = MaterialModel::read(&Reader { fields, textures, expressions, media })?;
+            let reader = Reader { fields, textures, expressions, media, materials };
+            let model = MaterialModel::read(&reader)?;
             let normal = material::normal(fields, textures);
             Some(Material { name: name.clone(), model, normal })
         };

@@ -83,6 +83,22 @@ pub(super) const NORMAL_STRENGTH: Field = Field::new(
 .typical("1 as the map was made, 0.5 for half as steep")
 .foreign(&[("normalScale", "glTF"), ("normal_strength", "common use")]);
 
+const fn ingredient(name: &'static str, doc: &'static str) -> Field {
+    Field::new(name, FieldType::Name(Kind::Material), Default::Required, doc)
+}
+
+pub(super) const MIX_A: Field = ingredient("a", "What most of the surface is if `amount` is small.")
+    .foreign(&[("first", "common use"), ("material1", "LuxCore")]);
+pub(super) const MIX_B: Field = ingredient("b", "What a share `amount` of the surface is.")
+    .foreign(&[("second", "common use"), ("material2", "LuxCore")]);
+pub(super) const MIX_AMOUNT: Field = Field::new(
+    "amount",
+    FieldType::ScalarSlot(UNIT),
+    Default::Number(0.5),
+    "Share of `b`: a number, or one of a texture, such as `mask.r`, `noise(...)` or `checker(...)`.",
+)
+.foreign(&[("weight", "Mitsuba"), ("Fac", "Blender"), ("factor", "common use"), ("share", "common use")]);
+
 pub(super) const INTERIOR: Field = Field::new(
     "interior",
     FieldType::Name(Kind::Medium),

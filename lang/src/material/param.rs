@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::check::Fields;
 use crate::eval::value::Value;
 use crate::resolve::ItemId;
-use crate::scene::{Medium, Rgb, Texture};
+use crate::scene::{Material, Medium, Rgb, Texture};
 use crate::schema::{self, Field, FieldType, color_text};
 use crate::source::Span;
 use crate::texture::TextureExpression;
@@ -87,6 +87,10 @@ pub struct Filling {
     pub depth_color: Rgb,
 }
 
+/// A material that another is made of, index into `Scene::materials`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ingredient(pub usize);
+
 /// Where a grain runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grain {
@@ -106,6 +110,8 @@ pub(crate) struct Reader<'a> {
     pub(crate) expressions: &'a dyn Fn(&TextureExpression<ItemId>) -> usize,
     /// Indices of media in the scene.
     pub(crate) media: &'a BTreeMap<ItemId, usize>,
+    /// Indices of materials in the scene.
+    pub(crate) materials: &'a BTreeMap<ItemId, usize>,
 }
 
 impl Reader<'_> {
@@ -121,6 +127,7 @@ pub(crate) struct Shown<'a> {
     textures: &'a [Texture],
     expressions: &'a [TextureExpression<usize>],
     media: &'a [Medium],
+    materials: &'a [Material],
     /// Names and values.
     pub(crate) lines: Vec<(&'static str, String)>,
 }
@@ -129,9 +136,9 @@ impl<'a> Shown<'a> {
     pub(crate) fn new(
         textures: &'a [Texture],
         expressions: &'a [TextureExpression<usize>],
-        media: &'a [Medium],
+        (media, materials): (&'a [Medium], &'a [Material]),
     ) -> Self {
-        Self { textures, expressions, media, lines: Vec::new() }
+        Self { textures, expressions, media, materials, lines: Vec::new() }
     }
 
     fn push(&mut self, field: &Field, value: String) {
@@ -410,6 +417,20 @@ impl Param for Filling {
         self.sigma_a.numbers_mut(&fields[..1], change);
         self.depth_color.numbers_mut(&fields[3..], change);
     }
+}
+
+impl Param for Ingredient {
+    fn read(from: &Reader<'_>, names: &[&'static str]) -> Option<Self> {
+        from.materials.get(&from.fields.item(names[0])?).copied().map(Self)
+    }
+
+    fn show(&self, fields: &[Field], shown: &mut Shown<'_>) {
+        let material = shown.materials.get(self.0);
+        let name = material.map_or("", |material| material.name.text.as_str());
+        shown.push(&fields[0], name.to_owned());
+    }
+
+    fn numbers_mut(&mut self, _: &[Field], _: &mut Change<'_>) {}
 }
 
 impl Param for Grain {

@@ -9,6 +9,7 @@ mod albedo;
 mod broken;
 mod expression;
 mod light_tree;
+mod mix;
 mod motion;
 mod rule;
 mod rules;
@@ -102,6 +103,7 @@ fn records(contents: &Contents<'_>) -> Result<(), PackError> {
     light_tree::check(contents)?;
     sky::check(contents)?;
     albedo::check(contents)?;
+    mix::check(contents)?;
     each(contents.textures, contents)?;
     texture::check(contents)?;
     expression::check(contents)?;

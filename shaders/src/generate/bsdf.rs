@@ -1,5 +1,5 @@
-//! `scene/model.wgsl`, `scene/dispatch_bsdf.wgsl`, `scene/dispatch_pattern.wgsl`, `scene/straight.wgsl`: from the kind of
-//! a material to the functions of its model.
+//! `scene/model.wgsl`, `scene/dispatch_bsdf.wgsl`, `scene/dispatch_mix.wgsl`, `scene/dispatch_pattern.wgsl`,
+//! `scene/straight.wgsl`: from the kind of a material to the functions of its model.
 //!
 //! The case of a kind reads the same in every kernel, so that a kernel with fewer kinds computes the same bits.
 
@@ -41,6 +41,30 @@ fn row(kind: MaterialKind) -> Row {
         stem: if traits.generated { format!("dispatch_{stem}") } else { stem },
         arguments: [sample.join(", "), value.to_owned()],
     }
+}
+
+/// Which of its materials a surface has at a point. As in `pattern`, the function has the same head and foot in every
+/// kernel.
+pub(crate) fn mix(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: whether materials of this scene are mixed.\n\n");
+    text += &imports([
+        "abi/material.wgsl",
+        "sampler/key.wgsl",
+        "scene/constants.wgsl",
+        "surface/surface.wgsl",
+    ]);
+    let mut case = "";
+    if features.materials.contains(&MaterialKind::Mix) {
+        text += &imports(["bsdf/mix.wgsl"]);
+        case = "        case MATERIAL_MIX: { mix_choose(s, m, key); }\n";
+    }
+    let _ = write!(
+        text,
+        "\n// Gives the surface `s` of material `m` one of those that `m` is made of.\n\
+         fn dispatch_mix(s: ptr<function, Surface>, m: ptr<function, Material>, key: SampleKey) {{\n    \
+         switch ((*m).kind) {{\n{case}        default: {{}}\n    }}\n}}\n"
+    );
+    text
 }
 
 /// What patterns change of a surface point before it scatters. The function has the same head and foot in

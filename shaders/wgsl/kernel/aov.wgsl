@@ -15,6 +15,7 @@
 #import "scene/crossing.wgsl"
 #import "scene/dispatch.wgsl"
 #import "scene/dispatch_bsdf.wgsl"
+#import "scene/dispatch_mix.wgsl"
 #import "scene/dispatch_pattern.wgsl"
 #import "scene/probe.wgsl"
 #import "scene/records.wgsl"
@@ -81,7 +82,9 @@ fn aov_surface(path: ptr<function, Path>, found: ptr<function, AovSample>, hit: 
     let wo = -(*path).dir;
     let origin = dispatch_origin((*path).point, (*path).ray_offset, (*path).start, (*path).dir);
     var s = dispatch_surface(hit, origin, (*path).dir, (*path).time);
-    let m = load_material(s.material);
+    let declared = s.material;
+    var m = load_material(declared);
+    dispatch_mix(&s, &m, (*path).key);
     if (dispatch_pass(path, s, m.flags, ray_skip(hit))) {
         return;
     }
@@ -93,7 +96,7 @@ fn aov_surface(path: ptr<function, Path>, found: ptr<function, AovSample>, hit: 
     dispatch_bend(path, &scatter, m.flags);
     if ((*found).alpha == 0.0) {
         (*found).alpha = 1.0;
-        (*found).material = s.material;
+        (*found).material = declared;
         (*found).object = s.object;
         (*found).position = s.p;
         (*found).uv = s.uv;

@@ -12,6 +12,7 @@
 #import "scene/crossing.wgsl"
 #import "scene/dispatch.wgsl"
 #import "scene/dispatch_bsdf.wgsl"
+#import "scene/dispatch_mix.wgsl"
 #import "scene/dispatch_pattern.wgsl"
 #import "scene/dispatch_tint.wgsl"
 #import "scene/receiver.wgsl"
@@ -38,7 +39,8 @@ struct Vertex {
 fn vertex_surface(path: ptr<function, Path>, hit: Hit, v: ptr<function, Vertex>) -> bool {
     let origin = dispatch_origin((*path).point, (*path).ray_offset, (*path).start, (*path).dir);
     var s = dispatch_surface(hit, origin, (*path).dir, (*path).time);
-    let m = load_material(s.material);
+    var m = load_material(s.material);
+    dispatch_mix(&s, &m, (*path).key);
     if (dispatch_pass(path, s, m.flags, ray_skip(hit))) {
         return false;
     }

@@ -27,6 +27,7 @@ const PURPOSE_DISTANCE: u32 = 8u;
 const PURPOSE_TIME: u32 = 9u;
 const PURPOSE_COVERAGE: u32 = 10u;
 const PURPOSE_SHADOW_COVERAGE: u32 = 11u;
+const PURPOSE_MIX: u32 = 12u;
 const PURPOSE_SLAB: u32 = 16u;
 const PURPOSE_SLAB_TURN: u32 = 17u;
 const PURPOSE_SLAB_END: u32 = 18u;

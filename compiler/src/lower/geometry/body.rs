@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use glam::{DVec2, DVec3};
 use lang::diagnostic::{Code, Diagnostic};
 use lang::scene::{Instance, Light, Parts, Scene, Shape};
-use pack::abi::{self, NONE};
+use pack::abi::NONE;
 
 use super::transform::Transform;
 use crate::import::ImportError;
@@ -327,7 +327,7 @@ impl Maker<'_, '_> {
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Form {
         let material = self.material(MaterialRef::Default);
-        if reads_textures(&self.materials.records()[material as usize]) {
+        if self.materials.reads_textures(material) {
             diagnostics.push(self.without_uvs("this mesh"));
         }
         let face = |corners: &[u32; 3]| {
@@ -379,7 +379,7 @@ impl Maker<'_, '_> {
             });
             let material = self.material(own);
             let has_uvs = part.has_uvs || is_own && part.is_painted;
-            if !has_uvs && reads_textures(&self.materials.records()[material as usize]) {
+            if !has_uvs && self.materials.reads_textures(material) {
                 bare = bare.or(Some(part));
             }
             content.bytes(&part.content);
@@ -501,11 +501,6 @@ fn box_faces(size: [f64; 3]) -> Vec<Parallelogram> {
         faces.push([(-normal - u - v) / 2.0, v, u]);
     }
     faces
-}
-
-/// Whether any texture belongs to the material.
-fn reads_textures(material: &abi::Material) -> bool {
-    material.textures().iter().any(|texture| *texture != NONE)
 }
 
 #[cfg(test)]

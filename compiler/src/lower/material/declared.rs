@@ -2,12 +2,13 @@
 
 use lang::material::{
     self, Clearcoat, Conductor, Dielectric, Diffuse, Emissive, Fabric, Inside, Leaf, Metal,
-    Pattern, Petal, Stone, Wood,
+    Mix, Pattern, Petal, Stone, Wood,
 };
 use lang::scene::{self, MaterialModel, Scalar};
 use pack::abi::{self, MaterialKind, NONE, material_flag};
 
-use super::table::{MaterialTable, blank, factor, set_normal_map, switch, with_ior};
+use super::principled::ONE;
+use super::table::{MaterialRef, MaterialTable, blank, factor, set_normal_map, switch, with_ior};
 use crate::lower::fresnel;
 
 /// Veins of stone are this share of its colour where the scene says nothing else.
@@ -43,6 +44,7 @@ impl MaterialTable<'_> {
             MaterialModel::Clearcoat(from) => self.clearcoat(from),
             MaterialModel::Water(from) => self.water(from),
             MaterialModel::Emissive(from) => self.emissive(from),
+            MaterialModel::Mix(from) => self.mix(from),
             MaterialModel::Principled(from) => self.principled(from),
             MaterialModel::Stone(from) => stone(from),
             MaterialModel::Wood(from) => wood(from),
@@ -79,6 +81,23 @@ impl MaterialTable<'_> {
         let (emission, emission_texture) = self.emission(from.color, from.strength);
         let flags = if from.both_sides { material_flag::EMIT_BOTH_SIDES } else { 0 };
         abi::Material { emission, emission_texture, flags, ..blank(MaterialKind::Emissive) }
+    }
+
+    /// A mix that has only one of its parts is that part.
+    fn mix(&mut self, from: &Mix) -> abi::Material {
+        let scene = self.scene;
+        match from.amount {
+            Scalar::Constant(0.0) => return self.declared(&scene.materials[from.a.0]),
+            Scalar::Constant(1.0) => return self.declared(&scene.materials[from.b.0]),
+            Scalar::Constant(_) | Scalar::Texture { .. } | Scalar::Expression(_) => {}
+        }
+        let [a, b] = [from.a, from.b].map(|part| self.index(MaterialRef::Scene(part.0)));
+        abi::Material {
+            weight: factor(from.amount),
+            color_texture: self.scalars([from.amount, ONE, ONE, ONE]),
+            priority: a | b << 16,
+            ..blank(MaterialKind::Mix)
+        }
     }
 
     fn conductor(&mut self, from: &Conductor) -> abi::Material {

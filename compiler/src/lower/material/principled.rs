@@ -9,7 +9,8 @@ use crate::lower::files::ImageRef;
 use crate::lower::texture::{Channel, expression};
 
 /// A channel that nothing reads, or that is 1.
-const ONE: Scalar = Scalar::Constant(1.0);
+/// A factor that changes nothing.
+pub(super) const ONE: Scalar = Scalar::Constant(1.0);
 
 impl MaterialTable<'_> {
     pub(super) fn principled(&mut self, from: &Principled) -> abi::Material {

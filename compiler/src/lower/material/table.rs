@@ -82,6 +82,14 @@ impl<'a> MaterialTable<'a> {
         self.glows[index as usize]
     }
 
+    /// Whether any texture belongs to the material, or to what it is mixed from.
+    pub(in crate::lower) fn reads_textures(&self, index: u32) -> bool {
+        let record = &self.records[index as usize];
+        let is_mix = record.kind == MaterialKind::Mix as u32;
+        record.textures().iter().any(|texture| *texture != NONE)
+            || is_mix && record.parts().into_iter().any(|part| self.reads_textures(part))
+    }
+
     /// What geometry knows of a material: whether it gives light, and whether it has an inside.
     pub(in crate::lower) fn looks(&self, index: u32) -> Looks {
         Looks {

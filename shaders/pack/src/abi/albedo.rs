@@ -54,7 +54,8 @@ impl AlbedoTable {
             | MaterialKind::Fabric
             | MaterialKind::Clearcoat
             | MaterialKind::Petal
-            | MaterialKind::Water => None,
+            | MaterialKind::Water
+            | MaterialKind::Mix => None,
         }
     }
 }

@@ -36,6 +36,8 @@ tags! {
         Leaf = 12 as 44 "leaf",
         /// Smooth dielectric with waves.
         Water = 13 as 45 "water",
+        /// One of two other materials, by chance.
+        Mix = 14 as 47 "mix",
     }
 }
 
@@ -112,7 +114,10 @@ impl MaterialKind {
         match self {
             Self::Diffuse => Traits { lobes: Lobes::Fixed, numbers: &[Direction], ..Traits::ROUGH },
             Self::Metal => Traits { numbers: &[Direction, Radius], ..Traits::ROUGH },
-            Self::Emissive => Traits { lobes: Lobes::None, numbers: &[], ..Traits::ROUGH },
+            // Whatever scatters is one of the two.
+            Self::Emissive | Self::Mix => {
+                Traits { lobes: Lobes::None, numbers: &[], ..Traits::ROUGH }
+            }
             Self::Principled => Traits {
                 generated: true,
                 straight: Some("dispatch_principled_straight"),
@@ -216,11 +221,13 @@ abi_struct! {
         pub normal_strength: f32,
         /// Index of the `Medium` inside, or `NONE`.
         pub medium: u32,
-        /// Which of two overlapping media counts: the greater.
+        /// Which of two overlapping media counts: the greater. Mix: its two materials, indices smaller than its own,
+    /// the first in bits 0 to 15.
         pub priority: u32,
         /// Second colour: what a coat reflects, the specular colour, veins of stone, late wood.
         pub tint: [f32; 3],
-        /// Share of a second lobe: surface fuzz, translucency.
+        /// Share of a second lobe: surface fuzz, translucency. Mix: of the second material, factor on the red of
+    /// `color_texture`.
         pub weight: f32,
         /// Stretches a pattern: pattern coordinates are metres of the object times this.
         pub pattern_scale: f32,
@@ -276,6 +283,12 @@ impl Material {
             self.coat_texture,
             self.transmission_texture,
         ]
+    }
+
+    /// The two materials of a mix, as `priority` has them.
+    #[must_use]
+    pub fn parts(&self) -> [u32; 2] {
+        [self.priority & 0xffff, self.priority >> 16]
     }
 
     /// A principled surface whose dielectric part does not reflect as its refractive index says.
