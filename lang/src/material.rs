@@ -13,6 +13,7 @@ mod sheet;
 mod specular;
 
 pub use param::{Color, Filling, Grain, Ingredient, Inside, NormalMap, Pattern, Scalar, Waves};
+pub(crate) use fields::VISIBLE;
 pub(crate) use param::{Param, Reader, Shown};
 
 use crate::scene::{Name, Rgb};
@@ -358,6 +359,12 @@ materials! {
             strength: f64 = [fields::EMISSIVE_STRENGTH],
             /// Emits from the back side too.
             both_sides: bool = [fields::EMISSIVE_SIDES],
+            /// The camera sees it.
+            visible: bool = [fields::VISIBLE],
+            /// Coverage.
+            alpha: Scalar = [fields::ALPHA],
+            /// Alpha below this is not there; `None`: alpha is the share that is there.
+            alpha_clip: Option<f64> = [fields::ALPHA_CLIP],
         }
         traits: {
             fn unmixable(&self) -> Option<&'static str> {

@@ -124,6 +124,9 @@ fn light_fields(light: &Light) -> (&'static str, Vec<(&'static str, String)>) {
     if light.velocity.iter().any(|c| c.abs() > 0.0) {
         fields.push(("velocity", vector(light.velocity, "m/s")));
     }
+    if !light.visible {
+        fields.push(("visible", "off".to_owned()));
+    }
     fields.extend(group(light.group.as_ref()));
     (kind, fields)
 }

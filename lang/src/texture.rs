@@ -69,6 +69,21 @@ pub enum TexturePattern {
 }
 
 impl<T> TextureExpression<T> {
+    /// 1/2 on the circle in the unit square, more within it: 1 - 2 r^2 at a distance r from the middle.
+    pub(crate) fn disk() -> Self {
+        let square = |angle: f64| {
+            let from_middle = || {
+                let along = Self::Pattern(TexturePattern::Gradient(angle));
+                Self::Sum(Box::new([along, Self::Number(-0.5)]))
+            };
+            Self::Product(Box::new([from_middle(), from_middle()]))
+        };
+        let r2 = Self::Sum(Box::new([square(0.0), square(std::f64::consts::FRAC_PI_2)]));
+        // The deepest part first: then the fewest values wait for each other.
+        let fall = Self::Product(Box::new([r2, Self::Number(-2.0)]));
+        Self::Sum(Box::new([fall, Self::Number(1.0)]))
+    }
+
     /// Its parts, in order.
     pub fn parts(&self) -> &[Self] {
         match self {

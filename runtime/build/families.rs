@@ -23,7 +23,7 @@ pub(crate) const MEDIA: usize = 1;
 pub(crate) const GEOMETRY: usize = 2;
 
 /// All families.
-pub(crate) fn all() -> [Family; 16] {
+pub(crate) fn all() -> [Family; 17] {
     [
         materials(),
         media(),
@@ -36,6 +36,7 @@ pub(crate) fn all() -> [Family; 16] {
         filters(),
         lengths(),
         tints(),
+        unseen(),
         choices(),
         layers(),
         motion(),
@@ -166,6 +167,11 @@ fn skies_and_cameras() -> Vec<(u64, FeatureSet)> {
         }
     }
     members
+}
+
+/// What the camera does not see.
+fn unseen() -> Family {
+    alone(bit::UNSEEN, |unseen| FeatureSet { unseen, ..FeatureSet::full() })
 }
 
 /// Lights that depend on direction: tinted ones, and spots.

@@ -35,6 +35,8 @@ pub struct FeatureSet {
     pub tint: bool,
     /// Some light shines into a cone.
     pub spot: bool,
+    /// Things that the camera does not see.
+    pub unseen: bool,
     /// Kinds of sky; none is black. A scene has at most one, the full kernel knows all.
     pub skies: BTreeSet<SkyKind>,
     /// Pixel filters. A scene has exactly one, the full kernel knows all.
@@ -145,6 +147,7 @@ impl FeatureSet {
             light_tree: false,
             tint: false,
             spot: false,
+            unseen: false,
             skies: BTreeSet::new(),
             filters: [FilterKind::Pixel].into(),
             cameras: [CameraKind::Perspective].into(),
@@ -187,6 +190,7 @@ impl FeatureSet {
             light_tree: true,
             tint: true,
             spot: true,
+            unseen: true,
             skies: SkyKind::ALL.into(),
             filters: FilterKind::ALL.into(),
             cameras: CameraKind::ALL.into(),

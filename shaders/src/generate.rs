@@ -45,6 +45,7 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/directional.wgsl", path::directional(features)),
         ("scene/dispatch_light.wgsl", light::dispatch(features)),
         ("scene/dispatch_mix.wgsl", bsdf::mix(features)),
+        ("scene/unseen.wgsl", media::unseen(features)),
         ("scene/dispatch_pattern.wgsl", bsdf::pattern(features)),
         ("scene/before.wgsl", media::before(features)),
         ("scene/instance_leaf.wgsl", traversal::instance_leaf(features)),

@@ -152,6 +152,8 @@ pub const CASES: &[Case] = &[
     case("gradient sky without a sun", &[BANDS, PLASTIC, BALL, FLOOR]),
     case("tinted light", &[TINTED, SKY, PLASTIC, BALL, FLOOR]),
     case("spot light", &[SPOT, PLASTIC, BALL, FLOOR]),
+    case("disk light", &[DISH, PLASTIC, BALL, FLOOR]),
+    case("lights that the camera does not see", &[UNSEEN, SKY, FUZZY, BALL, FLOOR]),
     case("spot light and other lights", &[SPOT, TINTED, LAMP, PANEL, SKY, FUZZY, BALL, FLOOR]),
     case("directional light alone", &[SUN_AHEAD]),
     case("directional light behind a sky", &[GRADIENT, SUN_AHEAD]),
@@ -340,6 +342,10 @@ const TINTED: &str = "light bulb: sphere {
   tint.angle = 14deg
 }\n";
 const SPOT: &str = "light stage: spot { at = (1, 4, 2)m, to = (0, 0.5, 0)m, cone = 20deg, edge = 8deg, radius = 20cm, power = 4000lm }\n";
+const DISH: &str = "light dish: disk { at = (0.5, 3, 1)m, to = (0, 0.5, 0)m, radius = 60cm, power = 4klm }\n";
+/// Above the ball, in the picture.
+const UNSEEN: &str = "light bulb: point { at = (-0.8, 1.4, 0)m, radius = 30cm, power = 40W, visible = off }
+light panel: rectangle { at = (1, 1.6, -1)m, to = (0, 0.5, 0)m, size = (1, 1)m, power = 30W, visible = off }\n";
 const SUN: &str = "light sun: directional { direction = (1, 2, 1), angular_diameter = 4deg, illuminance = 4W/m2, temperature = 4500K }\n";
 /// Where the camera looks, and half the sky wide.
 const SUN_AHEAD: &str = "light ahead: directional { direction = (-0.2, -0.1, -1), angular_diameter = 30deg, color = linear(0.3, 0.4, 0.9), strength = 0.5 }\n";
@@ -618,6 +624,7 @@ instance g { shape = sphere(radius: 30cm), material = frosted, at = (0.1, 0.3, 2
 instance h { shape = sphere(radius: 30cm), material = lacquer, at = (-0.7, 0.3, 2)m }
 instance i { shape = sphere(radius: 30cm), material = maple, at = (-2.2, 0.3, -0.4)m }
 instance k { shape = box(size: (0.5, 0.5, 0.5)m), material = gauze, at = (-0.5, 1, 1)m, rotate = (0, 20, 30)deg }
+light glow: disk { at = (-2, 2, 0)m, to = (0, 1, 0)m, radius = 20cm, power = 9W, visible = off }
 instance l { shape = sphere(radius: 20cm), material = rusty, at = (1.6, 0.2, 2)m }
 instance j { shape = tent, material = sakura, at = (-0.6, 0, 2.2)m, scale = (0.6, 0.8, 0.6) }\n";
 

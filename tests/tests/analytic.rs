@@ -275,6 +275,59 @@ fn declared_lights_give_what_their_units_say() {
     ]);
 }
 
+#[test]
+fn disk_lights_give_what_their_units_say() {
+    // A disk of radiance L and radius r at a distance d above: pi L r^2 / (r^2 + d^2), and pi^2 r^2 L is its power.
+    let dish = "at = (0, 1, 0)m, radius = 50cm";
+    let form = 0.25 / 1.25;
+    all(&[
+        lit_floor("disk, radiance", form, &format!("light l: disk {{ {dish} }}")),
+        lit_floor(
+            "disk, watts",
+            form,
+            &format!("light l: disk {{ {dish}, power = {:.12}W }}", 0.25 * PI * PI),
+        ),
+        lit_floor(
+            "disk, both sides",
+            form,
+            &format!("light l: disk {{ {dish}, sides = both, power = {:.12}W }}", 0.5 * PI * PI),
+        ),
+        lit_floor(
+            "disk that faces away",
+            0.0,
+            &format!("light l: disk {{ {dish}, direction = (0, 1, 0) }}"),
+        ),
+    ]);
+}
+
+/// The camera looks past lights that are not visible; mirrors, and what they light, do not.
+#[test]
+fn lights_that_are_not_visible_are_there_for_all_but_the_camera() {
+    let lamps = [
+        "light l: rectangle { at = (0, 3, 0)m, size = (2, 2)m, strength = 3, sides = both, visible = off }",
+        "light l: disk { at = (0, 3, 0)m, radius = 1m, strength = 3, sides = both, visible = off }",
+        "light l: sphere { center = (0, 3, 0)m, radius = 1m, strength = 3, visible = off }",
+        "light l: point { at = (0, 3, 0)m, radius = 1m, power = 3W, visible = off }",
+        "light l: spot { at = (0, 3, 0)m, radius = 1m, power = 3W, visible = off }",
+    ];
+    let sky = "sky s: constant { color = linear(0.25) }";
+    let mut checks = Vec::new();
+    for lamp in lamps {
+        // From below, past a surface that is not there.
+        let text = format!("rts 1\n{lamp}\n{sky}\n{}", view([0.0; 3], [0.0, 3.0, 0.0], 2));
+        checks.push(Check::new(format!("past {lamp}"), 0.25, text));
+    }
+    for lamp in &lamps[..3] {
+        let mirror = "material m: metal { color = linear(1) }
+instance floor { shape = rectangle(size: (4, 4)m), material = m }";
+        let text = format!("rts 1\n{mirror}\n{lamp}\n{sky}\n{}", view([-0.1, 1.0, 0.0], [0.0; 3], 3));
+        checks.push(Check::new(format!("{lamp} in a mirror"), 3.0, text));
+    }
+    let panel = "light l: rectangle { at = (0, 1, 0)m, size = (2, 2)m, visible = off }";
+    checks.push(lit_floor("a floor under a lamp that is not visible", 0.554_126_424, panel));
+    all(&checks);
+}
+
 /// A directional light of 683 pi lux, `tilt` degrees off the zenith, `diameter` degrees wide.
 fn sun(tilt: f64, diameter: f64) -> String {
     let (sine, cosine) = tilt.to_radians().sin_cos();

@@ -171,6 +171,14 @@ const CASES: &[Case] = &[
         words: &["spot_radiance", "FLAG_EMIT_SPOT"],
     },
     Case {
+        name: "a light that is visible",
+        idle: "LIGHT visible = on\n",
+        without: "",
+        busy: "LIGHT visible = off\n",
+        bits: bit::UNSEEN,
+        words: &["unseen_pass", "FLAG_UNSEEN"],
+    },
+    Case {
         name: "a black light at infinity",
         idle: "light far: directional { direction = (0, 1, 0), color = linear(0), strength = 3 }\n",
         without: "",

@@ -228,6 +228,7 @@ mod tests {
             radiance: [1.0; 3],
             tint: None,
             beam: Some(beam),
+            visible: true,
             group: None,
         };
         let [_, y, _, outer, inner] = facing(&light);

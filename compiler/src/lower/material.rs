@@ -29,7 +29,8 @@ impl MaterialTable<'_> {
                 let emission = light.radiance.map(|c| c as f32);
                 let plain = abi::Material { emission, ..blank(MaterialKind::Emissive) };
                 let spot = if light.beam.is_some() { material_flag::EMIT_SPOT } else { 0 };
-                let plain = abi::Material { flags: plain.flags | spot, ..plain };
+                let unseen = if light.visible { 0 } else { material_flag::UNSEEN };
+                let plain = abi::Material { flags: plain.flags | spot | unseen, ..plain };
                 tint(light).map_or(plain, |tint| abi::Material {
                     tint: tint.color.map(|c| c as f32),
                     flags: plain.flags | material_flag::EMIT_TINT,

@@ -6,9 +6,9 @@ use super::fields::Fields;
 use super::transform::{self, Pose};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
-use crate::material::{Color, Emissive};
+use crate::material::{Color, Emissive, Scalar};
 use crate::resolve::ItemId;
-use crate::scene::{Beam, Directional, Light, MaterialModel, Name, Rgb, Shape, Tint};
+use crate::scene::{Beam, Directional, Light, Name, Rgb, Shape, Tint};
 use crate::schema::light::LightType;
 use std::f64::consts::PI;
 
@@ -27,7 +27,9 @@ pub(super) struct Panel {
     pub(super) name: Name,
     pub(super) shape: Shape,
     pub(super) pose: Pose,
-    pub(super) material: MaterialModel,
+    pub(super) material: Emissive,
+    /// Only the largest disk in it is there.
+    pub(super) round: bool,
     pub(super) group: Option<String>,
 }
 
@@ -46,7 +48,7 @@ pub(super) fn check_light(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
             check_named_brightness(ev, id, fields, ["illuminance", "strength"]);
             check_direction(ev, fields, "direction");
         }
-        LightType::Rectangle => check_facing(ev, fields),
+        LightType::Rectangle | LightType::Disk => check_facing(ev, fields),
     }
 }
 
@@ -198,7 +200,17 @@ pub(super) fn light(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Opti
             ball(ev, name, fields, place, (None, Some(Beam { direction, inner, outer })))
         }
         LightType::Directional => directional(ev, name, fields),
-        LightType::Rectangle => panel(ev, name, fields).map(|panel| Lit::Panel(Box::new(panel))),
+        LightType::Rectangle => {
+            let size: [f64; 2] = fields.vector("size")?;
+            let form = Form { size, area: size[0] * size[1], spin: fields.number("spin")? };
+            panel(ev, name, fields, &form).map(|panel| Lit::Panel(Box::new(panel)))
+        }
+        LightType::Disk => {
+            let radius = fields.number("radius")?;
+            let form = Form { size: [2.0 * radius; 2], area: PI * radius * radius, spin: 0.0 };
+            let panel = Panel { round: true, ..panel(ev, name, fields, &form)? };
+            Some(Lit::Panel(Box::new(panel)))
+        }
     }
 }
 
@@ -227,7 +239,8 @@ fn ball(
     let radiance = brightness::radiance(ev, &name, fields, emitter)?;
     let velocity = fields.vector("velocity")?;
     let group = fields.text("group");
-    let light = Light { name, center, velocity, radius, radiance, tint, beam, group };
+    let visible = fields.word("visible")? == "on";
+    let light = Light { name, center, velocity, radius, radiance, tint, beam, visible, group };
     Some(Lit::Ball(Box::new(light)))
 }
 
@@ -239,9 +252,18 @@ fn facing(fields: &Fields, at: [f64; 3]) -> Option<[f64; 3]> {
     })
 }
 
-fn panel(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Option<Panel> {
-    let size: [f64; 2] = fields.vector("size")?;
-    let area = size[0] * size[1];
+/// What a flat light looks like.
+struct Form {
+    /// Width and height, metres.
+    size: [f64; 2],
+    /// What of it shines, square metres.
+    area: f64,
+    /// Radians.
+    spin: f64,
+}
+
+fn panel(ev: &mut Evaluator<'_>, name: Name, fields: &Fields, form: &Form) -> Option<Panel> {
+    let Form { size, area, spin } = *form;
     let both_sides = fields.word("sides")? == "both";
     // A side of radiance L gives off pi L watts for each square metre.
     let flux = PI * area * if both_sides { 2.0 } else { 1.0 };
@@ -249,13 +271,19 @@ fn panel(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Option<Panel> {
     let radiance = brightness::radiance(ev, &name, fields, emitter)?;
     let at = fields.vector::<3>("at")?;
     let pose = Pose {
-        matrix: transform::facing(at, facing(fields, at)?, fields.number("spin")?),
+        matrix: transform::facing(at, facing(fields, at)?, spin),
         velocity: fields.vector("velocity")?,
     };
-    let emissive = Emissive { color: Color::Constant(radiance), strength: 1.0, both_sides };
-    let material = MaterialModel::Emissive(emissive);
+    let material = Emissive {
+        color: Color::Constant(radiance),
+        strength: 1.0,
+        both_sides,
+        visible: fields.word("visible")? == "on",
+        alpha: Scalar::Constant(1.0),
+        alpha_clip: None,
+    };
     let group = fields.text("group");
-    Some(Panel { name, shape: Shape::Rectangle { size }, pose, material, group })
+    Some(Panel { name, shape: Shape::Rectangle { size }, pose, material, round: false, group })
 }
 
 /// Times `factor`.

@@ -13,7 +13,7 @@ use crate::eval::value::ShapeValue;
 use crate::material::Reader;
 use crate::resolve::ItemId;
 use crate::scene::{
-    Asset, Directional, Instance, Light, Material, MaterialModel, Medium, Name, Scene, Shape,
+    Asset, Directional, Instance, Light, Material, MaterialModel, Medium, Name, Scalar, Scene, Shape,
     Texture, TextureExpression,
 };
 use crate::schema::Kind;
@@ -169,7 +169,13 @@ fn add_panel(scene: &mut Scene, panel: Panel) {
         velocity: panel.pose.velocity,
         group: panel.group,
     });
-    scene.materials.push(Material { name: panel.name, model: panel.material, normal: None });
+    let mut material = panel.material;
+    if panel.round {
+        let disk = intern(&mut scene.expressions, TextureExpression::disk());
+        (material.alpha, material.alpha_clip) = (Scalar::Expression(disk), Some(0.5));
+    }
+    let model = MaterialModel::Emissive(material);
+    scene.materials.push(Material { name: panel.name, model, normal: None });
 }
 
 fn textures(ev: &Evaluator<'_>, order: &[(Name, ItemId)]) -> Option<Vec<Texture>> {

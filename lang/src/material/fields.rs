@@ -195,6 +195,19 @@ pub(super) const EMISSIVE_SIDES: Field = Field::new(
 )
 .foreign(&[("twosided", "pbrt"), ("two_sided", "common use"), ("doubleSided", "glTF")]);
 
+/// Of whatever gives off light and has a surface.
+pub(crate) const VISIBLE: Field = Field::new(
+    "visible",
+    FieldType::Word(&[("on", "it does"), ("off", "it looks past it")]),
+    Default::Word("on"),
+    "Whether the camera sees it. Its light, its shadow and its reflection are there either way.",
+)
+.foreign(&[
+    ("visible_camera", "Blender"),
+    ("camera_visibility", "common use"),
+    ("primary_visibility", "common use"),
+]);
+
 pub(super) const WATER_IOR: Field = Field::new(
     "ior",
     FieldType::Number(Bounds::number(1.0, 10.0)),

@@ -19,6 +19,8 @@ pub struct Light {
     pub tint: Option<Tint>,
     /// The cone into which it shines; all around without.
     pub beam: Option<Beam>,
+    /// The camera sees it.
+    pub visible: bool,
     /// Its light group, if it names one.
     pub group: Option<String>,
 }

@@ -2,6 +2,7 @@
 
 use super::instance::{GROUP, VELOCITY};
 use super::{ANY, Bounds, Default, Field, FieldType, Kind, TypeSchema, WHITE, Word};
+use crate::material::VISIBLE;
 use crate::units::Dim;
 
 types!(LightType {
@@ -9,7 +10,8 @@ types!(LightType {
     Point = POINT,
     Spot = SPOT,
     Directional = DIRECTIONAL,
-    Rectangle = RECTANGLE
+    Rectangle = RECTANGLE,
+    Disk = DISK
 });
 
 /// 80 degrees: at 90 the origin of the world would touch the light.
@@ -212,6 +214,7 @@ const SPHERE: TypeSchema = TypeSchema {
             "Where the tinted light comes from.",
         ),
         VELOCITY,
+        VISIBLE,
         GROUP,
     ],
     foreign: &[("spherical", "LuxCore")],
@@ -223,7 +226,7 @@ const POINT: TypeSchema = TypeSchema {
     doc: "A bulb: a small sphere, because nothing that shines is a point. It is seen by the camera, and its shadows \
           are as sharp as `radius` is small.",
     example: "light bulb: point { at = (0, 2.1, 0)m, temperature = 2800K, power = 800lm }",
-    fields: &[AT, RADIUS, COLOR, TEMPERATURE, POINT_INTENSITY, POINT_POWER, VELOCITY, GROUP],
+    fields: &[AT, RADIUS, COLOR, TEMPERATURE, POINT_INTENSITY, POINT_POWER, VELOCITY, VISIBLE, GROUP],
     foreign: &[("omni", "common use"), ("bulb", "common use")],
 };
 
@@ -300,6 +303,7 @@ const SPOT: TypeSchema = TypeSchema {
             ..POINT_POWER
         },
         VELOCITY,
+        VISIBLE,
         GROUP,
     ],
     foreign: &[("spotlight", "common use")],
@@ -373,6 +377,15 @@ const DIRECTIONAL: TypeSchema = TypeSchema {
     ],
 };
 
+/// Of flat lights.
+const PANEL_SIDES: Field = Field::new(
+    "sides",
+    FieldType::Word(SIDES),
+    Default::Word("front"),
+    "Which sides give off light.",
+)
+.foreign(&[("twosided", "pbrt"), ("two_sided", "common use")]);
+
 const RECTANGLE: TypeSchema = TypeSchema {
     kind: Kind::Light,
     name: "rectangle",
@@ -395,18 +408,13 @@ const RECTANGLE: TypeSchema = TypeSchema {
             Default::Number(0.0),
             "Turned about `direction`, counter-clockwise seen by who looks at it.",
         ),
-        Field::new(
-            "sides",
-            FieldType::Word(SIDES),
-            Default::Word("front"),
-            "Which sides give off light.",
-        )
-        .foreign(&[("twosided", "pbrt"), ("two_sided", "common use")]),
+        PANEL_SIDES,
         COLOR,
         TEMPERATURE,
         STRENGTH,
         POWER,
         VELOCITY,
+        VISIBLE,
         GROUP,
     ],
     foreign: &[
@@ -415,4 +423,27 @@ const RECTANGLE: TypeSchema = TypeSchema {
         ("quad", "common use"),
         ("portal", "common use"),
     ],
+};
+
+const DISK: TypeSchema = TypeSchema {
+    kind: Kind::Light,
+    name: "disk",
+    doc: "A round panel: a flat disk that shines evenly, seen by the camera too. It faces down unless `to` or \
+          `direction` says otherwise. It is a square with an `emissive` material, cut out to a circle.",
+    example: "light dish: disk { at = (0, 3, 2)m, to = (0, 1, 0)m, radius = 40cm, power = 1.5klm }",
+    fields: &[
+        AT,
+        Field::new("radius", LENGTH, Default::Required, "Distance from the middle to the rim."),
+        TO,
+        DIRECTION,
+        PANEL_SIDES,
+        COLOR,
+        TEMPERATURE,
+        STRENGTH,
+        POWER,
+        VELOCITY,
+        VISIBLE,
+        GROUP,
+    ],
+    foreign: &[("disc", "common use"), ("round", "common use"), ("circle", "common use")],
 };

@@ -71,6 +71,8 @@ features! {
     SPOT = 60 "spot lights",
     /// Has a material of partial coverage.
     ALPHA_BLEND = 62 "partial coverage",
+    /// Has a material that the camera does not see.
+    UNSEEN = 63 "lights that the camera does not see",
 }
 
 /// Has a sphere among its lights.
@@ -185,6 +187,7 @@ pub(crate) fn of(contents: &Contents<'_>) -> u64 {
         set(MaterialKind::from_tag(material.kind).map_or(0, MaterialKind::feature), true);
         set(TINT, material.flags & material_flag::EMIT_TINT != 0);
         set(SPOT, material.flags & material_flag::EMIT_SPOT != 0);
+        set(UNSEEN, material.flags & material_flag::UNSEEN != 0);
         set(ALPHA_CLIP, material.flags & material_flag::ALPHA_CLIP != 0);
         set(ALPHA_BLEND, material.is_partial());
         set(TANGENTS, material.flags & material_flag::TANGENT != 0);

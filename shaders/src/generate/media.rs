@@ -187,6 +187,24 @@ pub(crate) fn crossing(features: &FeatureSet) -> String {
     text
 }
 
+/// What the camera does not see.
+pub(crate) fn unseen(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: whether the camera sees all that is in this scene.\n\n");
+    text += &imports(["kernel/state.wgsl", "surface/surface.wgsl"]);
+    let mut body = "    return false;\n";
+    if features.unseen {
+        text += &imports(["kernel/unseen.wgsl"]);
+        body = "    return unseen_pass(path, s, flags, skip);\n";
+    }
+    function(
+        &mut text,
+        "True if the surface is not there for the camera, from which the path comes; it then goes straight on.",
+        "dispatch_unseen(path: ptr<function, Path>, s: Surface, flags: u32, skip: vec2u) -> bool",
+        body,
+    );
+    text
+}
+
 /// What happens to a shadow ray on its way.
 pub(crate) fn shadow(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: what a shadow ray meets.\n\n");

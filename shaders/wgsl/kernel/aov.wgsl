@@ -21,6 +21,7 @@
 #import "scene/records.wgsl"
 #import "scene/segment.wgsl"
 #import "scene/start.wgsl"
+#import "scene/unseen.wgsl"
 #import "trace/bvh.wgsl"
 #import "trace/ray.wgsl"
 
@@ -88,6 +89,9 @@ fn aov_surface(path: ptr<function, Path>, found: ptr<function, AovSample>, hit: 
     if (dispatch_pass(path, s, m.flags, ray_skip(hit))) {
         return;
     }
+    if (dispatch_unseen(path, s, m.flags, ray_skip(hit))) {
+        return;
+    }
     dispatch_tangent(&s, hit, m.flags);
     dispatch_horizon(&s, m.kind, m.flags);
     dispatch_shading_normal(&s, m, (*path).dir);
@@ -111,6 +115,9 @@ fn aov_surface(path: ptr<function, Path>, found: ptr<function, AovSample>, hit: 
         return;
     }
     dispatch_cross(path, s, m.flags, next.wi);
+    if (!dispatch_passes(path, m.flags, next)) {
+        (*path).scattered += 1u;
+    }
     (*path).point = s.p;
     (*path).ray_offset = s.ng * s.ray_offset;
     (*path).skip = ray_skip(hit);

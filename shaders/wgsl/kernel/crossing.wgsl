@@ -2,14 +2,13 @@
 
 #import "bsdf/scatter.wgsl"
 #import "kernel/state.wgsl"
+#import "kernel/straight_on.wgsl"
 #import "media/volume.wgsl"
 #import "scene/constants.wgsl"
-#import "scene/start.wgsl"
 #import "surface/surface.wgsl"
 
 // Moves the path straight through the surface `s`, on the primitive `skip`, if it is not there for a path in
-// these media. That is no vertex: density and point of the last one stay, for the weight of a light that
-// the path may find.
+// these media.
 fn crossing_pass(path: ptr<function, Path>, s: Surface, flags: u32, skip: vec2u) -> bool {
     if ((flags & FLAG_INTERIOR) == 0u) {
         return false;
@@ -19,13 +18,7 @@ fn crossing_pass(path: ptr<function, Path>, s: Surface, flags: u32, skip: vec2u)
         return false;
     }
     crossing_move(path, s);
-    // Other random numbers for the next segment, which does not count as one.
-    (*path).key.bounce += 1u;
-    (*path).segments -= 1u;
-    (*path).point = s.p;
-    (*path).ray_offset = s.ng * s.ray_offset;
-    (*path).skip = skip;
-    (*path).start = dispatch_start_plain();
+    straight_on(path, s, skip);
     return true;
 }
 

@@ -21,6 +21,7 @@
 #import "scene/sampler.wgsl"
 #import "scene/start.wgsl"
 #import "scene/survival.wgsl"
+#import "scene/unseen.wgsl"
 #import "surface/surface.wgsl"
 #import "trace/ray.wgsl"
 
@@ -42,6 +43,9 @@ fn vertex_surface(path: ptr<function, Path>, hit: Hit, v: ptr<function, Vertex>)
     var m = load_material(s.material);
     dispatch_mix(&s, &m, (*path).key);
     if (dispatch_pass(path, s, m.flags, ray_skip(hit))) {
+        return false;
+    }
+    if (dispatch_unseen(path, s, m.flags, ray_skip(hit))) {
         return false;
     }
     dispatch_tangent(&s, hit, m.flags);

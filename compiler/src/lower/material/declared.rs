@@ -79,8 +79,13 @@ impl MaterialTable<'_> {
 
     fn emissive(&mut self, from: &Emissive) -> abi::Material {
         let (emission, emission_texture) = self.emission(from.color, from.strength);
-        let flags = if from.both_sides { material_flag::EMIT_BOTH_SIDES } else { 0 };
-        abi::Material { emission, emission_texture, flags, ..blank(MaterialKind::Emissive) }
+        let sides = if from.both_sides { material_flag::EMIT_BOTH_SIDES } else { 0 };
+        let unseen = if from.visible { 0 } else { material_flag::UNSEEN };
+        let flags = sides | unseen;
+        let blank = blank(MaterialKind::Emissive);
+        let mut record = abi::Material { emission, emission_texture, flags, ..blank };
+        self.cover(&mut record, from.alpha, from.alpha_clip);
+        record
     }
 
     /// A mix that has only one of its parts is that part.

@@ -165,6 +165,8 @@ pub mod material_flag {
     pub const EMIT_SPOT: u32 = 128;
     /// A share of the surface is there, its alpha: each ray decides on its own whether it meets it.
     pub const ALPHA_BLEND: u32 = 256;
+    /// The camera does not see it: what comes straight from there goes straight on.
+    pub const UNSEEN: u32 = 512;
     /// Every bit.
     pub const ALL: u32 = EMIT_BOTH_SIDES
         | ALPHA_CLIP
@@ -174,7 +176,8 @@ pub mod material_flag {
         | THROUGH
         | EMIT_TINT
         | EMIT_SPOT
-        | ALPHA_BLEND;
+        | ALPHA_BLEND
+        | UNSEEN;
 }
 
 abi_struct! {
