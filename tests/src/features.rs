@@ -125,7 +125,7 @@ pub const CASES: &[Case] = &[
     case("rough dielectric of a texture", &[SKY, LAMP, PANEL, WEAR, WORN_GLASS, BALL, QUILT]),
     case("clearcoat", &[GRADIENT, SPHERE_LIGHT, LACQUER, BALL, TENT, FLOOR]),
     case("clearcoat with gloss", &[SKY, LAMP, PANEL, GLAZE, BALL, FLOOR]),
-    case("mix", &[GRADIENT, SPHERE_LIGHT, MIXED, BALL, TENT, FLOOR]),
+    case("mix", &[GRADIENT, SPHERE_LIGHT, SPECKLED, BALL, TENT, FLOOR]),
     case("mix of mixes by a mask", &[SKY, LAMP, PANEL, WEAR, MASKED, BALL, QUILT]),
     case("leaf", &[GRADIENT, SPHERE_LIGHT, LEAF, BALL, TENT, FLOOR]),
     case("petal", &[GRADIENT, SPHERE_LIGHT, PETAL, BALL, TENT, FLOOR]),
@@ -500,7 +500,7 @@ const WORN_METAL: &str = "material m: conductor { color = paint.rgb, roughness =
 const FROSTED: &str = "material m: dielectric { ior = 1.5, roughness = 0.4 }\n";
 const WORN_GLASS: &str = "material m: dielectric { ior = 1.3, roughness = wear.b }\n";
 const LACQUER: &str = "material m: clearcoat { color = linear(0.7, 0.1, 0.1) }\n";
-const MIXED: &str = "material m: mix { a = shiny, b = rough, amount = 0.3 }
+const SPECKLED: &str = "material m: mix { a = shiny, b = rough, amount = 0.3 }
 material shiny: metal { color = linear(0.9, 0.7, 0.4), fuzz = 0.1 }
 material rough: stone { color = linear(0.5, 0.3, 0.2), bump.strength = 20mm }\n";
 const MASKED: &str = "material m: mix { a = metals, b = rough, amount = wear.r }
