@@ -14,7 +14,7 @@ use crate::source::{Loader, SourceSet};
 use crate::syntax::ItemKind;
 use crate::{medium, sky};
 
-mod brightness;
+pub(crate) mod brightness;
 // In what checks kinds, a kind that a match forgets is an error, not what the last arm says.
 #[warn(clippy::wildcard_enum_match_arm)]
 pub(crate) mod camera;

@@ -12,8 +12,8 @@ mod principled;
 mod sheet;
 mod specular;
 
-pub use param::{Color, Filling, Grain, Ingredient, Inside, NormalMap, Pattern, Scalar, Waves};
 pub(crate) use fields::VISIBLE;
+pub use param::{Color, Filling, Grain, Ingredient, Inside, NormalMap, Pattern, Scalar, Waves};
 pub(crate) use param::{Param, Reader, Shown};
 
 use crate::scene::{Name, Rgb};
@@ -424,7 +424,7 @@ materials! {
         also: [fields::NORMAL, fields::NORMAL_STRENGTH],
         traits: {
             fn unmixable(&self) -> Option<&'static str> {
-                let dark = matches!(self.emission, Color::Constant(rgb) if rgb == [0.0; 3]);
+                let dark = matches!(self.emission, Color::Constant(rgb) if rgb.iter().all(|c| *c <= 0.0));
                 if self.emission_strength > 0.0 && !dark {
                     Some(GLOWS)
                 } else if self.transmission != Scalar::Constant(0.0) {

@@ -10,6 +10,7 @@ pub(crate) use written::{Declared, length, number, vector};
 
 use std::fmt::{self, Write as _};
 
+use crate::check::brightness::profile_scale;
 use crate::material::Shown;
 use crate::scene::{
     AssetFormat, Axis, Camera, Directional, FileFrame, GltfChoice, Instance, Light, Projection,
@@ -80,7 +81,7 @@ fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
         block(out, &format!("instance {}", instance.name.text), &fields)?;
     }
     for light in &scene.lights {
-        let (kind, fields) = light_fields(light);
+        let (kind, fields) = light_fields(scene, light);
         block(out, &format!("light {}: {kind}", light.name.text), &fields)?;
     }
     for light in &scene.directional {
@@ -99,7 +100,7 @@ fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
 }
 
 /// The type of a light and its fields.
-fn light_fields(light: &Light) -> (&'static str, Vec<(&'static str, String)>) {
+fn light_fields(scene: &Scene, light: &Light) -> (&'static str, Vec<(&'static str, String)>) {
     let mut fields = vec![("radius", length(light.radius)), ("color", color_text(light.radiance))];
     let kind = if let Some(beam) = &light.beam {
         let (outer, inner) = (libm::acos(beam.outer), libm::acos(beam.inner));
@@ -111,6 +112,12 @@ fn light_fields(light: &Light) -> (&'static str, Vec<(&'static str, String)>) {
         fields.push(("cone", units::show(outer, Dim::ANGLE)));
         fields.push(("edge", units::show(outer - inner, Dim::ANGLE)));
         "spot"
+    } else if let Some(profile) = &light.profile {
+        fields.insert(0, ("at", vector(light.center, "m")));
+        fields.push(("profile", texture_name(scene, profile.texture).to_owned()));
+        fields.push(("profile.scale", number(profile_scale(light.radiance, light.radius))));
+        fields.push(("direction", vector(profile.direction, "")));
+        "point"
     } else {
         fields.insert(0, ("center", vector(light.center, "m")));
         fields.push(("strength", "1".to_owned()));

@@ -17,7 +17,7 @@ mod view;
 pub use common::{Name, Rgb};
 pub use file::{Asset, AssetFormat, Axis, ColorSpace, FileFrame, GltfChoice, Texture, Wrap};
 pub use instance::Instance;
-pub use light::{Beam, Directional, Light, Tint};
+pub use light::{Beam, Directional, Light, Profile, Tint};
 pub use view::{
     Camera, Film, Filter, Fit, Layer, Lens, Projection, Render, Sampler, Side, ToneMap,
 };

@@ -174,14 +174,14 @@ fn unseen() -> Family {
     alone(bit::UNSEEN, |unseen| FeatureSet { unseen, ..FeatureSet::full() })
 }
 
-/// Lights that depend on direction: tinted ones, and spots.
+/// Lights that depend on direction: tinted ones, spots, and those with a profile.
 fn tints() -> Family {
-    let member = |(tint, spot)| {
-        let bits = if tint { bit::TINT } else { 0 } | if spot { bit::SPOT } else { 0 };
-        (bits, FeatureSet { tint, spot, ..FeatureSet::full() })
+    let bits = [bit::TINT, bit::SPOT, bit::PROFILE];
+    let member = |rows: BTreeSet<u64>| {
+        let [tint, spot, profile] = bits.map(|bit| rows.contains(&bit));
+        (rows.iter().sum(), FeatureSet { tint, spot, profile, ..FeatureSet::full() })
     };
-    let members = [(false, false), (true, false), (false, true), (true, true)];
-    Family { mask: bit::TINT | bit::SPOT, members: members.map(member).into() }
+    Family { mask: bits.iter().sum(), members: subsets(&bits).into_iter().map(member).collect() }
 }
 
 /// Several lights, and the tree of lights.

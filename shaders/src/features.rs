@@ -35,6 +35,8 @@ pub struct FeatureSet {
     pub tint: bool,
     /// Some light shines into a cone.
     pub spot: bool,
+    /// Lights with a profile.
+    pub profile: bool,
     /// Things that the camera does not see.
     pub unseen: bool,
     /// Kinds of sky; none is black. A scene has at most one, the full kernel knows all.
@@ -147,6 +149,7 @@ impl FeatureSet {
             light_tree: false,
             tint: false,
             spot: false,
+            profile: false,
             unseen: false,
             skies: BTreeSet::new(),
             filters: [FilterKind::Pixel].into(),
@@ -190,6 +193,7 @@ impl FeatureSet {
             light_tree: true,
             tint: true,
             spot: true,
+            profile: true,
             unseen: true,
             skies: SkyKind::ALL.into(),
             filters: FilterKind::ALL.into(),

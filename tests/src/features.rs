@@ -152,6 +152,7 @@ pub const CASES: &[Case] = &[
     case("gradient sky without a sun", &[BANDS, PLASTIC, BALL, FLOOR]),
     case("tinted light", &[TINTED, SKY, PLASTIC, BALL, FLOOR]),
     case("spot light", &[SPOT, PLASTIC, BALL, FLOOR]),
+    case("luminaire", &[LUMINAIRE, PLASTIC, BALL, FLOOR]),
     case("disk light", &[DISH, PLASTIC, BALL, FLOOR]),
     case("lights that the camera does not see", &[UNSEEN, SKY, FUZZY, BALL, FLOOR]),
     case("spot light and other lights", &[SPOT, TINTED, LAMP, PANEL, SKY, FUZZY, BALL, FLOOR]),
@@ -342,7 +343,10 @@ const TINTED: &str = "light bulb: sphere {
   tint.angle = 14deg
 }\n";
 const SPOT: &str = "light stage: spot { at = (1, 4, 2)m, to = (0, 0.5, 0)m, cone = 20deg, edge = 8deg, radius = 20cm, power = 4000lm }\n";
-const DISH: &str = "light dish: disk { at = (0.5, 3, 1)m, to = (0, 0.5, 0)m, radius = 60cm, power = 4klm }\n";
+const LUMINAIRE: &str = "texture wash = image(\"wash.ies\", space: linear)
+light lamp: point { at = (1, 3, 1)m, to = (0, 0.5, 0)m, profile = wash, radius = 5cm, spin = 20deg }\n";
+const DISH: &str =
+    "light dish: disk { at = (0.5, 3, 1)m, to = (0, 0.5, 0)m, radius = 60cm, power = 4klm }\n";
 /// Above the ball, in the picture.
 const UNSEEN: &str = "light bulb: point { at = (-0.8, 1.4, 0)m, radius = 30cm, power = 40W, visible = off }
 light panel: rectangle { at = (1, 1.6, -1)m, to = (0, 0.5, 0)m, size = (1, 1)m, power = 30W, visible = off }\n";
@@ -624,6 +628,8 @@ instance g { shape = sphere(radius: 30cm), material = frosted, at = (0.1, 0.3, 2
 instance h { shape = sphere(radius: 30cm), material = lacquer, at = (-0.7, 0.3, 2)m }
 instance i { shape = sphere(radius: 30cm), material = maple, at = (-2.2, 0.3, -0.4)m }
 instance k { shape = box(size: (0.5, 0.5, 0.5)m), material = gauze, at = (-0.5, 1, 1)m, rotate = (0, 20, 30)deg }
+texture wash = image(\"wash.ies\", space: linear)
+light washer: point { at = (2, 2.5, 1)m, profile = wash, profile.scale = 0.2, temperature = 3000K }
 light glow: disk { at = (-2, 2, 0)m, to = (0, 1, 0)m, radius = 20cm, power = 9W, visible = off }
 instance l { shape = sphere(radius: 20cm), material = rusty, at = (1.6, 0.2, 2)m }
 instance j { shape = tent, material = sakura, at = (-0.6, 0, 2.2)m, scale = (0.6, 0.8, 0.6) }\n";
@@ -633,6 +639,9 @@ const TENT_OBJ: &str = "v -0.5 0 -0.5\nv 0.5 0 -0.5\nv 0.5 0 0.5\nv -0.5 0 0.5\n
 vn -0.6 0.5 -0.6\nvn 0.6 0.5 -0.6\nvn 0.6 0.5 0.6\nvn -0.6 0.5 0.6\nvn 0 1 0
 vt 0 0\nvt 1 0\nvt 0.5 1
 f 2/1/2 1/2/1 5/3/5\nf 3/1/3 2/2/2 5/3/5\nf 4/1/4 3/2/3 5/3/5\nf 1/1/1 4/2/4 5/3/5\n";
+/// A lamp with two beams.
+const WASH_IES: &str = "IESNA:LM-63-1995\nTILT=NONE\n1 900 1 4 3 1 2 0 0 0\n1 1 40\n0 30 60 90
+0 90 180\n900 4000 300 0\n900 700 100 0\n900 2500 300 0\n";
 /// A square whose texture coordinates go beyond the image on all sides.
 const QUILT_OBJ: &str = "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1
 vt -1.4 -1.2\nvt 2.3 -1.2\nvt 2.3 2.1\nvt -1.4 2.1
@@ -758,7 +767,13 @@ fn write_files(dir: &Path) {
     exr::prelude::write_rgb_file(dir.join("panorama.exr"), 16, 8, sun)
         .expect("an image can be written");
     let bead = bead_obj();
-    for (name, text) in [("tent.obj", TENT_OBJ), ("quilt.obj", QUILT_OBJ), ("bead.obj", &bead)] {
+    let texts = [
+        ("tent.obj", TENT_OBJ),
+        ("quilt.obj", QUILT_OBJ),
+        ("bead.obj", &bead),
+        ("wash.ies", WASH_IES),
+    ];
+    for (name, text) in texts {
         std::fs::write(dir.join(name), text).expect("a mesh can be written");
     }
 }

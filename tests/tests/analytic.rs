@@ -15,6 +15,7 @@ mod unlimited;
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
 use std::fmt::Write as _;
+use std::path::PathBuf;
 
 use pack::Pack;
 use pack::abi::material_flag;
@@ -33,6 +34,8 @@ struct Check {
     rounding: f64,
     /// As `Frame::estimator`.
     estimator: u32,
+    /// Where the files of the scene are.
+    dir: PathBuf,
 }
 
 impl Check {
@@ -45,6 +48,7 @@ impl Check {
             samples: 256,
             rounding: 2e-6,
             estimator: 0,
+            dir: PathBuf::new(),
         }
     }
 
@@ -58,7 +62,7 @@ impl Check {
     }
 
     fn run(&self) -> Result<(), String> {
-        let compiled = scene::compile(&self.text);
+        let compiled = scene::compile_in(&self.dir, &self.text);
         self.judge(Pack::from_bytes(scene::bytes(&compiled)).expect("valid"))
     }
 
@@ -300,6 +304,62 @@ fn disk_lights_give_what_their_units_say() {
     ]);
 }
 
+/// A luminaire file with these horizontal angles and candelas, each for vertical angles of 0, 90 and 180 degrees.
+fn ies(horizontal: &str, candelas: &[[f64; 3]]) -> String {
+    let n = candelas.len();
+    let values: Vec<String> = candelas.concat().iter().map(f64::to_string).collect();
+    let values = values.join("\n");
+    format!(
+        "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 {n} 1 2 0 0 0\n1 1 9\n0 90 180\n{horizontal}\n{values}\n"
+    )
+}
+
+#[test]
+fn luminaires_shine_as_their_files_say() {
+    let dir = tempfile::tempdir().expect("a temporary directory can be made");
+    let check = |name: &str, expected: f64, file: &str, light: &str| {
+        std::fs::write(dir.path().join(format!("{name}.ies")), file).expect("written");
+        let texture = format!("texture t = image(\"{name}.ies\", space: linear)\n");
+        let light = format!("{texture}light l: point {{ profile = t, {light} }}");
+        let check = lit_floor(name, expected, &light);
+        // Between the angles of the image, half a degree, and in half floats.
+        Check { dir: dir.path().to_owned(), rounding: 1e-3, ..check }
+    };
+    let even = ies("0", &[[683.0; 3]]);
+    let falling = ies("0", &[[683.0, 0.0, 0.0]]);
+    let mut checks = vec![
+        // I / d^2, over pi.
+        check("even", 1.0 / (4.0 * PI), &even, "at = (0, 2, 0)m"),
+        check("green", 1.0 / (4.0 * PI), &even, "at = (0, 2, 0)m, color = linear(0.3, 1, 0.2)"),
+        check("dimmed", 0.25 / (4.0 * PI), &even, "at = (0, 2, 0)m, profile.scale = 0.25"),
+        check(
+            "below it, 30 degrees off the beam",
+            2.0 / 3.0 / (4.0 * PI),
+            &falling,
+            "at = (0, 2, 0)m, direction = (0.5, -0.8660254, 0)",
+        ),
+        check("behind it", 0.0, &falling, "at = (0, 2, 0)m, to = (0, 3, 0)m"),
+    ];
+    // Green is what is seen, and what the file's candelas are, by the colour's luminance.
+    checks[1].expected /= 0.2126 * 0.3 + 0.7152 + 0.0722 * 0.2;
+    // Around the beam: counter-clockwise from above, from +x.
+    let around = ies("0 90 180 270 360", &[[683.0; 3], [341.5; 3], [0.0; 3], [0.0; 3], [683.0; 3]]);
+    for (angle, spin, share) in [
+        (45.0, 0.0, 0.75),
+        (135.0, 0.0, 0.25),
+        (225.0, 0.0, 0.0),
+        (315.0, 0.0, 0.5),
+        (45.0, 90.0, 0.25),
+    ] {
+        let (sine, cosine) = f64::to_radians(angle).sin_cos();
+        let light = format!("at = ({}, 2, {})m, spin = {spin}deg", -2.0 * cosine, 2.0 * sine);
+        let expected = share * FRAC_1_SQRT_2 / 8.0 / PI;
+        let name = format!("{angle} degrees around, turned by {spin}");
+        checks.push(check(&name, expected, &around, &light));
+    }
+    all(&checks);
+}
+
 /// The camera looks past lights that are not visible; mirrors, and what they light, do not.
 #[test]
 fn lights_that_are_not_visible_are_there_for_all_but_the_camera() {
@@ -320,7 +380,8 @@ fn lights_that_are_not_visible_are_there_for_all_but_the_camera() {
     for lamp in &lamps[..3] {
         let mirror = "material m: metal { color = linear(1) }
 instance floor { shape = rectangle(size: (4, 4)m), material = m }";
-        let text = format!("rts 1\n{mirror}\n{lamp}\n{sky}\n{}", view([-0.1, 1.0, 0.0], [0.0; 3], 3));
+        let text =
+            format!("rts 1\n{mirror}\n{lamp}\n{sky}\n{}", view([-0.1, 1.0, 0.0], [0.0; 3], 3));
         checks.push(Check::new(format!("{lamp} in a mirror"), 3.0, text));
     }
     let panel = "light l: rectangle { at = (0, 1, 0)m, size = (2, 2)m, visible = off }";

@@ -171,6 +171,14 @@ const CASES: &[Case] = &[
         words: &["spot_radiance", "FLAG_EMIT_SPOT"],
     },
     Case {
+        name: "a light without a profile",
+        idle: "light lamp: point { at = (0, 3, 0)m, intensity = 9cd }\n",
+        without: "light lamp: point { at = (0, 3, 0)m, intensity = 9cd }\n",
+        busy: "texture dots = image(\"holes.png\", space: linear)\nlight lamp: point { at = (0, 3, 0)m, profile = dots }\n",
+        bits: bit::PROFILE | bit::TEXTURE_RGBA8_LINEAR,
+        words: &["profile_radiance", "FLAG_EMIT_PROFILE"],
+    },
+    Case {
         name: "a light that is visible",
         idle: "LIGHT visible = on\n",
         without: "",

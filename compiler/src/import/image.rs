@@ -3,7 +3,8 @@
 //! PNG, JPEG and WebP with 8 bits keep their bytes; PNG with 16 bits becomes half floats of `value /
 //! 65535` (11 significant bits, which is more than any texture lookup needs). Neither is converted:
 //! the numbers stay in the encoding of the file, sRGB or linear, which only the scene knows. HDR
-//! and EXR are linear by definition and become half floats; brighter texels are clamped and counted.
+//! and EXR are linear by definition and become half floats; brighter texels are clamped and counted. So are luminaire
+//! files (IES), which are images of all directions.
 //!
 //! The format is recognised by the first bytes, never by the name. Width and height are checked
 //! against the limit before any texel is decoded.
@@ -13,6 +14,7 @@ mod exr;
 mod format;
 mod guard;
 mod hdr;
+mod ies;
 mod texels;
 
 use self::format::{Format, broken, checked_size, gave_up, kept, raw, recognise};
@@ -40,6 +42,7 @@ pub fn decode_image(bytes: &[u8], place: &str, limits: &Limits) -> Result<Image,
     guard::quietly(|| match recognise(bytes, place)? {
         Format::Exr => exr::decode(bytes, place, limits, 1.0).map(HalfImage::finish),
         Format::Hdr => hdr::decode(bytes, place, limits, 1.0).map(HalfImage::finish),
+        Format::Ies => ies::decode(bytes, place, limits).map(HalfImage::finish),
         format => decode_ldr(bytes, format, place, limits),
     })
     .unwrap_or_else(|| Err(gave_up(place)))
@@ -50,6 +53,7 @@ pub(super) fn size(bytes: &[u8], place: &str, limits: &Limits) -> Result<[u32; 2
     guard::quietly(|| match recognise(bytes, place)? {
         Format::Exr => exr::size(bytes, place, limits),
         Format::Hdr => hdr::size(bytes, place, limits),
+        Format::Ies => ies::size(bytes, place, limits),
         format => {
             let decoder = reader(bytes, format, place)?;
             let (width, height) = decoder.into_dimensions().map_err(|e| broken(place, &e))?;
@@ -68,7 +72,7 @@ fn reader<'a>(
         Format::Png => ImageFormat::Png,
         Format::Jpeg => ImageFormat::Jpeg,
         Format::WebP => ImageFormat::WebP,
-        Format::Hdr | Format::Exr => {
+        Format::Hdr | Format::Exr | Format::Ies => {
             return Err(ImportError::new(ErrorKind::Image, place, "not an 8 or 16 bit image"));
         }
     };

@@ -4,8 +4,10 @@
 //! probabilities are whole multiples of 2^-24: then the probability that the estimator divides by
 //! is exactly the frequency with which the kernel chooses.
 
+use glam::DVec3;
 use lang::scene;
 use pack::abi::{self, LightKind, NONE};
+use std::f64::consts::PI;
 
 /// An emitter before primitives are in leaf order.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,10 +41,28 @@ pub(super) fn facing(light: &scene::Light) -> [f32; 5] {
         // The kernel divides by the difference.
         return [x, y, z, outer, (beam.inner as f32).max(outer.next_up())];
     }
+    if let Some(profile) = &light.profile {
+        let [x, y, z] = profile.direction.map(|c| -c as f32);
+        return [x, y, z, turn(profile) as f32, 0.0];
+    }
     tint(light).map_or([0.0; 5], |tint| {
         let [x, y, z] = tint.direction.map(|c| c as f32);
         [x, y, z, libm::cos(tint.angle) as f32, 0.0]
     })
+}
+
+/// How far the first column of a profile lies from the x axis of the kernel's frame around the light, turns back.
+fn turn(profile: &scene::Profile) -> f64 {
+    let axis = DVec3::from(profile.direction).as_vec3();
+    // `basis_around` of `math/basis.wgsl`.
+    let n = -axis.as_dvec3();
+    let s = if n.z >= 0.0 { 1.0 } else { -1.0 };
+    let a = -1.0 / (s + n.z);
+    let c = n.x * n.y * a;
+    let t = DVec3::new(1.0 + s * n.x * n.x * a, s * c, -s * n.x);
+    let b = DVec3::new(c, s + n.y * n.y * a, -n.y);
+    let first = DVec3::from(profile.first);
+    -libm::atan2(first.dot(b), first.dot(t)) / (2.0 * PI)
 }
 
 /// Steps of a 24-bit random number.
@@ -228,6 +248,7 @@ mod tests {
             radiance: [1.0; 3],
             tint: None,
             beam: Some(beam),
+            profile: None,
             visible: true,
             group: None,
         };

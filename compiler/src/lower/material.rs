@@ -5,7 +5,7 @@ mod imported;
 mod principled;
 mod table;
 
-use pack::abi::{self, MaterialKind, material_flag};
+use pack::abi::{self, MaterialKind, NONE, material_flag};
 
 use super::light::tint;
 use table::blank;
@@ -30,7 +30,12 @@ impl MaterialTable<'_> {
                 let plain = abi::Material { emission, ..blank(MaterialKind::Emissive) };
                 let spot = if light.beam.is_some() { material_flag::EMIT_SPOT } else { 0 };
                 let unseen = if light.visible { 0 } else { material_flag::UNSEEN };
-                let plain = abi::Material { flags: plain.flags | spot | unseen, ..plain };
+                let (profile, color_texture) = match &light.profile {
+                    Some(profile) => (material_flag::EMIT_PROFILE, self.profile(profile.texture)),
+                    None => (0, NONE),
+                };
+                let flags = plain.flags | spot | unseen | profile;
+                let plain = abi::Material { flags, color_texture, ..plain };
                 tint(light).map_or(plain, |tint| abi::Material {
                     tint: tint.color.map(|c| c as f32),
                     flags: plain.flags | material_flag::EMIT_TINT,

@@ -225,6 +225,8 @@ impl Explain<'_> {
         };
         let tinted = self.materials("has a tint", |m| m.flags & material_flag::EMIT_TINT != 0);
         let spots = self.materials("is a spot light", |m| m.flags & material_flag::EMIT_SPOT != 0);
+        let profiles =
+            self.materials("has a profile", |m| m.flags & material_flag::EMIT_PROFILE != 0);
         let unseen = self.materials("is not visible", |m| m.flags & material_flag::UNSEEN != 0);
         let white = self.scene.lights.iter().find(|light| light.tint.is_some());
         let white = white.map(|light| by("its tint changes nothing".to_owned(), &light.name));
@@ -243,6 +245,7 @@ impl Explain<'_> {
             ),
             Self::row(name_of(bit::TINT), self.features.tint, tinted, white),
             Self::row(name_of(bit::SPOT), self.features.spot, spots, None),
+            Self::row(name_of(bit::PROFILE), self.features.profile, profiles, None),
             Self::row(name_of(bit::UNSEEN), self.features.unseen, unseen, None),
         ]
     }

@@ -33,6 +33,7 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
         light_tree: !lowered.light_nodes.is_empty(),
         tint: materials.iter().any(|m| m.flags & material_flag::EMIT_TINT != 0),
         spot: materials.iter().any(|m| m.flags & material_flag::EMIT_SPOT != 0),
+        profile: materials.iter().any(|m| m.flags & material_flag::EMIT_PROFILE != 0),
         unseen: materials.iter().any(|m| m.flags & material_flag::UNSEEN != 0),
         skies: lowered
             .sky

@@ -71,6 +71,30 @@ pub(super) fn radiance(
     Some(radiance)
 }
 
+/// Candelas of the value 1 of a profile.
+const PROFILE_UNIT: f64 = 1000.0;
+
+/// The radiance of a light with a profile where that is 1; `area`: what of it is seen, m2. `None` only for fields with
+/// faults.
+pub(super) fn of_profile(ev: &mut Evaluator<'_>, fields: &Fields, area: f64) -> Option<Rgb> {
+    let color = match fields.number("temperature") {
+        Some(kelvin) => blackbody(kelvin),
+        None => fields.color("color")?,
+    };
+    let luminance: f64 = color.iter().zip(LUMINANCE).map(|(c, y)| c * y).sum();
+    if luminance == 0.0 {
+        return black(ev, fields, "profile");
+    }
+    let scale = fields.number("profile.scale")? * PROFILE_UNIT / (EFFICACY * luminance * area);
+    Some(color.map(|c| c * scale))
+}
+
+/// `profile.scale` of a ball of this radius, in metres, whose radiance `of_profile` gave.
+pub(crate) fn profile_scale(radiance: Rgb, radius: f64) -> f64 {
+    let luminance: f64 = radiance.iter().zip(LUMINANCE).map(|(c, y)| c * y).sum();
+    luminance * EFFICACY * std::f64::consts::PI * radius * radius / PROFILE_UNIT
+}
+
 fn is_luminous(dim: Dim) -> bool {
     [Dim::LUMINOUS_FLUX, Dim::LUMINOUS_INTENSITY, Dim::ILLUMINANCE, Dim::LUMINANCE].contains(&dim)
 }

@@ -4,11 +4,11 @@ use super::brightness::{self, Emitter};
 use super::exclusive::one_of;
 use super::fields::Fields;
 use super::transform::{self, Pose};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::eval::Evaluator;
 use crate::material::{Color, Emissive, Scalar};
 use crate::resolve::ItemId;
-use crate::scene::{Beam, Directional, Light, Name, Rgb, Shape, Tint};
+use crate::scene::{Beam, ColorSpace, Directional, Light, Name, Profile, Rgb, Shape, Tint};
 use crate::schema::light::LightType;
 use std::f64::consts::PI;
 
@@ -38,7 +38,7 @@ pub(super) fn check_light(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
     brightness::check(ev, fields);
     match LightType::of(fields.schema) {
         LightType::Sphere => check_sphere(ev, id, fields),
-        LightType::Point => check_brightness(ev, id, fields),
+        LightType::Point => check_point(ev, id, fields),
         LightType::Spot => {
             check_brightness(ev, id, fields);
             check_facing(ev, fields);
@@ -68,6 +68,37 @@ fn check_named_brightness(
         let error = Diagnostic::error(Code("E0207"), text)
             .at(ev.program.name_span(id), "how bright is it?")
             .with_help(format!("for example: {}", fields.schema.example));
+        ev.fault(error);
+    }
+}
+
+/// A bulb, or a luminaire.
+fn check_point(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
+    let Some(profile) = fields.item("profile") else {
+        check_brightness(ev, id, fields);
+        for name in ["profile.scale", "to", "direction", "spin"] {
+            if let Some(span) = fields.span(name) {
+                let text = format!("`{name}` does nothing without `profile`");
+                let error = Diagnostic::error(Code("E0207"), text)
+                    .at(span, "this light is the same in all directions")
+                    .with_help("leave it out; a `spot` is a lamp that shines into a cone");
+                ev.fault(error);
+            }
+        }
+        return;
+    };
+    for name in ["power", "intensity"] {
+        one_of(ev, fields, &["profile", name], "how bright the light is");
+    }
+    check_facing(ev, fields);
+    if let (Some(info), Some(span)) = (ev.textures.get(&profile), fields.value_span("profile"))
+        && info.space != ColorSpace::Linear
+    {
+        let text = "`profile` wants linear values";
+        let error = Diagnostic::error(Code("E0601"), text)
+            .at(span, "used as light by direction here")
+            .because(info.space_span, "tagged here")
+            .with_fix(Fix::guess("write `space: linear`", info.space_value, "linear"));
         ev.fault(error);
     }
 }
@@ -190,6 +221,9 @@ pub(super) fn light(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Opti
         }
         LightType::Point => {
             let place = (fields.vector("at")?, fields.number("radius")?);
+            if fields.has("profile") {
+                return luminaire(ev, name, fields, place);
+            }
             ball(ev, name, fields, place, (None, None))
         }
         LightType::Spot => {
@@ -240,8 +274,44 @@ fn ball(
     let velocity = fields.vector("velocity")?;
     let group = fields.text("group");
     let visible = fields.word("visible")? == "on";
-    let light = Light { name, center, velocity, radius, radiance, tint, beam, visible, group };
+    let light = Light {
+        name,
+        center,
+        velocity,
+        radius,
+        radiance,
+        tint,
+        beam,
+        profile: None,
+        visible,
+        group,
+    };
     Some(Lit::Ball(Box::new(light)))
+}
+
+/// A small sphere whose brightness by direction is an image, of which only the scene knows the index.
+fn luminaire(
+    ev: &mut Evaluator<'_>,
+    name: Name,
+    fields: &Fields,
+    (center, radius): ([f64; 3], f64),
+) -> Option<Lit> {
+    let radiance = brightness::of_profile(ev, fields, PI * radius * radius)?;
+    let direction = facing(fields, center)?;
+    let matrix = transform::facing(center, direction, fields.number("spin")?);
+    let first = matrix.map(|row| row[0]);
+    Some(Lit::Ball(Box::new(Light {
+        name,
+        center,
+        velocity: fields.vector("velocity")?,
+        radius,
+        radiance,
+        tint: None,
+        beam: None,
+        profile: Some(Profile { texture: 0, direction, first }),
+        visible: fields.word("visible")? == "on",
+        group: fields.text("group"),
+    })))
 }
 
 /// The unit vector along which a light at `at` shines.

@@ -13,8 +13,8 @@ use crate::eval::value::ShapeValue;
 use crate::material::Reader;
 use crate::resolve::ItemId;
 use crate::scene::{
-    Asset, Directional, Instance, Light, Material, MaterialModel, Medium, Name, Scalar, Scene, Shape,
-    Texture, TextureExpression,
+    Asset, Directional, Instance, Light, Material, MaterialModel, Medium, Name, Profile, Scalar,
+    Scene, Shape, Texture, TextureExpression,
 };
 use crate::schema::Kind;
 use crate::shape::{MeshEdit, Parts};
@@ -30,7 +30,7 @@ impl Checker {
     /// Builds the scene, as far as it is sound.
     pub(super) fn build(mut self, ev: &mut Evaluator<'_>) -> Option<Scene> {
         let view = self.view(ev);
-        let Lights { near: lights, directional, panels } = self.lights(ev);
+        let Lights { near, directional, panels } = self.lights(ev);
         if ev.diagnostics.iter().any(Diagnostic::is_error) {
             return None;
         }
@@ -41,6 +41,8 @@ impl Checker {
         let used = mix::with_parts(used, &self.fields);
         let read: BTreeSet<ItemId> =
             used.iter().filter_map(|id| self.sound(*id)).flat_map(material::textures).collect();
+        let profiles = near.iter().filter_map(|(_, profile)| *profile);
+        let read: BTreeSet<ItemId> = read.into_iter().chain(profiles).collect();
         let meshes: BTreeSet<ItemId> = placed
             .iter()
             .filter_map(|p| match *p.shape {
@@ -73,7 +75,7 @@ impl Checker {
             materials,
             media: self.media(&medium_order)?,
             instances: instances(placed, &material_at, &index(&asset_order))?,
-            lights,
+            lights: near.into_iter().map(|light| profiled(light, &texture)).collect(),
             directional,
             sky: view.sky,
             camera: view.camera,
@@ -99,13 +101,16 @@ impl Checker {
             let name = name(ev, id);
             let built = self.sound(id).and_then(|fields| light::light(ev, name, fields));
             match built.filter(|_| is_in_world(ev.program, id)) {
-                Some(Lit::Ball(light)) => lights.push(*light),
+                Some(Lit::Ball(light)) => {
+                    let profile = self.sound(id).and_then(|fields| fields.item("profile"));
+                    lights.push((*light, profile));
+                }
                 Some(Lit::Directional(light)) => directional.push(*light),
                 Some(Lit::Panel(panel)) => panels.push(*panel),
                 None => {}
             }
         }
-        lights.sort_by(|a, b| a.name.text.cmp(&b.name.text));
+        lights.sort_by(|a, b| a.0.name.text.cmp(&b.0.name.text));
         directional.sort_by(|a, b| a.name.text.cmp(&b.name.text));
         panels.sort_by(|a, b| a.name.text.cmp(&b.name.text));
         Lights { near: lights, directional, panels }
@@ -149,9 +154,16 @@ impl Checker {
 /// What the lights of a scene are in it, each list sorted by name.
 #[derive(Default)]
 struct Lights {
-    near: Vec<Light>,
+    /// With the textures of their profiles.
+    near: Vec<(Light, Option<ItemId>)>,
     directional: Vec<Directional>,
     panels: Vec<Panel>,
+}
+
+/// A light whose profile knows its texture.
+fn profiled((light, profile): (Light, Option<ItemId>), texture: &dyn Fn(ItemId) -> usize) -> Light {
+    let known = light.profile.zip(profile);
+    Light { profile: known.map(|(of, id)| Profile { texture: texture(id), ..of }), ..light }
 }
 
 /// Adds a flat light as an instance and a material of its name, after those that are declared.

@@ -87,8 +87,9 @@ const fn ingredient(name: &'static str, doc: &'static str) -> Field {
     Field::new(name, FieldType::Name(Kind::Material), Default::Required, doc)
 }
 
-pub(super) const MIX_A: Field = ingredient("a", "What most of the surface is if `amount` is small.")
-    .foreign(&[("first", "common use"), ("material1", "LuxCore")]);
+pub(super) const MIX_A: Field =
+    ingredient("a", "What most of the surface is if `amount` is small.")
+        .foreign(&[("first", "common use"), ("material1", "LuxCore")]);
 pub(super) const MIX_B: Field = ingredient("b", "What a share `amount` of the surface is.")
     .foreign(&[("second", "common use"), ("material2", "LuxCore")]);
 pub(super) const MIX_AMOUNT: Field = Field::new(

@@ -19,6 +19,8 @@ pub struct Light {
     pub tint: Option<Tint>,
     /// The cone into which it shines; all around without.
     pub beam: Option<Beam>,
+    /// How bright it is in each direction; the same in all without.
+    pub profile: Option<Profile>,
     /// The camera sees it.
     pub visible: bool,
     /// Its light group, if it names one.
@@ -67,6 +69,18 @@ impl Beam {
         // Integral of the smooth step over the sphere, divided by 4 pi.
         0.5 * (1.0 - 0.5 * (self.inner + self.outer))
     }
+}
+
+/// Brightness by direction: an image whose rows are angles from the beam, 0 to 180 degrees, and whose columns turn around
+/// it, counter-clockwise seen from behind the lamp.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Profile {
+    /// Index into `Scene::textures`.
+    pub texture: usize,
+    /// Unit vector along the beam, world frame.
+    pub direction: [f64; 3],
+    /// Unit vector across it, where the first column lies.
+    pub first: [f64; 3],
 }
 
 /// A factor on the light of a sphere light by the direction from which it comes.

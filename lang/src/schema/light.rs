@@ -224,9 +224,38 @@ const POINT: TypeSchema = TypeSchema {
     kind: Kind::Light,
     name: "point",
     doc: "A bulb: a small sphere, because nothing that shines is a point. It is seen by the camera, and its shadows \
-          are as sharp as `radius` is small.",
+          are as sharp as `radius` is small. With a `profile` it is a luminaire.",
     example: "light bulb: point { at = (0, 2.1, 0)m, temperature = 2800K, power = 800lm }",
-    fields: &[AT, RADIUS, COLOR, TEMPERATURE, POINT_INTENSITY, POINT_POWER, VELOCITY, VISIBLE, GROUP],
+    fields: &[
+        AT,
+        RADIUS,
+        COLOR,
+        TEMPERATURE,
+        POINT_INTENSITY,
+        POINT_POWER,
+        Field::new(
+            "profile",
+            FieldType::Name(Kind::Texture),
+            Default::Absent("the same in all directions"),
+            "How much light it gives off in each direction, in place of `intensity` and `power`: a `texture` of a \
+             luminaire file (IES), tagged `linear`. Of another image, whose top row is the middle of the beam, 1 is \
+             1000 candelas.",
+        )
+        .foreign(&[("ies", "Blender and LuxCore"), ("iesfile", "LuxCore"), ("goniometric", "pbrt")]),
+        Field::new(
+            "profile.scale",
+            FieldType::Number(Bounds::number(0.0, ANY)),
+            Default::Number(1.0),
+            "Factor on the light of `profile`.",
+        )
+        .typical("0.5 for a lamp that is dimmed to a half"),
+        PROFILE_TO,
+        PROFILE_DIRECTION,
+        SPIN,
+        VELOCITY,
+        VISIBLE,
+        GROUP,
+    ],
     foreign: &[("omni", "common use"), ("bulb", "common use")],
 };
 
@@ -245,6 +274,18 @@ const DIRECTION: Field = Field::new(
     "Which way it faces; its length does not matter.",
 )
 .foreign(&[("normal", "common use")]);
+
+/// Of lamps with a profile.
+const PROFILE_TO: Field = Field { doc: "A point to which the beam of `profile` goes.", ..TO };
+const PROFILE_DIRECTION: Field =
+    Field { doc: "Which way the beam of `profile` goes; its length does not matter.", ..DIRECTION };
+
+const SPIN: Field = Field::new(
+    "spin",
+    FieldType::Number(Bounds::new(Dim::ANGLE, "deg", f64::NEG_INFINITY, ANY)),
+    Default::Number(0.0),
+    "Turned about `direction`, counter-clockwise seen by who looks at it.",
+);
 
 const SPOT: TypeSchema = TypeSchema {
     kind: Kind::Light,
@@ -402,12 +443,7 @@ const RECTANGLE: TypeSchema = TypeSchema {
         ),
         TO,
         DIRECTION,
-        Field::new(
-            "spin",
-            FieldType::Number(Bounds::new(Dim::ANGLE, "deg", f64::NEG_INFINITY, ANY)),
-            Default::Number(0.0),
-            "Turned about `direction`, counter-clockwise seen by who looks at it.",
-        ),
+        SPIN,
         PANEL_SIDES,
         COLOR,
         TEMPERATURE,

@@ -71,6 +71,8 @@ features! {
     SPOT = 60 "spot lights",
     /// Has a material of partial coverage.
     ALPHA_BLEND = 62 "partial coverage",
+    /// Has a light with a profile.
+    PROFILE = 49 "light profiles",
     /// Has a material that the camera does not see.
     UNSEEN = 63 "lights that the camera does not see",
 }
@@ -188,6 +190,7 @@ pub(crate) fn of(contents: &Contents<'_>) -> u64 {
         set(TINT, material.flags & material_flag::EMIT_TINT != 0);
         set(SPOT, material.flags & material_flag::EMIT_SPOT != 0);
         set(UNSEEN, material.flags & material_flag::UNSEEN != 0);
+        set(PROFILE, material.flags & material_flag::EMIT_PROFILE != 0);
         set(ALPHA_CLIP, material.flags & material_flag::ALPHA_CLIP != 0);
         set(ALPHA_BLEND, material.is_partial());
         set(TANGENTS, material.flags & material_flag::TANGENT != 0);

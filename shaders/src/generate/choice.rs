@@ -79,7 +79,7 @@ pub(crate) fn tint(features: &FeatureSet) -> String {
         String::from("// Generated: whether lights of this scene depend on direction.\n\n");
     let mut modules = vec!["abi/light.wgsl"];
     let (mut found, mut sampled) = (String::new(), String::new());
-    if features.tint || features.spot {
+    if features.tint || features.spot || features.profile {
         modules.extend(["scene/constants.wgsl", "scene/records.wgsl"]);
     }
     if features.tint {
@@ -97,6 +97,16 @@ pub(crate) fn tint(features: &FeatureSet) -> String {
                   return spot_radiance(radiance, load_light_edge2(light), cone.y, cone.z, dir);\n    }\n";
         sampled += "    if ((flags & FLAG_EMIT_SPOT) != 0u) {\n        \
                     return spot_radiance(radiance, light.edge2, light.edge1.y, light.edge1.z, dir);\n    }\n";
+    }
+    if features.profile {
+        modules.push("light/profile.wgsl");
+        found += "    if ((flags & FLAG_EMIT_PROFILE) != 0u && light != NONE) {\n        \
+                  let turn = load_light_edge1(light).y;\n        \
+                  let image = load_material_color_texture(material);\n        \
+                  return profile_radiance(radiance, image, load_light_edge2(light), turn, dir);\n    }\n";
+        sampled += "    if ((flags & FLAG_EMIT_PROFILE) != 0u) {\n        \
+                    let image = load_material_color_texture(light.material);\n        \
+                    return profile_radiance(radiance, image, light.edge2, light.edge1.y, dir);\n    }\n";
     }
     text += &imports(modules);
     let _ = write!(

@@ -38,6 +38,7 @@ pub(crate) fn text(features: &FeatureSet) -> String {
         named("TRI_SMOOTH", TRI_SMOOTH),
         named("FLAG_EMIT_TINT", material_flag::EMIT_TINT),
         named("FLAG_EMIT_SPOT", material_flag::EMIT_SPOT),
+        named("FLAG_EMIT_PROFILE", material_flag::EMIT_PROFILE),
         named("FLAG_UNSEEN", material_flag::UNSEEN),
         named("FLAG_ALPHA_BLEND", material_flag::ALPHA_BLEND),
         named("LIGHT_LEAF", LIGHT_LEAF),

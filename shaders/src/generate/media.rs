@@ -96,7 +96,9 @@ pub(crate) fn segment(features: &FeatureSet) -> String {
     // Fog glows along the whole segment, wherever a medium scatters the path.
     let reach = match (features.media && features.scattering, features.fog) {
         (true, false) => "    return segment_reach(path);\n",
-        (true, true) => "    return select(RAY_FAR, segment_reach(path), load_frame_fog() == NONE);\n",
+        (true, true) => {
+            "    return select(RAY_FAR, segment_reach(path), load_frame_fog() == NONE);\n"
+        }
         (false, _) => "    return RAY_FAR;\n",
     };
     let comment = "How far along the path's next segment its ray has to look.";
@@ -189,7 +191,8 @@ pub(crate) fn crossing(features: &FeatureSet) -> String {
 
 /// What the camera does not see.
 pub(crate) fn unseen(features: &FeatureSet) -> String {
-    let mut text = String::from("// Generated: whether the camera sees all that is in this scene.\n\n");
+    let mut text =
+        String::from("// Generated: whether the camera sees all that is in this scene.\n\n");
     text += &imports(["kernel/state.wgsl", "surface/surface.wgsl"]);
     let mut body = "    return false;\n";
     if features.unseen {

@@ -14,6 +14,7 @@ pub(super) enum Format {
     WebP,
     Hdr,
     Exr,
+    Ies,
 }
 
 pub(super) fn gave_up(place: &str) -> ImportError {
@@ -42,6 +43,9 @@ pub(super) fn recognise(bytes: &[u8], place: &str) -> Result<Format, ImportError
     if bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP") {
         return Ok(Format::WebP);
     }
+    if is_luminaire(bytes) {
+        return Ok(Format::Ies);
+    }
     if let Some((_, format)) = KNOWN.iter().find(|(magic, _)| bytes.starts_with(magic)) {
         return Ok(*format);
     }
@@ -55,6 +59,14 @@ pub(super) fn recognise(bytes: &[u8], place: &str) -> Result<Format, ImportError
         None => "this is not a PNG, JPEG, WebP, HDR or EXR image".to_owned(),
     };
     Err(ImportError::new(ErrorKind::Image, place, message).with_help("convert it to PNG or EXR"))
+}
+
+/// Whether these are the first bytes of a luminaire file: a text with a line `TILT=` before its numbers.
+fn is_luminaire(bytes: &[u8]) -> bool {
+    const HEAD: usize = 1 << 16;
+    let head = &bytes[..bytes.len().min(HEAD)];
+    let mut lines = head.split(|byte| *byte == b'\n');
+    bytes.starts_with(b"IESNA") || lines.any(|line| line.starts_with(b"TILT="))
 }
 
 /// `width` and `height` if they are not zero and within the limit.

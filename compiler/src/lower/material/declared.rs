@@ -1,8 +1,8 @@
 //! A material that a scene declares becomes a record.
 
 use lang::material::{
-    self, Clearcoat, Conductor, Dielectric, Diffuse, Emissive, Fabric, Inside, Leaf, Metal,
-    Mix, Pattern, Petal, Stone, Wood,
+    self, Clearcoat, Conductor, Dielectric, Diffuse, Emissive, Fabric, Inside, Leaf, Metal, Mix,
+    Pattern, Petal, Stone, Wood,
 };
 use lang::scene::{self, MaterialModel, Scalar};
 use pack::abi::{self, MaterialKind, NONE, material_flag};

@@ -145,7 +145,18 @@ impl<'a> MaterialTable<'a> {
 
     fn glow_of(&mut self, record: &abi::Material) -> f64 {
         let sides = if record.flags & material_flag::EMIT_BOTH_SIDES != 0 { 2.0 } else { 1.0 };
-        sides * luminance(self.mean_emission(record)) * self.mean_coverage(record)
+        sides
+            * luminance(self.mean_emission(record))
+            * self.mean_coverage(record)
+            * self.mean_profile(record)
+    }
+
+    /// Mean brightness of a light over its profile; a lamp whose profile is black still has its place.
+    fn mean_profile(&mut self, record: &abi::Material) -> f64 {
+        if record.flags & material_flag::EMIT_PROFILE == 0 {
+            return 1.0;
+        }
+        self.textures.mean(record.color_texture)[0].max(1e-6)
     }
 
     /// Mean share of a surface that is there.
@@ -196,6 +207,12 @@ impl<'a> MaterialTable<'a> {
             return id;
         }
         self.textures.expression(vec![expression::image(id, placement)])
+    }
+
+    /// A declared image of the light of a lamp by direction, whatever it is elsewhere.
+    pub(super) fn profile(&mut self, texture: usize) -> u32 {
+        let wrap = [Wrap::Repeat, Wrap::Clamp];
+        self.textures.whole(ImageRef::Scene(texture), ColorSpace::Linear, wrap)
     }
 
     /// A declared image of normals where it is placed.

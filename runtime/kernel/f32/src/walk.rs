@@ -136,7 +136,7 @@ impl Walk<'_, '_> {
                 if child & (CHILD_SPHERES | MOVING) == 0 {
                     let blocks = tree.blocks(child);
                     let crossed = crossed.as_deref_mut();
-                    hit = triangles::leaf(kernel, blocks, &walk.ray, &sheared, all, hit, crossed);
+                    hit = triangles::leaf(kernel, blocks, &walk.ray, &sheared, all, (hit, crossed));
                 } else {
                     let leaf = if child & CHILD_SPHERES != 0 { child } else { tree.moving(child) };
                     let found = kernel.leaf_trace(leaf, walk.ray, walk.leaf, hit);

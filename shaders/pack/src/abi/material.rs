@@ -165,6 +165,8 @@ pub mod material_flag {
     pub const EMIT_SPOT: u32 = 128;
     /// A share of the surface is there, its alpha: each ray decides on its own whether it meets it.
     pub const ALPHA_BLEND: u32 = 256;
+    /// A light whose brightness by direction is the image `color_texture`; its `Light` says how that is turned.
+    pub const EMIT_PROFILE: u32 = 1024;
     /// The camera does not see it: what comes straight from there goes straight on.
     pub const UNSEEN: u32 = 512;
     /// Every bit.
@@ -177,7 +179,8 @@ pub mod material_flag {
         | EMIT_TINT
         | EMIT_SPOT
         | ALPHA_BLEND
-        | UNSEEN;
+        | UNSEEN
+        | EMIT_PROFILE;
 }
 
 abi_struct! {

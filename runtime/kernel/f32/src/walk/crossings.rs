@@ -78,7 +78,10 @@ impl Crossings {
         let last = self.told.checked_sub(1).and_then(|told| self.hits.get(told))?;
         let known = self.told < self.n || !self.more;
         let whole = Ray { t_min: self.ray.t_min, last: self.ray.last, ..*ray };
-        if !known || ray.t_min != last.t || ray.last.to_array() != [last.prim, last.instance] {
+        if !known
+            || ray.t_min.to_bits() != last.t.to_bits()
+            || ray.last.to_array() != [last.prim, last.instance]
+        {
             return None;
         }
         if whole != self.ray {
@@ -94,8 +97,9 @@ impl Crossings {
 
 /// Which of two hits of a ray comes first; equal: the same triangle, in two of its places.
 fn order(kernel: &mut Kernel<'_>, a: &Hit, b: &Hit) -> Ordering {
-    if a.t != b.t {
-        return a.t.total_cmp(&b.t);
+    let by_distance = a.t.total_cmp(&b.t);
+    if by_distance != Ordering::Equal {
+        return by_distance;
     }
     let before = if a.prim & PRIM_SPHERE != 0 {
         if a.prim == b.prim {

@@ -66,14 +66,13 @@ pub(super) fn leaf(
     ray: &Ray,
     sheared: &Sheared,
     all: bool,
-    best: Hit,
-    crossed: Option<&mut Crossings>,
+    (best, crossed): (Hit, Option<&mut Crossings>),
 ) -> Hit {
     // Asked once, and not in every test.
     match sheared.axis {
-        0 => leaf_along::<0>(kernel, blocks, ray, sheared, all, best, crossed),
-        1 => leaf_along::<1>(kernel, blocks, ray, sheared, all, best, crossed),
-        _ => leaf_along::<2>(kernel, blocks, ray, sheared, all, best, crossed),
+        0 => leaf_along::<0>(kernel, blocks, ray, sheared, all, (best, crossed)),
+        1 => leaf_along::<1>(kernel, blocks, ray, sheared, all, (best, crossed)),
+        _ => leaf_along::<2>(kernel, blocks, ray, sheared, all, (best, crossed)),
     }
 }
 
@@ -84,8 +83,7 @@ fn leaf_along<const AXIS: u32>(
     ray: &Ray,
     sheared: &Sheared,
     all: bool,
-    best: Hit,
-    mut crossed: Option<&mut Crossings>,
+    (best, mut crossed): (Hit, Option<&mut Crossings>),
 ) -> Hit {
     let mut hit = best;
     for block in blocks {
