@@ -596,33 +596,6 @@ materials! {
             }
         }
     }
-    /// One of two materials, by chance.
-    Mix "mix" {
-        doc: "Two materials on one surface, each with its share: rust on steel, dust on varnish. A mask as `amount` says \
-              where which one is. The parts may be mixes. They reflect and scatter light at their surface: none has an \
-              inside, gives off light, is cut out or lets light straight through.",
-        example: "material worn: mix { a = paint, b = steel, amount = mask.r }",
-        elsewhere: &[
-        ("blend", "common use"),
-        ("blendbsdf", "Mitsuba"),
-        ("mix_shader", "Blender"),
-        ("layered", "common use"),
-    ],
-        lints: Lints::NONE,
-        fields: {
-            /// The first.
-            a: Ingredient = [fields::MIX_A],
-            /// The second.
-            b: Ingredient = [fields::MIX_B],
-            /// Share of the second, 0 ..= 1.
-            amount: Scalar = [fields::MIX_AMOUNT],
-        }
-        traits: {
-            fn ingredients(&self) -> [Option<Ingredient>; 2] {
-                [self.a, self.b].map(Some)
-            }
-        }
-    }
     /// Water.
     Water "water" {
         doc: "Water with ripples: reflects and refracts, and absorbs inside, red first. Faces that look up have \
@@ -648,6 +621,33 @@ materials! {
             fn inside(&self) -> Option<Inside> {
                 // Water that names no medium may be a sea, open at its rim.
                 Some(self.filling.inside).filter(|inside| inside.medium.is_some())
+            }
+        }
+    }
+    /// One of two materials, by chance.
+    Mix "mix" {
+        doc: "Two materials on one surface, each with its share: rust on steel, dust on varnish. A mask as `amount` says \
+              where which one is. The parts may be mixes. They reflect and scatter light at their surface: none has an \
+              inside, gives off light, is cut out or lets light straight through.",
+        example: "material worn: mix { a = steel, b = clay, amount = noise(7) }",
+        elsewhere: &[
+        ("blend", "common use"),
+        ("blendbsdf", "Mitsuba"),
+        ("mix_shader", "Blender"),
+        ("layered", "common use"),
+    ],
+        lints: Lints::NONE,
+        fields: {
+            /// The first.
+            a: Ingredient = [fields::MIX_A],
+            /// The second.
+            b: Ingredient = [fields::MIX_B],
+            /// Share of the second, 0 ..= 1.
+            amount: Scalar = [fields::MIX_AMOUNT],
+        }
+        traits: {
+            fn ingredients(&self) -> [Option<Ingredient>; 2] {
+                [self.a, self.b].map(Some)
             }
         }
     }

@@ -20,9 +20,9 @@ use crate::schema::color_text;
 use crate::shape::MeshEdit;
 use crate::units::{self, Dim};
 
-/// What fields may refer to.
-fn shown(scene: &Scene) -> Shown<'_> {
-    Shown::new(&scene.textures, &scene.expressions, (&scene.media, &scene.materials))
+/// What fields may refer to; `materials`: names of them, for fields of materials.
+fn shown<'a>(scene: &'a Scene, materials: &'a [&'a str]) -> Shown<'a> {
+    Shown::new(&scene.textures, &scene.expressions, (&scene.media, materials))
 }
 
 /// Every declaration of the scene, sorted by kind and name.
@@ -66,8 +66,9 @@ fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
             texture.placement.fields()
         )?;
     }
+    let names: Vec<&str> = scene.materials.iter().map(|m| m.name.text.as_str()).collect();
     for material in &scene.materials {
-        let mut shown = shown(scene);
+        let mut shown = shown(scene, &names);
         let kind = material.model.show(&mut shown);
         let mut fields = shown.lines;
         if let Some(map) = &material.normal {
@@ -239,7 +240,7 @@ fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {
         ("camera", camera.name.text.clone()),
         ("film", film.name.text.clone()),
         ("sky", sky.to_owned()),
-        ("atmosphere", shown(scene).medium(render.atmosphere)),
+        ("atmosphere", shown(scene, &[]).medium(render.atmosphere)),
         ("samples", render.samples.to_string()),
         (
             "depth",

@@ -62,6 +62,7 @@ fn every_example_of_the_schema_is_right() {
     // What the examples refer to; a line is left out where the example declares its name itself.
     let others = [
         ("clay", "material clay: diffuse { color = linear(0.5) }"),
+        ("steel", "material steel: conductor { color = linear(0.6) }"),
         ("post", "object post { shape = sphere(radius: 1m), material = clay }"),
         ("hero", "camera hero: perspective { from = (4, 1.5, 10)m, to = (0, 2, 0)m }"),
         ("uhd", "film uhd { }"),

@@ -11,10 +11,18 @@ pub fn scene(example: &str, size: u32, samples: u32) -> String {
         .chars()
         .take_while(|c| c.is_ascii_alphanumeric() || *c == '_')
         .collect();
-    format!("rts 1\n{example}\ninstance ball {{ shape = sphere(radius: 50cm), material = {name}, at = (0, 0.5, 0)m }}\n{STUDIO}\
+    // What an example may refer to, unless it declares that itself.
+    let parts: String =
+        [STEEL, CLAY].into_iter().filter(|(part, _)| *part != name).map(|row| row.1).collect();
+    format!("rts 1\n{parts}{example}\ninstance ball {{ shape = sphere(radius: 50cm), material = {name}, at = (0, 0.5, 0)m }}\n{STUDIO}\
 film square {{ size = ({size}, {size})px, tone_map = aces }}
 render main: path {{ camera = eye, film = square, samples = {samples}, depth = 24 }}\n")
 }
+
+/// Materials that examples may be made of.
+const STEEL: (&str, &str) =
+    ("steel", "material steel: conductor { color = linear(0.6, 0.62, 0.65), roughness = 0.25 }\n");
+const CLAY: (&str, &str) = ("clay", "material clay: diffuse { color = srgb(#b5651d) }\n");
 
 /// Floor with stripes to bend, a large soft light, a small hard one, a grey room.
 const STUDIO: &str = "material studio_floor: diffuse { color = linear(0.35) }

@@ -630,7 +630,7 @@ instance i { shape = sphere(radius: 30cm), material = maple, at = (-2.2, 0.3, -0
 instance k { shape = box(size: (0.5, 0.5, 0.5)m), material = gauze, at = (-0.5, 1, 1)m, rotate = (0, 20, 30)deg }
 texture wash = image(\"wash.ies\", space: linear)
 light washer: point { at = (2, 2.5, 1)m, profile = wash, profile.scale = 0.2, temperature = 3000K }
-light glow: disk { at = (-2, 2, 0)m, to = (0, 1, 0)m, radius = 20cm, power = 9W, visible = off }
+light halo: disk { at = (-2, 2, 0)m, to = (0, 1, 0)m, radius = 20cm, power = 9W, visible = off }
 instance l { shape = sphere(radius: 20cm), material = rusty, at = (1.6, 0.2, 2)m }
 instance j { shape = tent, material = sakura, at = (-0.6, 0, 2.2)m, scale = (0.6, 0.8, 0.6) }\n";
 

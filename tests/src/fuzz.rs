@@ -123,6 +123,14 @@ pub const TARGETS: &[Target] = &[
         tries: 3000,
     },
     Target {
+        name: "ies",
+        reads: "luminaire files",
+        check: image::high,
+        repair: keep,
+        words: image::IES_WORDS,
+        tries: 1000,
+    },
+    Target {
         name: "exr",
         reads: "OpenEXR images as textures",
         check: image::exr,

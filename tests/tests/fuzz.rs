@@ -87,6 +87,7 @@ targets! {
     png: "png";
     jpeg: "jpeg";
     hdr: "hdr";
+    ies: "ies";
     exr: "exr";
     merge: "merge";
     checkpoint: "checkpoint";

@@ -3,11 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::fields::Fields;
-use super::ids_of;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::material::{Reader, Traits as _};
-use crate::resolve::ItemId;
+use crate::resolve::{ItemId, item_kind};
 use crate::scene::MaterialModel;
 use crate::schema::Kind;
 
@@ -71,7 +70,11 @@ fn why_not(
 ) -> Option<&'static str> {
     let fields = checked.get(&id).filter(|fields| fields.ok)?;
     // Only traits are asked, which depend on no index.
-    let all = |kind| ids_of(ev.program, kind).into_iter().map(|id| (id, 0)).collect();
+    let program = ev.program;
+    let all = |kind| {
+        let ids = program.ids().filter(|id| item_kind(program.item(*id)) == Some(kind));
+        ids.map(|id| (id, 0)).collect()
+    };
     let (media, materials) = (all(Kind::Medium), all(Kind::Material));
     let (textures, expressions) = (&|_| 0, &|_: &_| 0);
     let reader = Reader { fields, textures, expressions, media: &media, materials: &materials };

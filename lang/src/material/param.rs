@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::check::Fields;
 use crate::eval::value::Value;
 use crate::resolve::ItemId;
-use crate::scene::{Material, Medium, Rgb, Texture};
+use crate::scene::{Medium, Rgb, Texture};
 use crate::schema::{self, Field, FieldType, color_text};
 use crate::source::Span;
 use crate::texture::TextureExpression;
@@ -127,7 +127,8 @@ pub(crate) struct Shown<'a> {
     textures: &'a [Texture],
     expressions: &'a [TextureExpression<usize>],
     media: &'a [Medium],
-    materials: &'a [Material],
+    /// Names of materials.
+    materials: &'a [&'a str],
     /// Names and values.
     pub(crate) lines: Vec<(&'static str, String)>,
 }
@@ -136,7 +137,7 @@ impl<'a> Shown<'a> {
     pub(crate) fn new(
         textures: &'a [Texture],
         expressions: &'a [TextureExpression<usize>],
-        (media, materials): (&'a [Medium], &'a [Material]),
+        (media, materials): (&'a [Medium], &'a [&'a str]),
     ) -> Self {
         Self { textures, expressions, media, materials, lines: Vec::new() }
     }
@@ -425,8 +426,7 @@ impl Param for Ingredient {
     }
 
     fn show(&self, fields: &[Field], shown: &mut Shown<'_>) {
-        let material = shown.materials.get(self.0);
-        let name = material.map_or("", |material| material.name.text.as_str());
+        let name = shown.materials.get(self.0).copied().unwrap_or_default();
         shown.push(&fields[0], name.to_owned());
     }
 

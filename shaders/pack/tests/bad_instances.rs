@@ -61,7 +61,7 @@ fn cases() -> Vec<Change> {
             instances,
             field(0, MATERIAL),
             99,
-            "INSTANCE[0] at byte 0x1c: material is 99, but MATERIAL has 14 elements",
+            "INSTANCE[0] at byte 0x1c: material is 99, but MATERIAL has 15 elements",
         ),
         (
             instances,

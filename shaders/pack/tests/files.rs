@@ -278,7 +278,7 @@ fn the_first_error_is_reported_on_any_number_of_threads() {
         let error = pool.install(|| scene.writer().to_bytes().unwrap_err());
         assert_eq!(
             error.to_string(),
-            "TRISHADE[40000] at byte 0x1d4c0c: material is 99, but MATERIAL has 14 elements"
+            "TRISHADE[40000] at byte 0x1d4c0c: material is 99, but MATERIAL has 15 elements"
         );
     }
 }

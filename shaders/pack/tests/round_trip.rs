@@ -152,6 +152,8 @@ fn features_are_those_of_the_contents() {
         | features::LIGHT_TREE
         | features::TINT
         | features::SPOT
+        | features::PROFILE
+        | features::UNSEEN
         | features::ALPHA_BLEND
         | features::INSTANCES
         | features::WIDE_NODES
@@ -276,7 +278,7 @@ fn a_bad_pack_is_never_written() {
     let mut scene = Scene::full();
     scene.spheres[1].material = 99;
     let text = scene.writer().write(&path).unwrap_err().to_string();
-    assert_eq!(text, "SPHERE[1] at byte 0x30: material is 99, but MATERIAL has 14 elements");
+    assert_eq!(text, "SPHERE[1] at byte 0x30: material is 99, but MATERIAL has 15 elements");
 
     let scene = Scene::full();
     let mut writer = scene.writer();

@@ -1,6 +1,7 @@
 // One of two materials at each vertex, by chance: on average the sum of both, each with its share. One of the two is
 // evaluated and not both, as in pbrt-v4 (Pharr, Jakob, Humphreys 2023, 10.5, "MixMaterial").
 
+#import "abi/material.wgsl"
 #import "bsdf/scatter.wgsl"
 #import "sampler/key.wgsl"
 #import "scene/constants.wgsl"

@@ -1,5 +1,5 @@
-// Lights that the camera does not see. They light the scene, cast shadows and are seen in mirrors and through glass; only
-// rays that come straight from the camera pass them by.
+// Lights that the camera does not see. They light the scene, cast shadows and are seen in mirrors and through glass;
+// only rays that come straight from the camera pass them by.
 
 #import "kernel/state.wgsl"
 #import "kernel/straight_on.wgsl"

@@ -7,7 +7,6 @@
 
 #import "abi/medium.wgsl"
 #import "math/beer.wgsl"
-#import "math/vector.wgsl"
 
 // How far a path of weight `throughput` comes in the medium if nothing else is in its way; `u` in [0, 1 - 2^-24]^2.
 fn homogeneous_free_path(m: Medium, throughput: vec3f, u: vec2f) -> f32 {

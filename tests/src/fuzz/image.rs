@@ -53,6 +53,17 @@ pub(super) const HDR_WORDS: &[&[u8]] = &[
     b"\x01\x01\x01",
     b"100000",
 ];
+pub(super) const IES_WORDS: &[&[u8]] = &[
+    b"IESNA:LM-63-2002\n",
+    b"TILT=NONE\n",
+    b"TILT=INCLUDE\n",
+    b" 0 90 180 270 360\n",
+    b" 0 45 90\n",
+    b"1e308",
+    b"-1",
+    b"1000000",
+    b"nan",
+];
 pub(super) const EXR_WORDS: &[&[u8]] = &[
     b"channels\0chlist\0",
     b"compression\0compression\0",

@@ -25,6 +25,7 @@ fn made(target: &Target) -> Vec<Seed> {
         "png" => pngs(),
         "jpeg" => jpegs(),
         "hdr" => hdrs(),
+        "ies" => luminaires(),
         "exr" => exrs(),
         "merge" => parts(),
         "checkpoint" => checkpoints(),
@@ -226,6 +227,24 @@ fn hdrs() -> Made {
         ("bad-no-size", b"#?RADIANCE\n\n".to_vec()),
         ("bad-run-too-long", [head("-Y 1 +X 16"), vec![2, 2, 0, 16, 255, 1]].concat()),
         ("bad-empty", Vec::new()),
+    ]
+}
+
+fn luminaires() -> Made {
+    let file = |counts: &str, rest: &str| {
+        format!("IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 {counts} 1 2 0 0 0\n1 1 9\n{rest}\n")
+            .into_bytes()
+    };
+    let good = file("3 1", "0 45 90\n0\n900 400 10");
+    let tilted = b"TILT=INCLUDE\n1\n2\n0 90\n1 0.8\n1 900 1 2 1 1 1 0 0 0\n1 1 9\n0 90\n0\n9 3\n";
+    vec![
+        ("good-around", good.clone()),
+        ("good-quarter", file("2 2", "0 90\n0 90\n900 400\n300 0")),
+        ("good-tilted", tilted.to_vec()),
+        ("bad-cut", cut(&good, 70)),
+        ("bad-huge", file("1000000 1000000", "0 90")),
+        ("bad-angles", file("2 2", "0 90\n10 20\n1 2 3 4")),
+        ("bad-tilt", b"IESNA91\nTILT=lamp.tlt\n1".to_vec()),
     ]
 }
 

@@ -11,8 +11,8 @@ use crate::import::file::Limits;
 
 /// Rows: half a degree each.
 const ROWS: u32 = 360;
-/// Columns of a lamp that is not the same all around: a degree each.
-const COLUMNS: u32 = 360;
+/// Columns of a lamp that is not the same all around: two degrees each.
+const COLUMNS: u32 = 180;
 /// Candelas of the value 1.
 const UNIT: f64 = 1000.0;
 
@@ -244,7 +244,7 @@ mod tests {
             close(half.candelas(10.0, around), expected);
         }
         let other = profile("90 270", "100 100 100 20 20 20");
-        for (around, expected) in [(90.0, 100.0), (180.0, 60.0), (0.0, 60.0), (300.0, 40.0)] {
+        for (around, expected) in [(90.0, 100.0), (180.0, 60.0), (0.0, 60.0), (315.0, 40.0)] {
             close(other.candelas(10.0, around), expected);
         }
         let open = profile("0 120 240", "90 90 90 30 30 30 60 60 60");
