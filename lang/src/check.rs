@@ -166,6 +166,9 @@ impl Checker {
         for id in ids_of(ev.program, Kind::Instance) {
             self.world.instance(ev, id, is_in_world(ev.program, id));
         }
+        for (id, fields) in self.fields.iter().filter(|(_, fields)| light::is_thing(fields)) {
+            self.world.light(ev, *id, fields, is_in_world(ev.program, *id));
+        }
         check_asserts(ev);
         let scene = self.build(ev);
         if !ev.has_errors() {

@@ -153,6 +153,7 @@ pub const CASES: &[Case] = &[
     case("tinted light", &[TINTED, SKY, PLASTIC, BALL, FLOOR]),
     case("spot light", &[SPOT, PLASTIC, BALL, FLOOR]),
     case("luminaire", &[LUMINAIRE, PLASTIC, BALL, FLOOR]),
+    case("mesh lights", &[SIGN, PLASTIC, BALL, FLOOR]),
     case("disk light", &[DISH, PLASTIC, BALL, FLOOR]),
     case("lights that the camera does not see", &[UNSEEN, SKY, FUZZY, BALL, FLOOR]),
     case("spot light and other lights", &[SPOT, TINTED, LAMP, PANEL, SKY, FUZZY, BALL, FLOOR]),
@@ -345,6 +346,9 @@ const TINTED: &str = "light bulb: sphere {
 const SPOT: &str = "light stage: spot { at = (1, 4, 2)m, to = (0, 0.5, 0)m, cone = 20deg, edge = 8deg, radius = 20cm, power = 4000lm }\n";
 const LUMINAIRE: &str = "texture wash = image(\"wash.ies\", space: linear)
 light lamp: point { at = (1, 3, 1)m, to = (0, 0.5, 0)m, profile = wash, radius = 5cm, spin = 20deg }\n";
+const SIGN: &str = "asset crown = obj(\"tent.obj\", unit: m, up: +y)
+light sign: mesh { shape = box(size: (1.4, 0.1, 0.1)m), at = (0, 2, 0)m, strength = 900nit }
+light crown_light: mesh { shape = crown, at = (1, 1.5, 0)m, scale = 0.4, temperature = 3000K, strength = 5, sides = front }\n";
 const DISH: &str =
     "light dish: disk { at = (0.5, 3, 1)m, to = (0, 0.5, 0)m, radius = 60cm, power = 4klm }\n";
 /// Above the ball, in the picture.

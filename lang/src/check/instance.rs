@@ -82,7 +82,8 @@ impl World {
         let Some(index) = decl.index.as_ref() else {
             if let Some(fields) = ev.fields_of(id) {
                 let key = (name.clone(), 0, String::new());
-                self.place(ev, id, &fields, &key, placed);
+                let material = object::material(&fields);
+                self.place(ev, id, (&fields, material), &key, placed);
             }
             return;
         };
@@ -102,7 +103,8 @@ impl World {
             let before = ev.diagnostics.len();
             let fields = ev.fields_at(model.schema, &givens, (variable, i as f64));
             let key = (name.clone(), i, format!("[{i}]"));
-            self.place(ev, id, &fields, &key, placed);
+            let material = object::material(&fields);
+            self.place(ev, id, (&fields, material), &key, placed);
             let faults = &mut ev.diagnostics[before..];
             for fault in faults.iter_mut().filter(|fault| fault.code.0.starts_with("E04")) {
                 fault.notes.push(format!("where `{variable}` is {i}"));
@@ -114,11 +116,24 @@ impl World {
         }
     }
 
-    fn place(
+    /// The same of a `light` that is a thing: it is made of what the light itself says.
+    pub(super) fn light(
         &mut self,
         ev: &mut Evaluator<'_>,
         id: ItemId,
         fields: &Fields,
+        placed: bool,
+    ) {
+        let key = (ev.program.full_name(id), 0, String::new());
+        let made_of = Some((id, ev.program.name_span(id)));
+        self.place(ev, id, (fields, made_of), &key, placed);
+    }
+
+    fn place(
+        &mut self,
+        ev: &mut Evaluator<'_>,
+        id: ItemId,
+        (fields, material): (&Fields, Option<(ItemId, Span)>),
         key: &(String, i64, String),
         placed: bool,
     ) {
@@ -153,7 +168,7 @@ impl World {
         };
         transform::check(ev, fields);
         let Some(pose) = transform::pose(fields) else { return };
-        let over = Inherited { material: object::material(fields), group: group::group(fields) };
+        let over = Inherited { material, group: group::group(fields) };
         let (material, group) = (over.material, over.group.clone());
         let place = Place { key, name_span, over };
         let shape_span = fields.value_span("shape").or(base.map(|(_, at)| at)).unwrap_or(name_span);

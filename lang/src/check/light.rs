@@ -9,6 +9,7 @@ use crate::eval::Evaluator;
 use crate::material::{Color, Emissive, Scalar};
 use crate::resolve::ItemId;
 use crate::scene::{Beam, ColorSpace, Directional, Light, Name, Profile, Rgb, Shape, Tint};
+use crate::schema::Kind;
 use crate::schema::light::LightType;
 use std::f64::consts::PI;
 
@@ -20,6 +21,8 @@ pub(super) enum Lit {
     Directional(Box<Directional>),
     /// A thing that glows.
     Panel(Box<Panel>),
+    /// What a thing in the world is made of that glows.
+    Glow(Box<Emissive>),
 }
 
 /// A flat light: an instance and its material.
@@ -31,6 +34,11 @@ pub(super) struct Panel {
     /// Only the largest disk in it is there.
     pub(super) round: bool,
     pub(super) group: Option<String>,
+}
+
+/// Whether these are the fields of a light that is placed in the world as instances are.
+pub(super) fn is_thing(fields: &Fields) -> bool {
+    fields.schema.kind == Kind::Light && matches!(LightType::of(fields.schema), LightType::Mesh)
 }
 
 /// Checks how the fields of a light go together.
@@ -49,6 +57,7 @@ pub(super) fn check_light(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
             check_direction(ev, fields, "direction");
         }
         LightType::Rectangle | LightType::Disk => check_facing(ev, fields),
+        LightType::Mesh => {}
     }
 }
 
@@ -245,6 +254,10 @@ pub(super) fn light(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Opti
             let panel = Panel { round: true, ..panel(ev, name, fields, &form)? };
             Some(Lit::Panel(Box::new(panel)))
         }
+        LightType::Mesh => {
+            let radiance = brightness::radiance(ev, &name, fields, Emitter::default())?;
+            Some(Lit::Glow(Box::new(glow(fields, radiance)?)))
+        }
     }
 }
 
@@ -344,16 +357,21 @@ fn panel(ev: &mut Evaluator<'_>, name: Name, fields: &Fields, form: &Form) -> Op
         matrix: transform::facing(at, facing(fields, at)?, spin),
         velocity: fields.vector("velocity")?,
     };
-    let material = Emissive {
+    let material = glow(fields, radiance)?;
+    let group = fields.text("group");
+    Some(Panel { name, shape: Shape::Rectangle { size }, pose, material, round: false, group })
+}
+
+/// The material of a thing of this radiance.
+fn glow(fields: &Fields, radiance: Rgb) -> Option<Emissive> {
+    Some(Emissive {
         color: Color::Constant(radiance),
         strength: 1.0,
-        both_sides,
+        both_sides: fields.word("sides")? == "both",
         visible: fields.word("visible")? == "on",
         alpha: Scalar::Constant(1.0),
         alpha_clip: None,
-    };
-    let group = fields.text("group");
-    Some(Panel { name, shape: Shape::Rectangle { size }, pose, material, round: false, group })
+    })
 }
 
 /// Times `factor`.

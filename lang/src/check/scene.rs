@@ -10,7 +10,7 @@ use super::{Checker, dark, ids_of, is_in_world, light, material, medium, mix, mo
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::eval::value::ShapeValue;
-use crate::material::Reader;
+use crate::material::{Emissive, Reader};
 use crate::resolve::ItemId;
 use crate::scene::{
     Asset, Directional, Instance, Light, Material, MaterialModel, Medium, Name, Profile, Scalar,
@@ -30,7 +30,7 @@ impl Checker {
     /// Builds the scene, as far as it is sound.
     pub(super) fn build(mut self, ev: &mut Evaluator<'_>) -> Option<Scene> {
         let view = self.view(ev);
-        let Lights { near, directional, panels } = self.lights(ev);
+        let Lights { near, directional, panels, glows } = self.lights(ev);
         if ev.diagnostics.iter().any(Diagnostic::is_error) {
             return None;
         }
@@ -65,7 +65,8 @@ impl Checker {
         };
         let material_at = index(&material_order);
         let indices = [&medium_at, &material_at];
-        let materials = self.materials(&material_order, (&texture, &expression, indices))?;
+        let materials =
+            self.materials(&material_order, &glows, (&texture, &expression, indices))?;
         let model = |id| Some(&materials.get(*material_at.get(&id)?)?.model);
         let warnings = dark::groups(&placed, model);
         let mut scene = Scene {
@@ -96,7 +97,7 @@ impl Checker {
 
     /// Lights of the world.
     fn lights(&self, ev: &mut Evaluator<'_>) -> Lights {
-        let Lights { near: mut lights, mut directional, mut panels } = Lights::default();
+        let Lights { near: mut lights, mut directional, mut panels, mut glows } = Lights::default();
         for id in ids_of(ev.program, Kind::Light) {
             let name = name(ev, id);
             let built = self.sound(id).and_then(|fields| light::light(ev, name, fields));
@@ -107,21 +108,29 @@ impl Checker {
                 }
                 Some(Lit::Directional(light)) => directional.push(*light),
                 Some(Lit::Panel(panel)) => panels.push(*panel),
+                Some(Lit::Glow(glow)) => {
+                    glows.insert(id, *glow);
+                }
                 None => {}
             }
         }
         lights.sort_by(|a, b| a.0.name.text.cmp(&b.0.name.text));
         directional.sort_by(|a, b| a.name.text.cmp(&b.name.text));
         panels.sort_by(|a, b| a.name.text.cmp(&b.name.text));
-        Lights { near: lights, directional, panels }
+        Lights { near: lights, directional, panels, glows }
     }
 
     fn materials(
         &self,
         order: &[(Name, ItemId)],
+        glows: &BTreeMap<ItemId, Emissive>,
         (textures, expressions, [media, materials]): Index<'_>,
     ) -> Option<Vec<Material>> {
         let material = |(name, id): &(Name, ItemId)| {
+            if let Some(glow) = glows.get(id) {
+                let model = MaterialModel::Emissive(glow.clone());
+                return Some(Material { name: name.clone(), model, normal: None });
+            }
             let fields = self.sound(*id)?;
             let reader = Reader { fields, textures, expressions, media, materials };
             let model = MaterialModel::read(&reader)?;
@@ -158,6 +167,8 @@ struct Lights {
     near: Vec<(Light, Option<ItemId>)>,
     directional: Vec<Directional>,
     panels: Vec<Panel>,
+    /// What things that are lights are made of.
+    glows: BTreeMap<ItemId, Emissive>,
 }
 
 /// A light whose profile knows its texture.

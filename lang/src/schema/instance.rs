@@ -6,7 +6,7 @@ use crate::units::Dim;
 pub(super) const OBJECT_TYPES: &[&TypeSchema] = &[&OBJECT];
 pub(super) const INSTANCE_TYPES: &[&TypeSchema] = &[&INSTANCE];
 
-const AT: Field = Field::new(
+pub(super) const AT: Field = Field::new(
     "at",
     FieldType::Vector(Dim::LENGTH, "m"),
     Default::Vector([0.0; 3]),
@@ -20,7 +20,7 @@ const AT: Field = Field::new(
     ("pos", "common use"),
 ]);
 
-const ROTATE: Field = Field::new(
+pub(super) const ROTATE: Field = Field::new(
     "rotate",
     FieldType::Vector(Dim::ANGLE, "deg"),
     Default::Vector([0.0; 3]),
@@ -28,7 +28,7 @@ const ROTATE: Field = Field::new(
 )
 .foreign(&[("rotation", "glTF and Blender"), ("rotation_euler", "Blender"), ("orient", "common use")]);
 
-const SCALE: Field = Field::new(
+pub(super) const SCALE: Field = Field::new(
     "scale",
     FieldType::Scale,
     Default::Number(1.0),
@@ -38,7 +38,7 @@ const SCALE: Field = Field::new(
 
 /// In place of `rotate` and `scale`.
 const AXIS_ABSENT: Default = Default::Absent("`rotate` and `scale` decide");
-const AXIS_X: Field = Field::new(
+pub(super) const AXIS_X: Field = Field::new(
     "axes.x",
     FieldType::Vector(Dim::NONE, ""),
     AXIS_ABSENT,
@@ -46,9 +46,9 @@ const AXIS_X: Field = Field::new(
      none: they are the columns of a matrix, and `at` is the fourth.",
 )
 .foreign(&[("matrix", "glTF and Mitsuba"), ("Transform", "pbrt"), ("to_world", "Mitsuba")]);
-const AXIS_Y: Field =
+pub(super) const AXIS_Y: Field =
     Field::new("axes.y", FieldType::Vector(Dim::NONE, ""), AXIS_ABSENT, "Where its y axis points.");
-const AXIS_Z: Field =
+pub(super) const AXIS_Z: Field =
     Field::new("axes.z", FieldType::Vector(Dim::NONE, ""), AXIS_ABSENT, "Where its z axis points.");
 
 /// Of instances and lights.
@@ -62,7 +62,7 @@ pub(super) const VELOCITY: Field = Field::new(
 .typical("a walker 1.5m/s, a thrown ball 20m/s, a shutter 0ms..20ms")
 .foreign(&[("speed", "common use"), ("vel", "common use"), ("motion", "common use")]);
 
-const SHAPE: &str = "What it looks like: a shape, a mesh file or part, an object, or a list of objects. Behind a mesh file may stand \
+pub(super) const SHAPE: &str = "What it looks like: a shape, a mesh file or part, an object, or a list of objects. Behind a mesh file may stand \
      what is changed of it: `car { material \"paint*\" = red, part \"wheel*\" = none }`. The texts are names of its \
      materials and parts, `*` stands for any letters and `?` for one; `none` leaves out what has the name, and the \
      last line that holds for a part decides.";

@@ -1,6 +1,6 @@
 //! Lights: `light NAME: sphere { ... }`.
 
-use super::instance::{GROUP, VELOCITY};
+use super::instance::{self, GROUP, VELOCITY};
 use super::{ANY, Bounds, Default, Field, FieldType, Kind, TypeSchema, WHITE, Word};
 use crate::material::VISIBLE;
 use crate::units::Dim;
@@ -11,7 +11,8 @@ types!(LightType {
     Spot = SPOT,
     Directional = DIRECTIONAL,
     Rectangle = RECTANGLE,
-    Disk = DISK
+    Disk = DISK,
+    Mesh = MESH
 });
 
 /// 80 degrees: at 90 the origin of the world would touch the light.
@@ -39,6 +40,10 @@ pub(crate) const SUN_DIAMETER: Default = Default::Number(0.53 * std::f64::consts
 /// Which sides of a flat light shine.
 const SIDES: &[Word] =
     &[("front", "the one that faces `direction`"), ("both", "both, each with half of `power`")];
+
+/// The same of a mesh.
+const MESH_SIDES: &[Word] =
+    &[("front", "only the side that its normals point to"), ("both", "front and back")];
 
 const LENGTH: FieldType = FieldType::Number(Bounds::above(Dim::LENGTH, "m", 0.0));
 
@@ -482,4 +487,33 @@ const DISK: TypeSchema = TypeSchema {
         GROUP,
     ],
     foreign: &[("disc", "common use"), ("round", "common use"), ("circle", "common use")],
+};
+
+const MESH: TypeSchema = TypeSchema {
+    kind: Kind::Light,
+    name: "mesh",
+    doc: "A thing of any shape that shines evenly: a neon sign, a lamp of a mesh file, a mesh written in the scene. It is \
+          an instance with an `emissive` material, and is placed as instances are.",
+    example: "light sign: mesh { shape = box(size: (2, 0.1, 0.1)m), at = (0, 2, 0)m, strength = 500nit }",
+    fields: &[
+        Field::new("shape", FieldType::Shape, Default::Required, instance::SHAPE)
+            .foreign(&[("geometry", "common use"), ("mesh", "glTF and Blender")]),
+        instance::AT,
+        instance::ROTATE,
+        instance::SCALE,
+        instance::AXIS_X,
+        instance::AXIS_Y,
+        instance::AXIS_Z,
+        Field { ty: FieldType::Word(MESH_SIDES), default: Default::Word("both"), ..PANEL_SIDES },
+        COLOR,
+        TEMPERATURE,
+        Field {
+            foreign: &[("gain", "LuxCore"), ("luminance", "common use"), ("energy", "Blender")],
+            ..STRENGTH
+        },
+        VELOCITY,
+        VISIBLE,
+        GROUP,
+    ],
+    foreign: &[("trianglemesh", "pbrt"), ("geometry", "common use"), ("emitter", "common use")],
 };

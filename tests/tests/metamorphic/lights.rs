@@ -58,6 +58,21 @@ fn a_quad_is_the_rectangle_with_its_corners() {
     assert_ne!(film(&down).means(), film(&quad).means());
 }
 
+/// A light that is a thing is the instance with its material, to the last bit, whatever its shape.
+#[test]
+fn a_mesh_light_is_the_instance_that_glows() {
+    let place = "rotate = (180, 0, 20)deg, at = (0, 3, 0)m, scale = 1.5";
+    for shape in ["rectangle(size: (2, 1)m)", "box(size: (1, 0.2, 0.1)m)", "post"] {
+        let post = "material bar: emissive { color = linear(1, 0.5, 0.25), strength = 3, sides = front }\nobject post { shape = sphere(radius: 20cm), material = clay }\n";
+        let glowing = |own: &str| compile(&self::text(&[SKY, GLOBE, post, own].concat()));
+        let thing = format!("instance panel {{ shape = {shape}, material = bar, {place} }}\n");
+        let light = format!(
+            "light panel: mesh {{ shape = {shape}, {place}, color = linear(1, 0.5, 0.25), strength = 3, sides = front }}\n"
+        );
+        assert_exact(shape, &film(&glowing(&thing)), &film(&glowing(&light)), 1.0);
+    }
+}
+
 /// A mesh of the text is the box with its corners, to the last bit, and mirrored, too.
 #[test]
 fn a_mesh_of_the_text_is_the_box_with_its_corners() {
