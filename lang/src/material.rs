@@ -58,11 +58,6 @@ pub trait Traits {
         None
     }
 
-    /// The materials that it is made of.
-    fn ingredients(&self) -> [Option<Ingredient>; 2] {
-        [None; 2]
-    }
-
     /// Why light does more than to be scattered by its front or back, if it does.
     fn unmixable(&self) -> Option<&'static str> {
         None
@@ -212,10 +207,6 @@ impl Traits for MaterialModel {
 
     fn grain(&self) -> Option<Grain> {
         self.as_traits().grain()
-    }
-
-    fn ingredients(&self) -> [Option<Ingredient>; 2] {
-        self.as_traits().ingredients()
     }
 
     fn unmixable(&self) -> Option<&'static str> {
@@ -645,10 +636,6 @@ materials! {
             /// Share of the second, 0 ..= 1.
             amount: Scalar = [fields::MIX_AMOUNT],
         }
-        traits: {
-            fn ingredients(&self) -> [Option<Ingredient>; 2] {
-                [self.a, self.b].map(Some)
-            }
-        }
+        traits: {}
     }
 }
