@@ -146,6 +146,15 @@ fn sparse_interleaved_and_quantised_accessors() {
     assert_eq!(soup(&load(&document)), [[[0.0; 3], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]]]);
 }
 
+/// glTF 2.0, 3.7.2.1: without a material a primitive has the default one.
+#[test]
+fn primitives_without_a_material_are_white_rough_metal() {
+    let mesh = load(&triangle());
+    let [default] = &mesh.materials[..] else { panic!("{:?}", mesh.materials) };
+    assert_eq!((default.name.as_str(), mesh.parts[0].material), ("default", Some(0)));
+    assert_eq!((default.color, default.metallic, default.roughness), ([1.0; 3], 1.0, 1.0));
+}
+
 #[test]
 fn materials_carry_factors_maps_and_extensions() {
     let mut document = triangle();

@@ -17,6 +17,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use glam::DVec3;
 use pack::Pack;
 use pack::abi::material_flag;
 use tests::console;
@@ -356,6 +357,25 @@ fn luminaires_shine_as_their_files_say() {
         let expected = share * FRAC_1_SQRT_2 / 8.0 / PI;
         let name = format!("{angle} degrees around, turned by {spin}");
         checks.push(check(&name, expected, &around, &light));
+    }
+    // The same for beams that are not vertical, whose first column is level.
+    for (i, direction) in
+        [[0.6, -0.8, 0.0], [0.0, -0.6, 0.8], [-0.48, -0.64, -0.6]].into_iter().enumerate()
+    {
+        let at = DVec3::new(0.7, 2.0, -0.4);
+        let beam = DVec3::from(direction);
+        let first = DVec3::new(-beam.z, 0.0, beam.x).normalize();
+        let to = -at;
+        // Counter-clockwise from behind.
+        let turns = to.dot(first.cross(beam)).atan2(to.dot(first)) / (2.0 * PI);
+        let share = match 4.0 * turns.rem_euclid(1.0) {
+            x @ 0.0..2.0 => 1.0 - 0.5 * x,
+            x => (x - 3.0).max(0.0),
+        };
+        let [x, y, z] = direction;
+        let light = format!("at = (0.7, 2, -0.4)m, direction = ({x}, {y}, {z})");
+        let expected = share * at.y / at.length().powi(3) / PI;
+        checks.push(check(&format!("beam {i}"), expected, &around, &light));
     }
     all(&checks);
 }

@@ -61,6 +61,27 @@ fn the_cases_have_what_is_rare_in_a_tree() {
     }
 }
 
+/// More sheets one behind the other than a walk keeps, some of them in the same place, some on spheres.
+#[test]
+fn a_shadow_ray_through_many_sheets_meets_them_in_order() {
+    let text = "rts 1
+light lamp: sphere { center = (0.3, 6, 0.2)m, radius = 40cm, strength = 300 }
+material pane: principled { color = linear(0.9, 0.95, 1), transmission = 1, roughness = 0 }
+material floor: diffuse { color = linear(0.5) }
+instance ground { shape = rectangle(size: (6, 6)m), material = floor }
+instance sheet[i in 0..20] { shape = rectangle(size: (4, 4)m), material = pane, at = (0, 1.5 + 0.1 * floor(i / 2), 0)m }
+instance bubble[i in 0..4] { shape = sphere(radius: 30cm), material = pane, at = (0.3 * i, 1 + 0.5 * i, 0)m }
+camera eye: perspective { from = (0, 0.8, 4)m, to = (0, 0.2, 0)m, fov.vertical = 40deg }
+film tiny { size = (32, 32)px }
+render main: path { samples = 16, depth = 6 }
+";
+    let bytes = scene::bytes(&scene::compile(text));
+    assert_eq!(difference("many sheets", &bytes), None);
+    let pack = Pack::from_bytes(bytes).expect("readable");
+    let lit = picture::cpu(pack, |_| {}).film().means().iter().filter(|rgb| rgb[1] > 0.0).count();
+    assert!(lit > 300, "{lit} pixels have light");
+}
+
 /// A scene with a binary tree has no other walk.
 #[test]
 fn binary_nodes_are_walked_by_the_kernel() {

@@ -121,4 +121,13 @@ pub enum LowerError {
         /// How many there are.
         count: usize,
     },
+    /// More materials than a mix can name.
+    #[error(
+        "{count} materials are too many where some are mixed; at most {} are possible",
+        abi::Material::MIXABLE
+    )]
+    TooManyMaterials {
+        /// How many there are.
+        count: usize,
+    },
 }

@@ -117,6 +117,7 @@ impl<'a> World<'a> {
     fn place(&self) -> Result<Placed, LowerError> {
         let start = Instant::now();
         let &Self { bodies, materials, stages, .. } = self;
+        check_mixes(materials.records())?;
         let Survey { frame, receivers, boundaries, meshes, placed } =
             Survey::of(bodies, materials, stages, self.inside)?;
         let stage = Stage { bodies, materials, frame: &frame, receivers, stages };
@@ -302,6 +303,16 @@ fn welded(placement: &mut Placement, corners: &Corners) -> Welded {
         return weld(&corners.all);
     }
     weld_labelled(&corners.all, labels).unwrap_or_else(|| weld(&corners.all))
+}
+
+/// Refuses mixes among more materials than a mix can name.
+fn check_mixes(materials: &[abi::Material]) -> Result<(), LowerError> {
+    let mut kinds = materials.iter().map(|material| material.kind);
+    let count = materials.len();
+    if count > abi::Material::MIXABLE && kinds.any(|kind| kind == abi::MaterialKind::Mix as u32) {
+        return Err(LowerError::TooManyMaterials { count });
+    }
+    Ok(())
 }
 
 /// Refuses more triangles than the pack can number.

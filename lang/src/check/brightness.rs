@@ -41,10 +41,7 @@ pub(super) fn radiance(
     fields: &Fields,
     emitter: Emitter,
 ) -> Option<Rgb> {
-    let color = match fields.number("temperature") {
-        Some(kelvin) => blackbody(kelvin),
-        None => fields.color("color")?,
-    };
+    let color = color(fields)?;
     let field = FIELDS.into_iter().find(|field| fields.has(field));
     let (value, dim) = fields.quantity(field.unwrap_or("strength"))?;
     let per_radiance = match field {
@@ -55,7 +52,7 @@ pub(super) fn radiance(
     };
     let mut scale = value / per_radiance;
     if is_luminous(dim) {
-        let luminance: f64 = color.iter().zip(LUMINANCE).map(|(c, y)| c * y).sum();
+        let luminance = luminance(color);
         if luminance == 0.0 {
             return black(ev, fields, field.unwrap_or("strength"));
         }
@@ -77,11 +74,8 @@ const PROFILE_UNIT: f64 = 1000.0;
 /// The radiance of a light with a profile where that is 1; `area`: what of it is seen, m2. `None` only for fields with
 /// faults.
 pub(super) fn of_profile(ev: &mut Evaluator<'_>, fields: &Fields, area: f64) -> Option<Rgb> {
-    let color = match fields.number("temperature") {
-        Some(kelvin) => blackbody(kelvin),
-        None => fields.color("color")?,
-    };
-    let luminance: f64 = color.iter().zip(LUMINANCE).map(|(c, y)| c * y).sum();
+    let color = color(fields)?;
+    let luminance = luminance(color);
     if luminance == 0.0 {
         return black(ev, fields, "profile");
     }
@@ -91,8 +85,19 @@ pub(super) fn of_profile(ev: &mut Evaluator<'_>, fields: &Fields, area: f64) -> 
 
 /// `profile.scale` of a ball of this radius, in metres, whose radiance `of_profile` gave.
 pub(crate) fn profile_scale(radiance: Rgb, radius: f64) -> f64 {
-    let luminance: f64 = radiance.iter().zip(LUMINANCE).map(|(c, y)| c * y).sum();
-    luminance * EFFICACY * std::f64::consts::PI * radius * radius / PROFILE_UNIT
+    luminance(radiance) * EFFICACY * std::f64::consts::PI * radius * radius / PROFILE_UNIT
+}
+
+/// The colour of a light.
+fn color(fields: &Fields) -> Option<Rgb> {
+    match fields.number("temperature") {
+        Some(kelvin) => Some(blackbody(kelvin)),
+        None => fields.color("color"),
+    }
+}
+
+fn luminance(color: Rgb) -> f64 {
+    color.iter().zip(LUMINANCE).map(|(c, y)| c * y).sum()
 }
 
 fn is_luminous(dim: Dim) -> bool {

@@ -87,10 +87,9 @@ const fn ingredient(name: &'static str, doc: &'static str) -> Field {
     Field::new(name, FieldType::Name(Kind::Material), Default::Required, doc)
 }
 
-pub(super) const MIX_A: Field =
-    ingredient("a", "What most of the surface is if `amount` is small.")
-        .foreign(&[("first", "common use"), ("material1", "LuxCore")]);
-pub(super) const MIX_B: Field = ingredient("b", "What a share `amount` of the surface is.")
+pub(super) const MIX_A: Field = ingredient("a", "The material where `amount` is 0.")
+    .foreign(&[("first", "common use"), ("material1", "LuxCore")]);
+pub(super) const MIX_B: Field = ingredient("b", "The material where `amount` is 1.")
     .foreign(&[("second", "common use"), ("material2", "LuxCore")]);
 pub(super) const MIX_AMOUNT: Field = Field::new(
     "amount",
@@ -201,7 +200,7 @@ pub(crate) const VISIBLE: Field = Field::new(
     "visible",
     FieldType::Word(&[("on", "it does"), ("off", "it looks past it")]),
     Default::Word("on"),
-    "Whether the camera sees it. Its light, its shadow and its reflection are there either way.",
+    "Whether the camera sees it. Its light, its shadow and its reflections remain.",
 )
 .foreign(&[
     ("visible_camera", "Blender"),

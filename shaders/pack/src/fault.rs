@@ -336,6 +336,12 @@ pub enum ElementFault {
         /// The object.
         object: u32,
     },
+    /// An index of an element that must come before.
+    #[error("is {found}, expected an element before this one")]
+    NotBefore {
+        /// In the file.
+        found: u32,
+    },
     /// Cumulative probabilities fall.
     #[error("is {found}, less than the {before} before it")]
     Falling {

@@ -43,11 +43,11 @@ pub(super) fn recognise(bytes: &[u8], place: &str) -> Result<Format, ImportError
     if bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP") {
         return Ok(Format::WebP);
     }
-    if is_luminaire(bytes) {
-        return Ok(Format::Ies);
-    }
     if let Some((_, format)) = KNOWN.iter().find(|(magic, _)| bytes.starts_with(magic)) {
         return Ok(*format);
+    }
+    if is_luminaire(bytes) {
+        return Ok(Format::Ies);
     }
     let other = OTHERS.iter().find(|(magic, _)| bytes.starts_with(magic));
     let message = match other {

@@ -82,8 +82,8 @@ impl Profile {
         let n_vertical = numbers.count("the number of vertical angles")?;
         let n_horizontal = numbers.count("the number of horizontal angles")?;
         if numbers.next("the photometric type")?.to_bits() != 1.0_f64.to_bits() {
-            return Err(wrong("its photometry is of type A or B".to_owned())
-                .with_help("export it as type C, as nearly all luminaires are"));
+            return Err(wrong("its photometry is not of type C".to_owned())
+                .with_help("export it as type C, which nearly all luminaires are"));
         }
         // Units, three dimensions; the ballast's factor, one for future use, watts.
         numbers.list(4, "dimensions")?;
@@ -260,7 +260,7 @@ mod tests {
         for (from, to, part) in [
             ("TILT=NONE", "TILT=lamp.tlt", "in another file"),
             ("TILT=", "tilt ", "no line `TILT=`"),
-            ("1 -1 1 2 1 1", "1 -1 1 2 1 3", "type A or B"),
+            ("1 -1 1 2 1 1", "1 -1 1 2 1 3", "not of type C"),
             ("1 -1 1 2 1 1", "1 -1 1 1e9 1 1", "cut off"),
             ("1 -1 1 2 1 1", "1 -1 1 2.5 1 1", "cut off"),
             ("1 -1 1 2 1 1", "1 -1 nan 2 1 1", "no number for the multiplier"),

@@ -107,7 +107,7 @@ impl Walk<'_, '_> {
         let mut sheared = Sheared::new(walk.ray.origin, &walk.leaf);
         let shadow = ray.light != NONE;
         if let Some(crossed) = &mut crossed {
-            crossed.begin(ray);
+            crossed.clear();
         }
         // Such a ray can be hit by every triangle.
         let all = tree.uncut && !shadow;
@@ -154,6 +154,6 @@ impl Walk<'_, '_> {
             let Some(next) = stack.pop(hit.t) else { break };
             child = next;
         }
-        crossed.map_or(hit, |crossed| crossed.first(hit))
+        crossed.map_or(hit, |crossed| crossed.first(ray, hit))
     }
 }

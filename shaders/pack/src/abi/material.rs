@@ -291,6 +291,9 @@ impl Material {
         ]
     }
 
+    /// Materials of which a mix can have one: those that `parts` can name.
+    pub const MIXABLE: usize = 1 << 16;
+
     /// The two materials of a mix, as `priority` has them.
     #[must_use]
     pub fn parts(&self) -> [u32; 2] {

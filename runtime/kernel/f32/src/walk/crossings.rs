@@ -24,9 +24,9 @@ pub(super) struct Crossings {
 }
 
 impl Crossings {
-    /// For what `ray` is about to meet.
-    pub(super) fn begin(&mut self, ray: Ray) {
-        (self.ray, self.n, self.told, self.more) = (ray, 0, 0, false);
+    /// For the next walk.
+    pub(super) fn clear(&mut self) {
+        (self.n, self.told, self.more) = (0, 0, false);
     }
 
     /// Keeps a hit, unless farther than all of a full list. As far as the distance that this gives, which is `t_max`
@@ -64,12 +64,12 @@ impl Crossings {
         hit.t.min(t_max)
     }
 
-    /// The first of them, or else `miss`.
-    pub(super) fn first(&mut self, miss: Hit) -> Hit {
+    /// The first surface that `ray` has met, or else `miss`.
+    pub(super) fn first(&mut self, ray: Ray, miss: Hit) -> Hit {
         if self.n == 0 {
             return miss;
         }
-        self.told = 1;
+        (self.ray, self.told) = (ray, 1);
         self.hits[0]
     }
 
@@ -81,10 +81,8 @@ impl Crossings {
         if !known
             || ray.t_min.to_bits() != last.t.to_bits()
             || ray.last.to_array() != [last.prim, last.instance]
+            || whole != self.ray
         {
-            return None;
-        }
-        if whole != self.ray {
             return None;
         }
         if self.told == self.n {
