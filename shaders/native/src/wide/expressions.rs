@@ -38,9 +38,23 @@ impl WideWriter<'_> {
     pub(crate) fn bind(&mut self, handle: Handle<Expression>) -> Result<(), NativeError> {
         if self.bound[handle.index()].is_none() && self.info[handle].ref_count > 0 {
             let text = self.generate_here(handle)?;
-            self.bind_as(handle, &text);
+            if self.is_struct_in_value(handle) {
+                self.bound[handle.index()] = Some(text);
+            } else {
+                self.bind_as(handle, &text);
+            }
         }
         Ok(())
+    }
+
+    /// Whether an expression is a struct within a struct that is a value: it never changes, so it is read where it is,
+    /// and not copied.
+    fn is_struct_in_value(&self, handle: Handle<Expression>) -> bool {
+        let is_struct = |handle| matches!(self.ty(handle), TypeInner::Struct { .. });
+        let Expression::AccessIndex { base, .. } = self.fun.expressions[handle] else {
+            return false;
+        };
+        is_struct(handle) && is_struct(base)
     }
 
     /// Gives `text` the name of an expression.
@@ -223,7 +237,11 @@ impl WideWriter<'_> {
         base: Handle<Expression>,
         index: u32,
     ) -> Result<String, NativeError> {
-        let name = self.atom(base)?;
+        // What has been bound may be a path of fields, which needs no name.
+        let name = match &self.bound[base.index()] {
+            Some(path) => path.clone(),
+            None => self.atom(base)?,
+        };
         match *self.ty(base) {
             TypeInner::Vector { .. } => Ok(format!("{name}.{}", LANES[index as usize])),
             TypeInner::Array { .. } => Ok(format!("{name}[{index}]")),

@@ -7,7 +7,10 @@ use crate::error::NativeError;
 use crate::names::{Names, PATTERNS};
 use crate::text::Text;
 use naga::valid::FunctionInfo;
-use naga::{AddressSpace, Block, Expression, Function, Handle, Span, Statement, Type, TypeInner};
+use naga::{
+    AddressSpace, Block, Expression, Function, Handle, LocalVariable, Span, Statement, Type,
+    TypeInner,
+};
 use std::fmt::Write as _;
 
 /// Where the lanes go that `break` and `continue` take out of a mask.
@@ -38,6 +41,8 @@ pub(crate) struct WideWriter<'a> {
     /// The block that is being written, and the home of each variable.
     pub(crate) block: *const Block,
     pub(crate) homes: Vec<Option<*const Block>>,
+    /// The statement of the function's own block before which each variable is declared that is not at the top.
+    first_uses: Vec<Option<usize>>,
     /// The result of the lanes that have returned, if some can return before the others.
     pub(crate) result: Option<String>,
 }
@@ -79,6 +84,7 @@ impl<'a> WideWriter<'a> {
             whole: true,
             block: std::ptr::null(),
             homes: super::homes::homes(fun),
+            first_uses: super::homes::first_uses(fun),
             result: None,
         }
     }
@@ -137,26 +143,22 @@ impl<'a> WideWriter<'a> {
     }
 
     fn write_body(&mut self) -> Result<(), NativeError> {
-        for (handle, local) in self.fun.local_variables.iter() {
-            let ty = self.wide(local.ty)?;
-            let name = self.locals[handle.index()].clone();
-            let value = match local.init {
-                Some(init) => self.value(init)?,
-                // It is stored before anything else.
-                None if self.homes[handle.index()].is_some() => {
-                    self.out.line(&format!("let mut {name}: {ty};"));
-                    continue;
-                }
-                None => self.cx.wide_zero(local.ty)?,
-            };
-            self.out.line(&format!("let mut {name}: {ty} = {value};"));
-        }
         let body = &self.fun.body;
         let last = match body.last() {
             Some(Statement::Return { value }) => Some(*value),
             _ => None,
         };
         let n = body.len() - usize::from(last.is_some());
+        for (handle, local) in self.fun.local_variables.iter() {
+            let is_struct =
+                matches!(self.cx.module.types[local.ty].inner, TypeInner::Struct { .. });
+            let late = is_struct && local.init.is_none();
+            let first = &mut self.first_uses[handle.index()];
+            *first = first.filter(|first| late && *first < n);
+            if first.is_none() {
+                self.declare(handle)?;
+            }
+        }
         if let Some(result) = &self.fun.result
             && (returns_in(body.iter().take(n)) || last.is_none())
         {
@@ -180,6 +182,34 @@ impl<'a> WideWriter<'a> {
         if let Some(result) = self.result.clone() {
             self.out.line(&result);
         }
+        Ok(())
+    }
+
+    /// Declares the variables that statement `k` of the function's own block is the first to use. A struct is hundreds of
+    /// bytes, which are not cleared for lanes that have left before.
+    pub(crate) fn declare_before(&mut self, k: usize) -> Result<(), NativeError> {
+        for (handle, _) in self.fun.local_variables.iter() {
+            if self.first_uses[handle.index()] == Some(k) {
+                self.declare(handle)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn declare(&mut self, handle: Handle<LocalVariable>) -> Result<(), NativeError> {
+        let local = &self.fun.local_variables[handle];
+        let ty = self.wide(local.ty)?;
+        let name = self.locals[handle.index()].clone();
+        let value = match local.init {
+            Some(init) => self.value(init)?,
+            // It is stored before anything else.
+            None if self.homes[handle.index()].is_some() => {
+                self.out.line(&format!("let mut {name}: {ty};"));
+                return Ok(());
+            }
+            None => self.cx.wide_zero(local.ty)?,
+        };
+        self.out.line(&format!("let mut {name}: {ty} = {value};"));
         Ok(())
     }
 

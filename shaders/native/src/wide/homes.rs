@@ -1,4 +1,4 @@
-//! Which variables may be stored without regard to the mask.
+//! Which variables may be stored without regard to the mask, and where each is needed first.
 //!
 //! Lanes that leave a block do not come back to it before it begins anew. A variable that is nowhere but in one block,
 //! and is stored as a whole there before anything else is done with it, holds nothing for lanes that have left: the
@@ -9,6 +9,12 @@ use naga::{Block, Expression, Function, Handle, LocalVariable, Statement};
 /// The home of each variable, by the address of its block; nothing for a variable without one.
 pub(crate) fn homes(fun: &Function) -> Vec<Option<*const Block>> {
     fun.local_variables.iter().map(|(local, _)| home(fun, &fun.body, local)).collect()
+}
+
+/// For each variable the first statement of the function's own block that does anything with it, if there is one.
+pub(crate) fn first_uses(fun: &Function) -> Vec<Option<usize>> {
+    let first = |local| fun.body.iter().position(|statement| uses(fun, statement, local));
+    fun.local_variables.iter().map(|(local, _)| first(local)).collect()
 }
 
 /// The home of `local`, which is nowhere but in `block`, if it is used at all.

@@ -30,7 +30,11 @@ impl WideWriter<'_> {
     ) -> Result<usize, NativeError> {
         let mut nested = 0;
         let outer = std::mem::replace(&mut self.block, std::ptr::from_ref(block));
+        let is_body = std::ptr::eq(block, &raw const self.fun.body);
         for (k, (statement, span)) in block.span_iter().enumerate().take(n) {
+            if is_body {
+                self.declare_before(k)?;
+            }
             if let Statement::Emit(range) = statement {
                 self.write_emitted(range.clone(), block.get(k + 1))?;
                 continue;
