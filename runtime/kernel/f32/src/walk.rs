@@ -22,7 +22,7 @@ pub use build::Geometry;
 pub use stack::FAR_END;
 pub use tree::{Block, Companion, Node, Step, Tree};
 
-use crate::kernel::{CHILD_INNER, CHILD_OUT, CHILD_SPHERES, Hit, Kernel, NONE, Ray};
+use crate::kernel::{self, CHILD_INNER, CHILD_OUT, CHILD_SPHERES, Hit, Kernel, NONE, Ray};
 use crossings::Crossings;
 use lanes::{Halves, Lanes};
 use node::Walker;
@@ -48,6 +48,33 @@ pub fn trace(kernel: &mut Kernel<'_>, ray: Ray) -> Hit {
 pub fn trace_here(avx2: pulp::x86::V3, kernel: &mut Kernel<'_>, ray: Ray, lane: usize) -> Hit {
     let Some(tree) = kernel.companion.tree else { return kernel.generated_trace(ray) };
     Walk { kernel, tree, ray, lane }.walk(avx2)
+}
+
+/// The better of `best` and what lies below `child`, a reference of the tree, for a ray whose walk has `begun`. What a
+/// shadow ray goes through counts as what hides its light does.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+pub fn trace_below(
+    avx2: pulp::x86::V3,
+    kernel: &mut Kernel<'_>,
+    begun: kernel::Walk,
+    child: u32,
+    best: Hit,
+) -> Hit {
+    let Some(tree) = kernel.companion.tree else { return best };
+    let mut stack = std::mem::take(&mut kernel.companion.stack);
+    stack.clear();
+    let hit = Walk::with(kernel, tree, Start { begun, child, best }, avx2, &mut stack, None);
+    kernel.companion.stack = stack;
+    hit
+}
+
+/// Where a walk starts, and what is known by then.
+#[derive(Clone, Copy)]
+struct Start {
+    begun: kernel::Walk,
+    child: u32,
+    best: Hit,
 }
 
 /// A walk that is to be done.
@@ -80,9 +107,13 @@ impl Walk<'_, '_> {
         stack.clear();
         let mut crossings = std::mem::take(&mut kernel.companion.crossings);
         let mut crossed = crossings.get_mut(lane).filter(|_| ray.light != NONE);
-        let hit = match crossed.as_mut().and_then(|crossed| crossed.next(&ray)) {
-            Some(hit) => hit,
-            None => Self::with(kernel, tree, ray, lanes, &mut stack, crossed),
+        let known = crossed.as_mut().and_then(|crossed| crossed.next(&ray));
+        let hit = if let Some(hit) = known {
+            hit
+        } else {
+            let best = kernel.ray_miss(ray.t_max);
+            let start = Start { begun: kernel.walk_begin(ray), child: tree.root, best };
+            Self::with(kernel, tree, start, lanes, &mut stack, crossed)
         };
         kernel.companion.crossings = crossings;
         kernel.companion.stack = stack;
@@ -93,16 +124,15 @@ impl Walk<'_, '_> {
     fn with<L: Lanes>(
         kernel: &mut Kernel<'_>,
         tree: &Tree,
-        ray: Ray,
+        start: Start,
         lanes: L,
         stack: &mut Stack,
         mut crossed: Option<&mut Crossings>,
     ) -> Hit {
-        let mut hit = kernel.ray_miss(ray.t_max);
-        let mut child = tree.root;
+        let Start { begun: mut walk, mut child, best: mut hit } = start;
+        let ray = walk.ray;
         // As in `trace/bvh.wgsl`.
         let t_min = ray.t_min * 0.9999;
-        let mut walk = kernel.walk_begin(ray);
         let mut walker = Walker::new(lanes, &walk.ray, walk.inverse, t_min);
         let mut sheared = Sheared::new(walk.ray.origin, &walk.leaf);
         let shadow = ray.light != NONE;
@@ -147,7 +177,7 @@ impl Walk<'_, '_> {
                         _ => hit = found,
                     }
                 }
-                if shadow && hit.prim != NONE {
+                if shadow && hit.prim != NONE && (crossed.is_some() || kernel.dispatch_ends(hit)) {
                     return hit;
                 }
             }

@@ -7,4 +7,5 @@
 pub mod kernel;
 mod packet;
 mod packet_triangle;
+mod rays;
 pub mod render;

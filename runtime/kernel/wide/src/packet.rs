@@ -1,14 +1,19 @@
 //! Eight rays at once through a small tree of eights.
 //!
 //! Turns eight rays into their hits, the bits that eight walks find: a box, a triangle or a leaf of spheres is tested
-//! with all rays that come to it. Worth it where most rays meet most of the tree; in large trees rays soon part, and
-//! are walked one by one.
+//! with all rays that come to it. A ray that comes to a node alone walks by itself from there. Worth it where most rays
+//! meet most of the tree; in large trees rays soon part, and are walked one by one.
 
-use crate::kernel::{Hit, Kernel, Ray, v};
+use crate::kernel::{Hit, Kernel, Ray, TriangleShear, v};
 use crate::packet_triangle::Sheared;
+use crate::rays::Rays;
+use crate::render::Companion;
 use kernel_f32::kernel as scalar;
-use kernel_f32::walk::{Block, FAR_END, Node, Step, Tree};
+use kernel_f32::walk::{self, Block, FAR_END, Node, Step, Tree};
 use scalar::NONE;
+
+/// As many rays walk on one by one from a node that no others come to: each meets its eight boxes at once.
+const FEW: u32 = 1;
 
 /// A child that some rays meet.
 #[derive(Clone, Copy, Debug)]
@@ -28,6 +33,7 @@ struct Packet<'r> {
     ray: &'r Ray,
     inverse: v::V3<v::F>,
     t_min: v::F,
+    shear: TriangleShear,
     sheared: Sheared,
     /// The lanes of shadow rays.
     shadow: v::B,
@@ -61,6 +67,7 @@ impl<'r> Packet<'r> {
             inverse: kernel.box_inverse(mask, ray.dir),
             // As in `trace/bvh.wgsl`.
             t_min: v::mul_f(ray.t_min, v::f(0.9999)),
+            shear,
             sheared: Sheared::new(ray, shear),
             shadow: v::and_b(mask, v::ne_u(ray.light, v::u(NONE))),
             uncut: tree.is_uncut(),
@@ -79,6 +86,7 @@ impl<'r> Packet<'r> {
     ) -> Hit {
         let mut hit = kernel.ray_miss(mask, self.ray.t_max);
         let mut left = mask;
+        let mut apart = None;
         stack.clear();
         stack.push(Waiting { child: tree.root(), enter: v::f(0.0) });
         while let Some(Waiting { child, enter }) = stack.pop() {
@@ -88,14 +96,16 @@ impl<'r> Packet<'r> {
                 continue;
             }
             let ended = match tree.step(child) {
+                Step::Node(_) if v::bits(active).count_ones() <= FEW => {
+                    self.apart(kernel, &mut apart, child, active, &mut hit)
+                }
                 Step::Node(node) => {
                     self.visit(node, active, hit.t, stack);
                     continue;
                 }
                 Step::Triangles(blocks) => self.triangles(kernel, blocks, active, &mut hit),
                 Step::Spheres => self.spheres(kernel, child, active, &mut hit),
-                // Nothing, or what is not in a small tree.
-                Step::Other => continue,
+                Step::Other => self.apart(kernel, &mut apart, child, active, &mut hit),
             };
             left = v::but_b(left, ended);
         }
@@ -218,6 +228,38 @@ impl<'r> Packet<'r> {
         self.ended(kernel, v::but_b(active, old), hit)
     }
 
+    /// Lets the rays of `active` walk on one by one below `child`; gives the lanes that look for no other hit.
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    fn apart(
+        &self,
+        kernel: &mut Kernel<'_>,
+        known: &mut Option<Apart>,
+        child: u32,
+        active: v::B,
+        hit: &mut Hit,
+    ) -> v::B {
+        let apart = match known {
+            Some(apart) => apart,
+            none => none.insert(Apart::of(self)),
+        };
+        let mut new = v::b(false);
+        let mut left = v::bits(active);
+        while left != 0 {
+            let lane = left.trailing_zeros();
+            left &= left - 1;
+            let walk = apart.walk(lane as usize);
+            let best = hit.lane(lane as usize);
+            let Companion { scalar, avx2, .. } = &mut kernel.companion;
+            let found = walk::trace_below(*avx2, scalar, walk, child, best);
+            if found.prim != best.prim || found.t.to_bits() != best.t.to_bits() {
+                let here = v::eq_u(v::u_of([0, 1, 2, 3, 4, 5, 6, 7]), v::u(lane));
+                *hit = Hit::select(here, &Hit::of(&[found; 8]), hit);
+                new = v::or_b(new, here);
+            }
+        }
+        self.ended(kernel, new, hit)
+    }
+
     /// The lanes of `new` that are shadow rays and have met something opaque.
     #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
     #[inline]
@@ -227,6 +269,46 @@ impl<'r> Packet<'r> {
             v::and_b(shadows, kernel.dispatch_ends(shadows, hit))
         } else {
             v::b(false)
+        }
+    }
+}
+
+/// What a packet has worked out, lane by lane.
+struct Apart {
+    rays: Rays,
+    inverse: [[f32; 8]; 3],
+    slope: [[f32; 8]; 2],
+    inv_depth: [f32; 8],
+    axis: [u32; 8],
+}
+
+impl Apart {
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    fn of(packet: &Packet<'_>) -> Self {
+        let Packet { ray, inverse, shear, .. } = packet;
+        Self {
+            rays: Rays::of(ray),
+            inverse: [v::f_to(inverse.x), v::f_to(inverse.y), v::f_to(inverse.z)],
+            slope: [v::f_to(shear.slope.x), v::f_to(shear.slope.y)],
+            inv_depth: v::f_to(shear.inv_depth),
+            axis: v::u_to(shear.axis),
+        }
+    }
+
+    /// The walk of one ray, as `walk_begin` begins it.
+    #[inline]
+    fn walk(&self, lane: usize) -> scalar::Walk {
+        let k = lane & 7;
+        let [x, y, z] = self.inverse.map(|axis| axis[k]);
+        let [slope_x, slope_y] = self.slope.map(|axis| axis[k]);
+        scalar::Walk {
+            ray: self.rays.lane(k),
+            inverse: glam::Vec3::new(x, y, z),
+            leaf: scalar::TriangleShear {
+                slope: glam::Vec2::new(slope_x, slope_y),
+                inv_depth: self.inv_depth[k],
+                axis: self.axis[k],
+            },
         }
     }
 }

@@ -5,6 +5,7 @@
 
 use crate::kernel::{self, v};
 use crate::packet;
+use crate::rays::Rays;
 use glam::UVec4;
 use kernel_f32::{
     kernel as scalar,
@@ -12,12 +13,17 @@ use kernel_f32::{
 };
 use pulp::x86::V3;
 
+/// As many rays of the camera are traced together at least.
+const COHERENT: u32 = 4;
+
 /// What the wide kernel needs beside it: the scalar one, which traces.
 pub struct Companion<'a> {
-    scalar: scalar::Kernel<'a>,
-    avx2: V3,
-    /// The tree, if rays are to be traced together.
-    small: Option<&'a Tree>,
+    pub(crate) scalar: scalar::Kernel<'a>,
+    pub(crate) avx2: V3,
+    /// The tree, if there is one.
+    tree: Option<&'a Tree>,
+    /// All rays are to be traced together, and not only those of the camera.
+    together: bool,
     pub(crate) stack: packet::Stack,
 }
 
@@ -31,65 +37,31 @@ pub struct Tile<'a> {
     pub size: [u32; 2],
 }
 
-/// Eight rays in memory, number by number.
-struct Rays {
-    origin: [[f32; 8]; 3],
-    dir: [[f32; 8]; 3],
-    range: [[f32; 8]; 2],
-    time: [f32; 8],
-    ids: [[u32; 8]; 6],
-    key: [[u32; 8]; 4],
-}
-
-impl Rays {
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-    fn of(ray: &kernel::Ray) -> Self {
-        let three = |a: v::V3<v::F>| [v::f_to(a.x), v::f_to(a.y), v::f_to(a.z)];
-        let [skip, last] = [ray.skip, ray.last];
-        let key = ray.key;
-        let ids = [skip.x, skip.y, last.x, last.y, ray.light, ray.instance];
-        let [a, b, c, d, e, f] = ids;
-        Self {
-            origin: three(ray.origin),
-            dir: three(ray.dir),
-            range: [v::f_to(ray.t_min), v::f_to(ray.t_max)],
-            time: v::f_to(ray.time),
-            key: [v::u_to(key.pixel), v::u_to(key.sample), v::u_to(key.bounce), v::u_to(key.seed)],
-            ids: [v::u_to(a), v::u_to(b), v::u_to(c), v::u_to(d), v::u_to(e), v::u_to(f)],
-        }
-    }
-
-    #[inline]
-    fn lane(&self, k: usize) -> scalar::Ray {
-        let k = k & 7;
-        let three = |a: &[[f32; 8]; 3]| glam::Vec3::new(a[0][k], a[1][k], a[2][k]);
-        let id = |i: usize| self.ids[i][k];
-        scalar::Ray {
-            origin: three(&self.origin),
-            t_min: self.range[0][k],
-            t_max: self.range[1][k],
-            dir: three(&self.dir),
-            skip: glam::UVec2::new(id(0), id(1)),
-            last: glam::UVec2::new(id(2), id(3)),
-            light: id(4),
-            time: self.time[k],
-            instance: id(5),
-            key: scalar::SampleKey {
-                pixel: self.key[0][k],
-                sample: self.key[1][k],
-                bounce: self.key[2][k],
-                seed: self.key[3][k],
-            },
-        }
-    }
-}
-
 /// The hits of eight rays.
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
 pub(crate) fn trace(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::Ray) -> kernel::Hit {
-    if let Some(tree) = kernel.companion.small {
+    let Companion { tree, together, .. } = kernel.companion;
+    let Some(tree) = tree else { return trace_one_by_one(kernel, mask, ray) };
+    if together {
         return packet::trace(kernel, tree, mask, ray);
     }
+    let first = v::eq_u(ray.key.bounce, v::u(0));
+    let camera = v::and_b(v::and_b(mask, first), v::eq_u(ray.light, v::u(scalar::NONE)));
+    if v::bits(camera).count_ones() < COHERENT {
+        return trace_one_by_one(kernel, mask, ray);
+    }
+    let hits = packet::trace(kernel, tree, camera, ray);
+    let others = v::but_b(mask, camera);
+    if v::any(others) {
+        let other_hits = trace_one_by_one(kernel, others, ray);
+        return kernel::Hit::select(others, &other_hits, &hits);
+    }
+    hits
+}
+
+/// The hits of rays that have nothing in common.
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+fn trace_one_by_one(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::Ray) -> kernel::Hit {
     let mut hits = [scalar::Hit::ZERO; 8];
     let Companion { scalar, avx2, .. } = &mut kernel.companion;
     let rays = Rays::of(ray);
@@ -112,7 +84,8 @@ pub fn render(avx2: V3, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
 fn render_groups(avx2: V3, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
     let Tile { scalar, film, size } = tile;
-    let small = scalar.companion.tree().filter(|tree| tree.is_small());
+    let tree = scalar.companion.tree();
+    let together = tree.is_some_and(Tree::is_small);
     let mut kernel = kernel::Kernel {
         frame_words: scalar.frame_words,
         film_words: film,
@@ -122,7 +95,7 @@ fn render_groups(avx2: V3, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
         shade_words: scalar.shade_words,
         sphere_words: scalar.sphere_words,
         texel_words: scalar.texel_words,
-        companion: Companion { scalar, avx2, small, stack: packet::Stack::default() },
+        companion: Companion { scalar, avx2, tree, together, stack: packet::Stack::default() },
     };
     for y in (0..size[1]).step_by(2) {
         for x in (0..size[0]).step_by(4) {
