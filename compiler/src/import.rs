@@ -18,6 +18,7 @@ mod foreign;
 mod frame;
 mod geometry;
 mod gltf;
+mod guard;
 mod image;
 mod image_set;
 mod lines;

@@ -12,7 +12,6 @@
 mod environment;
 mod exr;
 mod format;
-mod guard;
 mod hdr;
 mod ies;
 mod texels;
@@ -22,6 +21,7 @@ use self::texels::HalfImage;
 use super::budget::zeroed;
 use super::error::{ErrorKind, ImportError};
 use super::file::{Limits, read_file};
+use super::guard;
 use ::image::{ImageDecoder, ImageFormat, ImageReader};
 pub use environment::{Environment, load_environment};
 pub use texels::{Image, Pixels};

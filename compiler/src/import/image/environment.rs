@@ -6,9 +6,10 @@
 
 use super::format::{Format, gave_up, recognise};
 use super::texels::{HalfImage, Image};
-use super::{decode_image, exr, guard, hdr};
+use super::{decode_image, exr, hdr};
 use crate::import::error::{ErrorKind, ImportError};
 use crate::import::file::{Limits, read_file};
+use crate::import::guard;
 use files::ShowPath as _;
 use std::path::Path;
 
