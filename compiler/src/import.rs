@@ -1,4 +1,4 @@
-//! Mesh files and images become plain arrays in memory: OBJ/MTL, PLY, STL, glTF/GLB, PNG, JPEG, WebP, HDR, EXR.
+//! Mesh files and images become plain arrays in memory: OBJ/MTL, PLY, STL, glTF/GLB, PNG, JPEG, WebP, KTX2, HDR, EXR.
 //!
 //! Every number that leaves this module has been checked: positions and UVs are finite, indices lie
 //! inside their arrays, triangles have an area, images have the length that their size says. Bad

@@ -169,9 +169,9 @@ fn exr_with_luminance_only_is_grey_and_without_colour_refused() {
 fn foreign_and_cut_off_files_are_one_clear_line() {
     let cases: [(&[u8], &str); 4] = [
         (b"", "a.png: the file is empty"),
-        (b"GIF89a", "a.png: this is a GIF image; images are PNG, JPEG, WebP, HDR or EXR"),
-        (b"RIFF....WAVE", "a.png: this is not a PNG, JPEG, WebP, HDR or EXR image"),
-        (b"hello there", "a.png: this is not a PNG, JPEG, WebP, HDR or EXR image"),
+        (b"GIF89a", "a.png: this is a GIF image; images are PNG, JPEG, WebP, KTX2, HDR or EXR"),
+        (b"RIFF....WAVE", "a.png: this is not a PNG, JPEG, WebP, KTX2, HDR or EXR image"),
+        (b"hello there", "a.png: this is not a PNG, JPEG, WebP, KTX2, HDR or EXR image"),
     ];
     for (bytes, expected) in cases {
         assert_eq!(load("a.png", bytes).expect_err("foreign").to_string(), expected);

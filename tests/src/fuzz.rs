@@ -115,6 +115,14 @@ pub const TARGETS: &[Target] = &[
         tries: 3000,
     },
     Target {
+        name: "ktx2",
+        reads: "KTX2 images of Basis Universal",
+        check: image::low,
+        repair: keep,
+        words: image::KTX2_WORDS,
+        tries: 3000,
+    },
+    Target {
         name: "hdr",
         reads: "Radiance HDR images",
         check: image::high,

@@ -86,6 +86,7 @@ targets! {
     glb: "glb";
     png: "png";
     jpeg: "jpeg";
+    ktx2: "ktx2";
     hdr: "hdr";
     ies: "ies";
     exr: "exr";

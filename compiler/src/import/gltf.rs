@@ -13,6 +13,7 @@ mod accessor;
 mod bake;
 mod container;
 mod document;
+mod draco;
 mod instancing;
 mod layers;
 mod maps;
@@ -44,9 +45,11 @@ use lang::scene::GltfChoice;
 use std::path::Path;
 
 /// Extensions that are understood.
-const SUPPORTED: [&str; 15] = [
+const SUPPORTED: [&str; 17] = [
+    draco::NAME,
     instancing::NAME,
     meshopt::NAME,
+    maps::KTX2,
     maps::WEBP,
     variant::NAME,
     "KHR_lights_punctual",
@@ -143,8 +146,7 @@ fn parse(json: &[u8], file: &str) -> Result<Root, ImportError> {
 }
 
 fn remedy(extensions: &str) -> String {
-    let compressed = ["KHR_meshopt", "draco", "basisu"];
-    if compressed.iter().any(|word| extensions.contains(word)) {
+    if extensions.contains("meshopt") {
         "store it without compression, for example with `gltf-transform copy in.glb out.glb` or by \
          exporting it again"
             .to_owned()

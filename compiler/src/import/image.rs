@@ -1,6 +1,6 @@
 //! Image files become texels: 8 bits a channel where the file has no more, half floats otherwise.
 //!
-//! PNG, JPEG and WebP with 8 bits keep their bytes; PNG with 16 bits becomes half floats of `value /
+//! PNG, JPEG and WebP with 8 bits keep their bytes, and so do KTX2 textures of Basis Universal; PNG with 16 bits becomes half floats of `value /
 //! 65535` (11 significant bits, which is more than any texture lookup needs). Neither is converted:
 //! the numbers stay in the encoding of the file, sRGB or linear, which only the scene knows. HDR
 //! and EXR are linear by definition and become half floats; brighter texels are clamped and counted. So are luminaire
@@ -14,6 +14,7 @@ mod exr;
 mod format;
 mod hdr;
 mod ies;
+mod ktx2;
 mod texels;
 
 use self::format::{Format, broken, checked_size, gave_up, kept, raw, recognise};
@@ -43,6 +44,7 @@ pub fn decode_image(bytes: &[u8], place: &str, limits: &Limits) -> Result<Image,
         Format::Exr => exr::decode(bytes, place, limits, 1.0).map(HalfImage::finish),
         Format::Hdr => hdr::decode(bytes, place, limits, 1.0).map(HalfImage::finish),
         Format::Ies => ies::decode(bytes, place, limits).map(HalfImage::finish),
+        Format::Ktx2 => ktx2::decode(bytes, place, limits),
         format => decode_ldr(bytes, format, place, limits),
     })
     .unwrap_or_else(|| Err(gave_up(place)))
@@ -54,6 +56,7 @@ pub(super) fn size(bytes: &[u8], place: &str, limits: &Limits) -> Result<[u32; 2
         Format::Exr => exr::size(bytes, place, limits),
         Format::Hdr => hdr::size(bytes, place, limits),
         Format::Ies => ies::size(bytes, place, limits),
+        Format::Ktx2 => ktx2::size(bytes, place, limits),
         format => {
             let decoder = reader(bytes, format, place)?;
             let (width, height) = decoder.into_dimensions().map_err(|e| broken(place, &e))?;
@@ -72,7 +75,7 @@ fn reader<'a>(
         Format::Png => ImageFormat::Png,
         Format::Jpeg => ImageFormat::Jpeg,
         Format::WebP => ImageFormat::WebP,
-        Format::Hdr | Format::Exr | Format::Ies => {
+        Format::Ktx2 | Format::Hdr | Format::Exr | Format::Ies => {
             return Err(ImportError::new(ErrorKind::Image, place, "not an 8 or 16 bit image"));
         }
     };

@@ -15,7 +15,7 @@ const OFFSET: Bounds = Bounds::number(-1e6, 1e6);
 const IMAGE: TypeSchema = TypeSchema {
     kind: Kind::Texture,
     name: "image",
-    doc: "An image file (PNG, JPEG, WebP, HDR, EXR), or a luminaire file (IES), for the `profile` of a light. Materials read it as `.rgb`, or one channel of it \
+    doc: "An image file (PNG, JPEG, WebP, KTX2, HDR, EXR), or a luminaire file (IES), for the `profile` of a light. Materials read it as `.rgb`, or one channel of it \
           as `.r`, `.g`, `.b` or `.a`. Alpha is always linear.",
     example: "texture bark = image(\"bark.png\", space: srgb, wrap: mirror)",
     fields: &[

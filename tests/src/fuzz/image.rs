@@ -40,6 +40,17 @@ pub(super) const JPEG_WORDS: &[&[u8]] = &[
     b"ICC_PROFILE\0",
     b"Adobe\0",
 ];
+pub(super) const KTX2_WORDS: &[&[u8]] = &[
+    b"\xabKTX 20\xbb\r\n\x1a\n",
+    b"KTXorientation\0rd\0",
+    b"KTXanimData\0",
+    b"\x28\xb5\x2f\xfd",
+    b"\x02\0\0\0",
+    b"\xff\xff\xff\xff",
+    b"\0\0\0\0\0\0\0\x80",
+    b"\xa3\x01\x01\0",
+    b"\xa6\x01\x01\0",
+];
 pub(super) const HDR_WORDS: &[&[u8]] = &[
     b"#?RADIANCE\n",
     b"FORMAT=32-bit_rle_rgbe\n",
@@ -89,7 +100,7 @@ pub(super) const EXR_WORDS: &[&[u8]] = &[
     b"complete",
 ];
 
-/// PNG and JPEG.
+/// PNG, JPEG and KTX2.
 pub(super) fn low(_: &Path, bytes: &[u8]) -> Result<(), String> {
     let image = decode(bytes)?;
     assert_whole(&image);

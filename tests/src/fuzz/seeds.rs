@@ -24,6 +24,7 @@ fn made(target: &Target) -> Vec<Seed> {
         "glb" => glbs(),
         "png" => pngs(),
         "jpeg" => jpegs(),
+        "ktx2" => ktx2s(),
         "hdr" => hdrs(),
         "ies" => luminaires(),
         "exr" => exrs(),
@@ -204,6 +205,33 @@ fn jpegs() -> Made {
         ("bad-huge", huge),
         ("bad-start-only", vec![0xff, 0xd8, 0xff]),
         ("bad-empty", Vec::new()),
+    ]
+}
+
+/// Those of the tests of the compiler, which other people's encoders made.
+fn ktx2s() -> Made {
+    let good = include_bytes!("../../../compiler/tests/import_gltf/uastc-zstd.ktx2");
+    let forged = |at: usize, value: &[u8]| {
+        let mut bytes = good.to_vec();
+        put(&mut bytes, at, value);
+        bytes
+    };
+    let fixture = |bytes: &[u8]| bytes.to_vec();
+    vec![
+        ("good-etc1s", fixture(include_bytes!("../../../compiler/tests/import_gltf/etc1s.ktx2"))),
+        (
+            "good-etc1s-alpha",
+            fixture(include_bytes!("../../../compiler/tests/import_gltf/etc1s-alpha.ktx2")),
+        ),
+        ("good-uastc", fixture(include_bytes!("../../../compiler/tests/import_gltf/uastc.ktx2"))),
+        ("good-uastc-zstd", good.to_vec()),
+        ("bad-cut", cut(good, 90)),
+        ("bad-empty", Vec::new()),
+        ("bad-huge", forged(20, &[255; 8])),
+        ("bad-large", forged(20, &[0, 64, 0, 0, 0, 64, 0, 0])),
+        ("bad-level", forged(80, &[255; 8])),
+        ("bad-inflated", forged(96, &[255; 8])),
+        ("bad-layers", forged(32, &[255; 4])),
     ]
 }
 
@@ -628,6 +656,14 @@ fn glbs() -> Made {
     vec![
         ("good-triangle", good.clone()),
         ("good-sparse", Document::sparse().glb()),
+        (
+            "good-edgebreaker",
+            include_bytes!("../../../compiler/tests/import_gltf/edgebreaker.glb").to_vec(),
+        ),
+        (
+            "good-sequential",
+            include_bytes!("../../../compiler/tests/import_gltf/sequential.glb").to_vec(),
+        ),
         ("bad-cut", cut(&good, 50)),
         ("bad-magic", forged(0, 0)),
         ("bad-version", forged(4, 1)),

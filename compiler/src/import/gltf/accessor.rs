@@ -7,6 +7,7 @@ use ::gltf::json::accessor::{Accessor, ComponentType, Type, sparse};
 use ::gltf::json::buffer::View;
 use ::gltf::json::validation::Checked;
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 /// Most elements of a sparse accessor without base values: nothing in the file pays for them.
 const MAX_ZEROS: usize = 1 << 24;
@@ -17,6 +18,8 @@ pub(super) struct Buffers<'a> {
     pub(super) data: Vec<Option<Cow<'a, [u8]>>>,
     /// Of buffer views that are compressed, what they hold.
     pub(super) views: Vec<Option<Vec<u8>>>,
+    /// Of accessors that are compressed, their elements without gaps.
+    pub(super) elements: BTreeMap<usize, Vec<u8>>,
 }
 
 /// Elements of one accessor in a byte range that holds them all.
@@ -90,7 +93,7 @@ impl Buffers<'_> {
             }
             let convert = Convert { component, normalized: accessor.normalized };
             let decode = |bytes: &[u8]| convert.element::<N>(bytes);
-            let base = self.base(accessor, size)?;
+            let base = self.base((index, accessor), size)?;
             let mut values: Vec<[f32; N]> = match base {
                 Some(base) => base.iter().map(decode).collect(),
                 None => vec![[0.0; N]; count_of(accessor)?],
@@ -123,7 +126,7 @@ impl Buffers<'_> {
             if !matches!(component, ComponentType::U8 | ComponentType::U16 | ComponentType::U32) {
                 return failure("indices must be unsigned integers");
             }
-            let base = self.base(accessor, size)?;
+            let base = self.base((index, accessor), size)?;
             let mut values: Vec<[u32; N]> = match base {
                 Some(base) => base.iter().map(decode).collect(),
                 None => vec![[0; N]; count_of(accessor)?],
@@ -173,8 +176,19 @@ impl Buffers<'_> {
     }
 
     /// The values outside the sparse part; `None` when they are all zero.
-    fn base(&self, accessor: &Accessor, size: usize) -> Result<Option<Elements<'_>>, Failure> {
+    fn base(
+        &self,
+        (index, accessor): (Index<Accessor>, &Accessor),
+        size: usize,
+    ) -> Result<Option<Elements<'_>>, Failure> {
         let count = count_of(accessor)?;
+        if let Some(bytes) = self.elements.get(&index.value()) {
+            // Indices may be asked for as something else, whose elements are larger.
+            return match size.checked_mul(count).and_then(|length| bytes.get(..length)) {
+                Some(bytes) => Ok(Some(Elements { bytes, stride: size, size, count })),
+                None => failure("its compressed elements are not of its type"),
+            };
+        }
         let Some(view) = accessor.buffer_view else {
             if accessor.sparse.is_none() {
                 return failure("it has no buffer view");

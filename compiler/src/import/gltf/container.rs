@@ -4,13 +4,14 @@ use super::super::error::{ErrorKind, ImportError, excerpt};
 use super::super::file::Reader;
 use super::accessor::Buffers;
 use super::document::Document;
-use super::meshopt;
+use super::{draco, meshopt};
 use ::gltf::json::buffer::View;
 use ::gltf::json::{Image, Index};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use percent_encoding::percent_decode_str;
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// The JSON text, and the binary chunk if there is one.
@@ -89,7 +90,9 @@ pub(super) fn buffers<'a>(
         data.push(bytes);
     }
     let views = meshopt::views(document, &data, reader)?;
-    Ok(Buffers { document, data, views })
+    let mut buffers = Buffers { document, data, views, elements: BTreeMap::new() };
+    buffers.elements = draco::elements(&buffers, reader)?;
+    Ok(buffers)
 }
 
 /// The bytes behind a URI: a data URI or a file beside the glTF file.

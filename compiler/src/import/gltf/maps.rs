@@ -13,6 +13,8 @@ use lang::scene::{ColorSpace, Wrap};
 
 /// Textures with images in WebP.
 pub(super) const WEBP: &str = "EXT_texture_webp";
+/// Textures with images in KTX2.
+pub(super) const KTX2: &str = "KHR_texture_basisu";
 
 /// `KHR_texture_transform`: scale, then rotate, then move; v downwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -145,14 +147,16 @@ impl Maps<'_, '_, '_> {
         Ok(Some(MapUse { image, space, wrap }))
     }
 
-    /// Its image: that of `EXT_texture_webp`, or its own, which programs without WebP would take.
+    /// Its image: that of an extension, or its own, which programs without the extension would take.
     fn image_of(&self, texture: &Texture) -> Result<Index<Image>, ImportError> {
-        let extension = texture.extensions.as_ref().and_then(|all| all.others.get(WEBP));
-        let Some(extension) = extension else { return Ok(texture.source) };
+        let found = |name| Some((name, texture.extensions.as_ref()?.others.get(name)?));
+        let Some((name, extension)) = found(WEBP).or_else(|| found(KTX2)) else {
+            return Ok(texture.source);
+        };
         let source = extension.get("source").and_then(Value::as_u64);
         let source = source.and_then(|index| u32::try_from(index).ok());
-        let message = "one of its textures is not what EXT_texture_webp says";
-        source.map(Index::new).ok_or_else(|| self.error(ErrorKind::Format, message))
+        let message = || format!("one of its textures is not what {name} says");
+        source.map(Index::new).ok_or_else(|| self.error(ErrorKind::Format, &message()))
     }
 }
 

@@ -39,7 +39,7 @@ fn decode_environment(
 ) -> Result<Environment, ImportError> {
     let image = match recognise(bytes, place)? {
         Format::Exr | Format::Hdr => decode_radiance(bytes, place, limits, 1.0)?,
-        Format::Png | Format::Jpeg | Format::WebP | Format::Ies => {
+        Format::Png | Format::Jpeg | Format::WebP | Format::Ktx2 | Format::Ies => {
             let image = decode_image(bytes, place, limits)?;
             return Ok(Environment { image, scale: 1.0 });
         }

@@ -12,6 +12,7 @@ pub(super) enum Format {
     Png,
     Jpeg,
     WebP,
+    Ktx2,
     Hdr,
     Exr,
     Ies,
@@ -23,9 +24,10 @@ pub(super) fn gave_up(place: &str) -> ImportError {
 }
 
 pub(super) fn recognise(bytes: &[u8], place: &str) -> Result<Format, ImportError> {
-    const KNOWN: [(&[u8], Format); 4] = [
+    const KNOWN: [(&[u8], Format); 5] = [
         (b"\x89PNG\r\n\x1a\n", Format::Png),
         (b"\xff\xd8\xff", Format::Jpeg),
+        (b"\xabKTX 20\xbb\r\n\x1a\n", Format::Ktx2),
         (b"#?", Format::Hdr),
         (b"\x76\x2f\x31\x01", Format::Exr),
     ];
@@ -35,7 +37,7 @@ pub(super) fn recognise(bytes: &[u8], place: &str) -> Result<Format, ImportError
         (b"II*\0", "TIFF"),
         (b"MM\0*", "TIFF"),
         (b"DDS ", "DDS"),
-        (b"\xabKTX", "KTX"),
+        (b"\xabKTX", "KTX 1"),
         (b"8BPS", "Photoshop"),
         (b"qoif", "QOI"),
     ];
@@ -52,11 +54,11 @@ pub(super) fn recognise(bytes: &[u8], place: &str) -> Result<Format, ImportError
     let other = OTHERS.iter().find(|(magic, _)| bytes.starts_with(magic));
     let message = match other {
         Some((_, name)) => {
-            format!("this is a {name} image; images are PNG, JPEG, WebP, HDR or EXR")
+            format!("this is a {name} image; images are PNG, JPEG, WebP, KTX2, HDR or EXR")
         }
         None if bytes.is_empty() => "the file is empty".to_owned(),
         // Nothing of it is shown: a scene may name any file of its reader.
-        None => "this is not a PNG, JPEG, WebP, HDR or EXR image".to_owned(),
+        None => "this is not a PNG, JPEG, WebP, KTX2, HDR or EXR image".to_owned(),
     };
     Err(ImportError::new(ErrorKind::Image, place, message).with_help("convert it to PNG or EXR"))
 }
