@@ -311,13 +311,36 @@ fn required_extensions_are_refused_by_name() {
     document.json["bufferViews"][0] = json!({"extensions": {"EXT_without_buffers": {}}});
     let error = load_bytes(&document.glb(), &[]).expect_err("no buffer");
     assert_eq!(error.kind, ErrorKind::Extension);
+}
+
+#[test]
+fn extensions_that_are_left_out_are_told_with_what_has_them() {
     let mut document = triangle();
-    document.json["extensionsUsed"] = json!(["KHR_materials_sheen"]);
-    let mesh = load(&document);
-    assert_eq!(
-        mesh.report.warnings[0].message,
-        "these extensions are left out: KHR_materials_sheen"
-    );
+    let iridescent = json!({"extensions": {"KHR_materials_iridescence": {"iridescenceFactor": 1},
+        "KHR_materials_ior": {"ior": 1.25}}});
+    let placed = json!({"index": 0, "extensions": {"EXT_elsewhere": {}}});
+    let dispersive = json!({"extensions": {"KHR_materials_iridescence": {"iridescenceTexture": placed},
+        "KHR_materials_dispersion": {"dispersion": 0.1}}, "extras": {"extensions": {"NOT_one": {}}}});
+    document.json["materials"] = json!([iridescent, {}, dispersive]);
+    document.json["nodes"][0]["extensions"] = json!({"EXT_elsewhere": {}});
+    document.json["extensions"] = json!({"KHR_xmp_json_ld": {"packets": []}});
+    document.json["extensionsUsed"] = json!([
+        "KHR_materials_iridescence",
+        "KHR_materials_ior",
+        "KHR_materials_dispersion",
+        "EXT_elsewhere",
+        "KHR_xmp_json_ld",
+        "EXT_of_nothing"
+    ]);
+    let warnings = load(&document).report.warnings;
+    let messages: Vec<&str> = warnings.iter().map(|warning| warning.message.as_str()).collect();
+    let expected = [
+        "EXT_elsewhere is left out of 1 material and 1 node",
+        "KHR_materials_dispersion is left out of 1 material",
+        "KHR_materials_iridescence is left out of 2 materials",
+        "KHR_xmp_json_ld is left out",
+    ];
+    assert_eq!(messages, expected);
 }
 
 #[test]

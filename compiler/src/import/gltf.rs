@@ -16,6 +16,7 @@ mod document;
 mod draco;
 mod instancing;
 mod layers;
+mod left_out;
 mod maps;
 mod material;
 mod matrix;
@@ -90,6 +91,7 @@ pub fn read_gltf(
     let root = parse(json, &file)?;
     let document = Document { root: &root, file: &file };
     let mut report = ImportReport::default();
+    left_out::warn(json, &document, &SUPPORTED, &mut report);
     warn_about(&document, choice, &mut report);
     let variant = variant::find(&document, choice.variant.as_deref())?;
     let folder = path.parent().unwrap_or(Path::new(""));
@@ -185,15 +187,9 @@ fn json_bytes(json: &[u8]) -> u64 {
     json.iter().map(|byte| cost(byte) as u64).sum()
 }
 
-/// Says what of the file is left out, and what else could be chosen.
+/// Says what else could be chosen.
 fn warn_about(document: &Document<'_>, choice: &GltfChoice, report: &mut ImportReport) {
     let root = document.root;
-    let used = root.extensions_used.iter().map(String::as_str);
-    let unknown: Vec<&str> = used.filter(|name| !SUPPORTED.contains(name)).collect();
-    if !unknown.is_empty() {
-        let message = format!("these extensions are left out: {}", unknown.join(", "));
-        report.warn(document.file, message);
-    }
     if !root.animations.is_empty() && choice.time.is_none() {
         let names = root.animations.iter().filter_map(|animation| animation.name.as_deref());
         let names = list("its animations are", names);
