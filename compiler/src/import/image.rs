@@ -1,8 +1,8 @@
 //! Image files become texels: 8 bits a channel where the file has no more, half floats otherwise.
 //!
-//! PNG, JPEG and WebP with 8 bits keep their bytes, and so do KTX2 textures of Basis Universal; PNG with 16 bits becomes half floats of `value /
-//! 65535` (11 significant bits, which is more than any texture lookup needs). Neither is converted:
-//! the numbers stay in the encoding of the file, sRGB or linear, which only the scene knows. HDR
+//! PNG, JPEG and WebP with 8 bits keep their bytes, and so do KTX2 textures of Basis Universal; PNG with 16 bits
+//! becomes half floats of `value / 65535` (11 significant bits, which is more than any texture lookup needs). Neither is
+//! converted: the numbers stay in the encoding of the file, sRGB or linear, which only the scene knows. HDR
 //! and EXR are linear by definition and become half floats; brighter texels are clamped and counted. So are luminaire
 //! files (IES), which are images of all directions.
 //!
