@@ -2,7 +2,7 @@
 
 use super::functions::WideWriter;
 use crate::error::NativeError;
-use naga::{AddressSpace, Expression, Function, Handle, Statement, TypeInner};
+use naga::{AddressSpace, Expression, Function, Handle, Statement, Type, TypeInner};
 
 impl WideWriter<'_> {
     /// Writes a call; its first argument is the mask.
@@ -31,7 +31,8 @@ impl WideWriter<'_> {
         Ok(())
     }
 
-    /// Names what is evaluated here, except a struct that the call which comes `next` can take where it is.
+    /// Names what is evaluated here, except a struct that the call which comes `next` can take where it is, or that the
+    /// store which comes next puts together.
     pub(crate) fn write_emitted(
         &mut self,
         range: naga::Range<Expression>,
@@ -40,7 +41,7 @@ impl WideWriter<'_> {
         for handle in range {
             if self.is_pointer(handle) {
                 self.fix_index(handle)?;
-            } else if !self.can_be_lent(handle, next) {
+            } else if !self.can_be_lent(handle, next) && !self.is_stored_apart(handle, next) {
                 self.bind(handle)?;
             }
         }
@@ -60,6 +61,27 @@ impl WideWriter<'_> {
             && arguments.contains(&handle)
             && root.is_some()
             && !arguments.iter().any(changed)
+    }
+
+    /// Whether `handle` is a struct put together for the store `next` alone, which stores its members one by one.
+    fn is_stored_apart(&self, handle: Handle<Expression>, next: Option<&Statement>) -> bool {
+        let Some(Statement::Store { value, .. }) = next else { return false };
+        *value == handle && self.info[handle].ref_count == 1 && self.members(handle).is_some()
+    }
+
+    /// The members of a struct that is put together.
+    pub(crate) fn members(
+        &self,
+        handle: Handle<Expression>,
+    ) -> Option<(Handle<Type>, &[Handle<Expression>])> {
+        match &self.fun.expressions[handle] {
+            Expression::Compose { ty, components }
+                if matches!(self.cx.module.types[*ty].inner, TypeInner::Struct { .. }) =>
+            {
+                Some((*ty, components))
+            }
+            _ => None,
+        }
     }
 
     /// The variable or parameter that a pointer leads into.

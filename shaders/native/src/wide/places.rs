@@ -4,7 +4,7 @@ use super::functions::WideWriter;
 use super::types::letter;
 use crate::error::NativeError;
 use crate::types::LANES;
-use naga::{AddressSpace, Expression, GlobalVariable, Handle, Literal, TypeInner};
+use naga::{AddressSpace, Expression, GlobalVariable, Handle, Literal, Type, TypeInner};
 
 /// A place of this function's, or of its caller's.
 pub(crate) struct Place {
@@ -153,6 +153,13 @@ impl WideWriter<'_> {
             self.out.line(&format!("{} = {value};", place.text));
             return Ok(());
         }
+        if place.picked.is_none()
+            && self.bound[value.index()].is_none()
+            && let Some((ty, members)) = self.members(value)
+        {
+            let members = members.to_vec();
+            return self.write_members(&place.text, ty, &members);
+        }
         let value = self.atom(value)?;
         let mask = self.mask.clone();
         let Some((index, parts)) = place.picked else {
@@ -170,6 +177,30 @@ impl WideWriter<'_> {
         for (k, part) in parts.iter().enumerate() {
             let here = format!("v::and_b({mask}, v::eq_u({index}, v::u({k})))");
             let text = self.cx.select_inner(&inner, [&here, &value, part], self.span)?;
+            self.out.line(&format!("{part} = {text};"));
+        }
+        Ok(())
+    }
+
+    /// Stores the members of a struct of type `ty` in the lanes of the mask: no struct is made that is only copied.
+    fn write_members(
+        &mut self,
+        place: &str,
+        ty: Handle<Type>,
+        members: &[Handle<Expression>],
+    ) -> Result<(), NativeError> {
+        let TypeInner::Struct { members: declared, .. } = &self.cx.module.types[ty].inner else {
+            return Err(self.place(NativeError::nowhere("members of no struct".to_owned())));
+        };
+        let mut texts = Vec::new();
+        for &member in members {
+            let is_struct = matches!(self.ty(member), TypeInner::Struct { .. });
+            texts.push(if is_struct { self.value(member)? } else { self.atom(member)? });
+        }
+        let mask = self.mask.clone();
+        for ((text, field), declared) in texts.iter().zip(self.cx.field_names(ty)).zip(declared) {
+            let part = format!("{place}.{field}");
+            let text = self.cx.wide_select(declared.ty, [&mask, text, &part])?;
             self.out.line(&format!("{part} = {text};"));
         }
         Ok(())
