@@ -4,7 +4,7 @@
 //! limits. What it gives is as long as the accessors say and of their types, so that everything else reads accessors as
 //! it does without compression. Attributes that the extension does not list are stored as in any other file.
 
-use super::super::error::{ErrorKind, ImportError};
+use super::super::error::{ErrorKind, ImportError, excerpt};
 use super::super::file::Reader;
 use super::super::guard;
 use super::accessor::Buffers;
@@ -171,8 +171,7 @@ impl Stream<'_> {
                 return Err(fail("its compressed bytes hold more than its accessors say"));
             }
             Some(Err(error)) => {
-                let text = error.to_string();
-                let text = super::super::error::excerpt(text.as_bytes());
+                let text = excerpt(error.message().as_bytes());
                 return Err(fail(&format!("its compressed bytes are damaged: {text}")));
             }
             None => return Err(fail("its compressed bytes are damaged: the decoder gave up")),
