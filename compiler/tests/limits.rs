@@ -19,8 +19,9 @@ fn limits_are_one_line_and_no_panic() {
     std::fs::write(folder.path().join("a.rts"), SCENE).expect("it can be written");
     let rtc = env!("CARGO_BIN_EXE_rtc");
     let mut refused = 0;
+    // Where there is no room for the file of the program, 23 MB without optimisation, it never starts.
     let limits = [
-        "-v 20000",
+        "-v 40000",
         "-v 60000",
         "-v 100000",
         "-v 150000",
