@@ -7,7 +7,6 @@
 use crate::kernel::{Hit, Kernel, Ray, TriangleShear, v};
 use crate::packet_triangle::Sheared;
 use crate::rays::Rays;
-use crate::render::Companion;
 use kernel_f32::kernel as scalar;
 use kernel_f32::walk::{self, Block, FAR_END, Node, Step, Tree};
 use scalar::NONE;
@@ -249,8 +248,9 @@ impl<'r> Packet<'r> {
             left &= left - 1;
             let walk = apart.walk(lane as usize);
             let best = hit.lane(lane as usize);
-            let Companion { scalar, avx2, .. } = &mut kernel.companion;
-            let found = walk::trace_below(*avx2, scalar, walk, child, best);
+            let companion = &mut kernel.companion;
+            let (avx2, scalar) = (companion.avx2, &mut companion.scalar);
+            let found = walk::trace_below(avx2, scalar, walk, child, best);
             if found.prim != best.prim || found.t.to_bits() != best.t.to_bits() {
                 let here = v::eq_u(v::u_of([0, 1, 2, 3, 4, 5, 6, 7]), v::u(lane));
                 *hit = Hit::select(here, &Hit::of(&[found; 8]), hit);

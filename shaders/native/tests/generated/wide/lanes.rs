@@ -450,7 +450,6 @@ impl<'a> Kernel<'a> {
     #[inline]
     #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn pointed(&mut self, mut mask: v::B, x: v::F, n: v::U) -> v::V4<v::F> {
-        let mut pair: Pair;
         let t = v::f(3.0f32);
         let mut other: Pair = Pair { a: v::f(1.0f32), n: v::u(2u32), v: v::V3 { x: t, y: t, z: t }, odd: v::b(false) };
         let mut sum: v::F = v::f(0.0f32);
@@ -461,8 +460,8 @@ impl<'a> Kernel<'a> {
         let e6 = v::and_u(n, t___);
         let t____ = v::u(1u32);
         let e8 = v::eq_u(e6, t____);
-        let e9 = Pair { a: x, n: n, v: e4, odd: e8 };
-        pair = e9;
+        let mut pair: Pair;
+        pair = Pair { a: x, n: n, v: e4, odd: e8 };
         let t_____ = v::f(3.0f32);
         let e13 = v::V3 { x: t_____, y: t_____, z: t_____ };
         let e16 = Pair { a: v::f(1.0f32), n: v::u(2u32), v: e13, odd: v::b(false) };
