@@ -251,7 +251,8 @@ impl<'r> Packet<'r> {
             let companion = &mut kernel.companion;
             let (avx2, scalar) = (companion.avx2, &mut companion.scalar);
             let found = walk::trace_below(avx2, scalar, walk, child, best);
-            if found.prim != best.prim || found.t.to_bits() != best.t.to_bits() {
+            let same = found.prim == best.prim && found.instance == best.instance;
+            if !same || found.t.to_bits() != best.t.to_bits() {
                 let here = v::eq_u(v::u_of([0, 1, 2, 3, 4, 5, 6, 7]), v::u(lane));
                 *hit = Hit::select(here, &Hit::of(&[found; 8]), hit);
                 new = v::or_b(new, here);
