@@ -22,7 +22,7 @@ const FILES: &[(&str, &str)] = &[
     ("accessor.gltf", ACCESSOR),
     (
         "extension.gltf",
-        r#"{"asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"],"extensionsUsed":["KHR_draco_mesh_compression"]}"#,
+        r#"{"asset":{"version":"2.0"},"extensionsRequired":["KHR_meshopt_compression"],"extensionsUsed":["KHR_meshopt_compression"]}"#,
     ),
     ("huge.hdr", HUGE),
     ("tiny.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\nabcd"),
