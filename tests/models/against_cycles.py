@@ -55,13 +55,13 @@ files, which `cargo test` repeats on small ones. A decoder that fails on a damag
 
 | crate | reads | seen | verdict |
 | --- | --- | --- | --- |
-| `draco-core` 2.3.3 | Draco | no unsafe code, ceilings on points, faces and bytes. Streams of Google's encoder at speeds 0 to 10 and sequential ones; 465,875 damaged ones without a panic, 14 ms and 2 MB at most | used |
-| `draco-oxide-decoder` 0.1.0-alpha.12 | Draco | 50 more crates; a damaged stream of 1 kB ends the process for want of memory | not sound |
+| `draco-core` 2.3.3 | Draco | no unsafe code, ceilings on points, faces and bytes. Reads streams of Google's encoder; no panic on damaged ones | used |
+| `draco-oxide-decoder` 0.1.0-alpha.12 | Draco | 50 more crates; a small damaged stream makes it ask for more memory than there is, which ends the process | not sound |
 | `draco_decoder` 0.0.31, `draco-rs` 0.1.3 | Draco | bindings | need a C++ compiler |
-| `basisu` 0.1.0 | KTX2 of Basis Universal | the same texels as Binomial's transcoder in eight of eight files. Of 2,311,006 damaged ones, 568 overflow an offset of the header, which is checked before; the rest without a panic, 24 ms and 8 MB at most | used without its Zstandard |
+| `basisu` 0.1.0 | KTX2 of Basis Universal | the texels of Binomial's transcoder. Damaged files can overflow an offset of the header, which is checked before; otherwise no panic | used without its Zstandard |
 | `basis-universal` 0.3.1, `basisu_c_sys` 0.9.1 | KTX2 of Basis Universal | bindings | need a C++ compiler |
 | `ktx2` 0.5.0 | the container of KTX2 | decodes no texels | of no use alone |
-| `ruzstd` 0.9.1 | Zstandard | a limit on the window, and one block at a time, so that a frame of 64 kB cannot become 2 GB, as it can in the 0.7 that `basisu` would take | used |
+| `ruzstd` 0.9.1 | Zstandard | a limit on the window, and one block at a time, so that a small frame cannot become gigabytes, as it can in the 0.7 that `basisu` would take | used |
 | `zstd` 0.14.4 | Zstandard | bindings | needs a C compiler |
 | `meshoptimizer-rs` 0.2.17 | meshopt | limits on bytes and work | used |
 | `image` 0.25 | WebP | limits on memory | used |

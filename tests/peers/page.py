@@ -160,8 +160,7 @@ largest difference of two renderers in a channel over its standard error, as a n
 *Blocks* is the root mean square of the z of 6 x 8 blocks of the picture for all pairs: 1 where only noise differs.
 *Allowed* is a difference that has a known reason: Mitsuba lifts rays off surfaces by 9e-5 of one plus the largest
 coordinate, 3 mm at the far end of the meadow, a sixth of the width of a blade. It shows 0.15 % more light there, and
-0.7 % more when the scene is moved 100 m away. Of few samples a pixel Cycles shows less light in the box and Mitsuba less
-in the slab, whatever the seed: 0.42 % with 5 samples and 0.04 % with 64, 1.4 % with 6.
+0.7 % more when the scene is moved 100 m away.
 
 {means}
 

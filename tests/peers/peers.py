@@ -79,7 +79,7 @@ def one(scene, args, work, shelf, all_renderers):
     if args.only_references:
         return None, pictures
     if args.resume and kept.exists():
-        return json.loads(kept.read_text()), pictures
+        return json.loads(kept.read_text()) | {"agreement": asdict(found)}, pictures
     speeds = {r.key: shelf.speed(r, scene, size) for r in all_renderers}
     result = {"shows": scene.shows, "size": size, "depth": scene.depth, "agreement": asdict(found),
               "rounds": measure.rounds(all_renderers, scene, size, speeds, args, reference, say)}

@@ -53,7 +53,7 @@ class Shelf:
         return self.seconds * LONGER.get(scene.name, 1)
 
     def at(self, renderer, scene, size):
-        # What may differ is no part of the picture.
+        # How much means may differ says nothing of the picture.
         said = repr((replace(scene, allowed=0), size, renderer.name, self.seconds_of(scene), self.replicates))
         return self.folder / f"{scene.name}-{renderer.key}-{hashlib.sha256(said.encode()).hexdigest()[:12]}"
 

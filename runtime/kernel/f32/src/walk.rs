@@ -50,8 +50,8 @@ pub fn trace_here(avx2: pulp::x86::V3, kernel: &mut Kernel<'_>, ray: Ray, lane: 
     Walk { kernel, tree, ray, lane }.walk(avx2)
 }
 
-/// The better of `best` and what lies below `child`, a reference of the tree, for a ray whose walk has `begun`. What a
-/// shadow ray goes through counts as what hides its light does.
+/// The better of `best` and what lies below `child`, a reference of the tree, for a ray whose walk has `begun`. Of a
+/// shadow ray that is any hit: the nearest surface that it goes through, or one that hides its light.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 pub fn trace_below(

@@ -1,8 +1,9 @@
-//! Eight rays at once through a small tree of eights.
+//! Eight rays at once through a tree of eights.
 //!
 //! Turns eight rays into their hits, the bits that eight walks find: a box, a triangle or a leaf of spheres is tested
-//! with all rays that come to it. A ray that comes to a node alone walks by itself from there. Worth it where most rays
-//! meet most of the tree; in large trees rays soon part, and are walked one by one.
+//! with all rays that come to it. A ray that comes to a node alone walks by itself from there, and so does every
+//! ray that comes to an instance or to triangles that move. Worth it where most rays meet most of the tree, and for rays
+//! of the camera, which stay together; others soon part in large trees.
 
 use crate::kernel::{Hit, Kernel, Ray, TriangleShear, v};
 use crate::packet_triangle::Sheared;
@@ -11,7 +12,7 @@ use kernel_f32::kernel as scalar;
 use kernel_f32::walk::{self, Block, FAR_END, Node, Step, Tree};
 use scalar::NONE;
 
-/// As many rays walk on one by one from a node that no others come to: each meets its eight boxes at once.
+/// No more rays than this leave a packet at a node, to walk on one by one: each meets all eight boxes at once.
 const FEW: u32 = 1;
 
 /// A child that some rays meet.
@@ -274,7 +275,7 @@ impl<'r> Packet<'r> {
     }
 }
 
-/// What a packet has worked out, lane by lane.
+/// The rays of a packet and what was worked out for them, lane by lane.
 struct Apart {
     rays: Rays,
     inverse: [[f32; 8]; 3],

@@ -13,7 +13,7 @@ use kernel_f32::{
 };
 use pulp::x86::V3;
 
-/// As many rays of the camera are traced together at least.
+/// Camera rays are traced together if there are this many or more.
 const COHERENT: u32 = 4;
 
 /// What the wide kernel needs beside it: the scalar one, which traces.

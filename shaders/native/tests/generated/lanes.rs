@@ -29,6 +29,23 @@ impl Default for Pair {
     }
 }
 
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pairs {
+    pub first: Pair,
+    pub second: Pair,
+}
+
+impl Pairs {
+    /// All members zero.
+    pub const ZERO: Self = Pairs { first: Pair::ZERO, second: Pair::ZERO };
+}
+
+impl Default for Pairs {
+    fn default() -> Self {
+        Self::ZERO
+    }
+}
+
 
 /// What the kernel reads and writes, one member a WGSL resource.
 pub struct Bindings<'a> {
@@ -60,7 +77,7 @@ impl<'a> Kernel<'a> {
         if word.x == 77u32 {
             return;
         }
-        let at = i.wrapping_mul(9u32);
+        let at = i.wrapping_mul(10u32);
         let e16 = word.x;
         let e19 = wgsl::rem_u32(word.y, 9u32);
         let e20 = self.parting(e16, e19);
@@ -121,9 +138,17 @@ impl<'a> Kernel<'a> {
         if (e89 as usize) < self.found.len() {
             self.found[e89 as usize] = (*wgsl::at(given, e93 as u32, &UVec4::ZERO)).wrapping_add(*wgsl::at(given, e99 as u32, &UVec4::ZERO));
         }
+        let second = Pair { a: y, n: 3u32, v: Vec3::new(x, 2.0f32, y), odd: (word.x & 1u32) == 1u32 };
+        let pairs = Pairs { first: Pair { a: x, n: word.y, v: Vec3::new(y, x, 1.0f32), odd: true }, second: second };
+        let e120 = at.wrapping_add(9u32);
+        let e122 = word.x;
+        let e123 = self.exchanged(pairs, e122);
+        if (e120 as usize) < self.found.len() {
+            self.found[e120 as usize] = UVec4::new(e123.x.to_bits(), e123.y.to_bits(), e123.z.to_bits(), e123.w.to_bits());
+        }
     }
 
-    /// WGSL line 14.
+    /// WGSL line 19.
     #[inline]
     pub fn parting(&mut self, kind: u32, n: u32) -> u32 {
         let mut sum: u32 = 1u32;
@@ -162,7 +187,7 @@ impl<'a> Kernel<'a> {
         return sum.wrapping_add(kind);
     }
 
-    /// WGSL line 37.
+    /// WGSL line 42.
     #[inline]
     pub fn turns(&mut self, n: u32) -> u32 {
         let mut sum: u32 = 0u32;
@@ -202,7 +227,7 @@ impl<'a> Kernel<'a> {
         return sum;
     }
 
-    /// WGSL line 62.
+    /// WGSL line 67.
     #[inline]
     pub fn guarded(&mut self, x: Real) -> Real {
         let mut y: Real = 0.0f32;
@@ -217,7 +242,7 @@ impl<'a> Kernel<'a> {
         return y;
     }
 
-    /// WGSL line 72.
+    /// WGSL line 77.
     #[inline]
     pub fn change(&mut self, pair: &mut Pair, x: Real) -> bool {
         if x < 0.0f32 {
@@ -229,7 +254,7 @@ impl<'a> Kernel<'a> {
         return pair.odd;
     }
 
-    /// WGSL line 83.
+    /// WGSL line 88.
     #[inline]
     pub fn pointed(&mut self, x: Real, n: u32) -> Vec4 {
         let mut pair: Pair = Pair::ZERO;
@@ -255,7 +280,20 @@ impl<'a> Kernel<'a> {
         return Vec4::new(e44.x, e44.y, e44.z, ((sum + pair.a) + other.a) + (pair.n.wrapping_add(other.n) as Real));
     }
 
-    /// WGSL line 100.
+    /// WGSL line 105.
+    #[inline]
+    pub fn exchanged(&mut self, p: Pairs, n: u32) -> Vec4 {
+        let mut q: Pair = Pair::ZERO;
+        q = p.second;
+        if wgsl::rem_u32(n, 3u32) != 0u32 {
+            let e19 = p.first.v;
+            q = Pair { a: q.v.y, n: q.n.wrapping_add(p.first.n), v: Vec3::new(q.a, e19.x, q.v.z), odd: !q.odd };
+        }
+        let e30 = q.v;
+        return Vec4::new(e30.x, e30.y, e30.z, (q.a + (q.n as Real)) + (if q.odd { 0.5f32 } else { 0.0f32 }));
+    }
+
+    /// WGSL line 114.
     #[inline]
     pub fn anew(&mut self, n: u32) -> u32 {
         let mut sum: u32 = 0u32;
@@ -285,7 +323,7 @@ impl<'a> Kernel<'a> {
         return sum;
     }
 
-    /// WGSL line 115.
+    /// WGSL line 129.
     #[inline]
     pub fn kept(&mut self, n: u32) -> u32 {
         let mut last: u32 = 0u32;
@@ -310,7 +348,7 @@ impl<'a> Kernel<'a> {
         return sum.wrapping_mul(8u32).wrapping_add(last);
     }
 
-    /// WGSL line 127.
+    /// WGSL line 141.
     #[inline]
     pub fn indexed(&mut self, n: i32, x: Real) -> Vec4 {
         let mut list: [Real; 4] = [0.0f32; 4];
@@ -332,7 +370,7 @@ impl<'a> Kernel<'a> {
         return Vec4::new(list[(i as usize).min(3)], v[(e31 as usize).min(2)], list[0] + list[3], v.z);
     }
 
-    /// WGSL line 138.
+    /// WGSL line 152.
     #[inline]
     pub fn integers(&mut self, a: u32, b: i32) -> UVec4 {
         let c = a as i32;
@@ -340,14 +378,14 @@ impl<'a> Kernel<'a> {
         return UVec4::new((((wgsl::div_u32(a, d) ^ wgsl::rem_u32(a, d)) ^ a.reverse_bits()) ^ a.wrapping_shl(d & 31u32)) ^ a.wrapping_shr(wgsl::rem_u32(d, 40u32)), ((((wgsl::div_i32(c, b) ^ wgsl::rem_i32(c, b)) ^ c.wrapping_shr(d & 31u32)) ^ b.wrapping_neg()) ^ c.wrapping_abs()) as u32, ((((if a < d { d } else { a }) ^ (if c < b { 2u32 } else { 1u32 })) ^ a.min(d)) ^ a.max(d).wrapping_mul(3u32)) ^ (!a), ((c.min(b).wrapping_sub(c.max(3i32)) as u32) ^ (if a >= d { 8u32 } else { 4u32 })) ^ (if c >= b { 32u32 } else { 16u32 }));
     }
 
-    /// WGSL line 149.
+    /// WGSL line 163.
     #[inline]
     pub fn floats(&mut self, x: Real, y: Real) -> Vec4 {
         let e30 = Vec3::new(x * y - 2.0f32 * x, 2.0f32 * 1.0f32 - y * y, y * x - x * 1.0f32);
         return Vec4::new((wgsl::min(x, y) + (x.floor() * y.ceil())) - x.trunc(), (wgsl::max(x, y) - wgsl::clamp(x, -1.0f32, y)) + wgsl::fract(y), (((wgsl::to_u32(x) as Real) + (wgsl::to_i32(y) as Real)) - x.abs()) + y.round_ties_even(), x * e30.x + y * e30.y + 1.0f32 * e30.z);
     }
 
-    /// WGSL line 158.
+    /// WGSL line 172.
     #[inline]
     pub fn conversions(&mut self, a: u32, x: Real) -> UVec4 {
         let bytes = UVec4::new(wgsl::byte_u32(a, 0), wgsl::byte_u32(a, 1), wgsl::byte_u32(a, 2), wgsl::byte_u32(a, 3));

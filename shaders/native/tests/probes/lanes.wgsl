@@ -7,6 +7,11 @@ struct Pair {
     odd: bool,
 }
 
+struct Pairs {
+    first: Pair,
+    second: Pair,
+}
+
 @group(0) @binding(0) var<storage, read> given: array<vec4<u32>>;
 @group(0) @binding(1) var<storage, read_write> found: array<vec4<u32>>;
 
@@ -96,6 +101,15 @@ fn pointed(x: f32, n: u32) -> vec4f {
     return vec4f(pair.v, sum + pair.a + other.a + f32(pair.n + other.n));
 }
 
+// A struct within a struct that is a value; members of a variable that change places in lanes that have parted.
+fn exchanged(p: Pairs, n: u32) -> vec4f {
+    var q = p.second;
+    if (n % 3u != 0u) {
+        q = Pair(q.v.y, q.n + p.first.n, vec3f(q.a, p.first.v.x, q.v.z), !q.odd);
+    }
+    return vec4f(q.v, q.a + f32(q.n) + select(0.0, 0.5, q.odd));
+}
+
 // A variable of the loop's body begins anew in each turn, however lanes leave the turn before.
 fn anew(n: u32) -> u32 {
     var sum = 0u;
@@ -175,7 +189,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (word.x == 77u) {
         return;
     }
-    let at = i * 9u;
+    let at = i * 10u;
     found[at] = vec4u(parting(word.x, word.y % 9u), turns(word.x % 9u), anew(word.x), kept(word.y));
     found[at + 1u] = vec4u(bitcast<u32>(guarded(x)), bitcast<u32>(guarded(y)), i, 0u);
     found[at + 2u] = bitcast<vec4u>(pointed(x, word.x));
@@ -186,4 +200,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     // The same element for all, and one that is not there.
     found[at + 7u] = given[2] + given[3].wzyx;
     found[at + 8u] = given[i ^ word.x] + given[word.x % 11u];
+    let second = Pair(y, 3u, vec3f(x, 2.0, y), (word.x & 1u) == 1u);
+    let pairs = Pairs(Pair(x, word.y, vec3f(y, x, 1.0), true), second);
+    found[at + 9u] = bitcast<vec4u>(exchanged(pairs, word.x));
 }

@@ -52,6 +52,47 @@ impl Pair {
     }
 }
 
+#[derive(Clone, Copy, Debug)]
+pub struct Pairs {
+    pub first: Pair,
+    pub second: Pair,
+}
+
+impl Pairs {
+    #[inline]
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    pub fn zero() -> Self {
+        Self {
+            first: Pair::zero(),
+            second: Pair::zero(),
+        }
+    }
+    #[inline]
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    pub fn select(m: v::B, yes: &Self, no: &Self) -> Self {
+        Self {
+            first: Pair::select(m, &yes.first, &no.first),
+            second: Pair::select(m, &yes.second, &no.second),
+        }
+    }
+    #[inline]
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    pub fn lane(&self, k: usize) -> scalar::Pairs {
+        scalar::Pairs {
+            first: self.first.lane(k),
+            second: self.second.lane(k),
+        }
+    }
+    #[inline]
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    pub fn of(x: &[scalar::Pairs; 8]) -> Self {
+        Self {
+            first: Pair::of(&[x[0].first, x[1].first, x[2].first, x[3].first, x[4].first, x[5].first, x[6].first, x[7].first]),
+            second: Pair::of(&[x[0].second, x[1].second, x[2].second, x[3].second, x[4].second, x[5].second, x[6].second, x[7].second]),
+        }
+    }
+}
+
 /// The resources of one group of invocations after another.
 pub struct Kernel<'a> {
     pub given: &'a [glam::UVec4],
@@ -78,7 +119,7 @@ impl<'a> Kernel<'a> {
         let mut m_ = v::but_b(mask, e11);
         mask = v::or_b(m, m_);
         if v::any(mask) {
-            let t_ = v::u(9u32);
+            let t_ = v::u(10u32);
             let at = v::mul_u(i, t_);
             let e16 = word.x;
             let e17 = word.y;
@@ -152,6 +193,25 @@ impl<'a> Kernel<'a> {
             let e101 = v::at(self.given, e99, mask);
             let e102 = v::V4 { x: v::add_u(e95.x, e101.x), y: v::add_u(e95.y, e101.y), z: v::add_u(e95.z, e101.z), w: v::add_u(e95.w, e101.w) };
             v::put(self.found, e89, e102, mask);
+            let t______________ = v::f(2.0f32);
+            let e105 = v::V3 { x: x, y: t______________, z: y };
+            let e106 = word.x;
+            let t_______________ = v::u(1u32);
+            let e108 = v::and_u(e106, t_______________);
+            let t________________ = v::u(1u32);
+            let e110 = v::eq_u(e108, t________________);
+            let second = Pair { a: y, n: v::u(3u32), v: e105, odd: e110 };
+            let e112 = word.y;
+            let t_________________ = v::f(1.0f32);
+            let e114 = v::V3 { x: y, y: x, z: t_________________ };
+            let e116 = Pair { a: x, n: e112, v: e114, odd: v::b(true) };
+            let pairs = Pairs { first: e116, second: second };
+            let t__________________ = v::u(9u32);
+            let e120 = v::add_u(at, t__________________);
+            let e122 = word.x;
+            let e123 = self.exchanged(mask, &pairs, e122);
+            let e124 = v::V4 { x: v::u_bits_f(e123.x), y: v::u_bits_f(e123.y), z: v::u_bits_f(e123.z), w: v::u_bits_f(e123.w) };
+            v::put(self.found, e120, e124, mask);
         }
     }
 
@@ -515,6 +575,47 @@ impl<'a> Kernel<'a> {
         let e58 = v::add_f(e51, e57);
         let e59 = v::V4 { x: e44.x, y: e44.y, z: e44.z, w: e58 };
         return e59;
+    }
+
+    #[inline]
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    pub fn exchanged(&mut self, mut mask: v::B, p: &Pairs, n: v::U) -> v::V4<v::F> {
+        let mut q: Pair;
+        q = (*p).second;
+        let t = v::u(3u32);
+        let e5 = v::rem_u(n, t);
+        let t_ = v::u(0u32);
+        let e7 = v::ne_u(e5, t_);
+        let mut m = v::and_b(mask, e7);
+        if v::any(m) {
+            let e10 = q.v.y;
+            let e12 = q.n;
+            let e14 = (*p).first.n;
+            let e15 = v::add_u(e12, e14);
+            let e17 = q.a;
+            let e19 = (*p).first.v;
+            let e20 = e19.x;
+            let e23 = q.v.z;
+            let e24 = v::V3 { x: e17, y: e20, z: e23 };
+            let e26 = q.odd;
+            let e27 = v::not_b(e26);
+            q.a = v::select_f(m, e10, q.a);
+            q.n = v::select_u(m, e15, q.n);
+            q.v = v::V3 { x: v::select_f(m, e24.x, q.v.x), y: v::select_f(m, e24.y, q.v.y), z: v::select_f(m, e24.z, q.v.z) };
+            q.odd = v::select_b(m, e27, q.odd);
+        }
+        let e30 = q.v;
+        let e32 = q.a;
+        let e34 = q.n;
+        let e35 = v::f_from_u(e34);
+        let e36 = v::add_f(e32, e35);
+        let e38 = q.odd;
+        let t__ = v::f(0.5f32);
+        let t___ = v::f(0.0f32);
+        let e41 = v::select_f(e38, t__, t___);
+        let e42 = v::add_f(e36, e41);
+        let e43 = v::V4 { x: e30.x, y: e30.y, z: e30.z, w: e42 };
+        return e43;
     }
 
     #[inline]
