@@ -34,8 +34,7 @@ class Speed:
 
 def pilot(renderer, scene, size, enough):
     """A first guess of the speed from runs that differ by `enough` seconds; the clock of a busy machine will do."""
-    # The first run may wait for the disk.
-    few = min((renderer.render(scene, size, 1, 0)[0] for _ in range(2)), key=lambda run: run.wall)
+    few, _ = renderer.render(scene, size, 1, 0)
     n = 9
     while (many := renderer.render(scene, size, n, 0)[0]).wall - few.wall < enough and n < 9000:
         n *= 9
