@@ -64,6 +64,7 @@ use self::share::Plan;
 use self::shutter::Shutter;
 use self::texture::Textures;
 use self::world::{Sections, World};
+use crate::bvh::Motion;
 use crate::normalize::Normalization;
 use crate::stage::Stages;
 
@@ -99,6 +100,8 @@ pub fn lower(
     let bodies = Bodies::of(scene, &plan, stages, &mut materials, diagnostics)?;
     let sky = sky::sky(scene.sky.as_ref(), (files, stages), &mut materials.textures)?;
     let (textures, has_textures) = materials.textures.made()?;
+
+    motion::check(scene, &bodies, &materials, diagnostics);
 
     // Where they are.
     let inside = medium::matters(scene, materials.records());
@@ -137,7 +140,8 @@ pub fn lower(
     let mut lights = light::table(&emitters, &choices, &far, &sections.lights);
     let motions = motion::displacements(&bodies.things, &frame);
     let motion = |light: &abi::Light| displacement(light, &sections, &motions);
-    let hidden = if trees.visibility == Visibility::Auto && motions.is_empty() && lights.len() > 1 {
+    let still = motions.is_empty() && scene.camera.keys.is_empty();
+    let hidden = if trees.visibility == Visibility::Auto && still && lights.len() > 1 {
         let camera = &camera::camera(&scene.camera, &frame);
         let (materials, lights, world) = (&materials, &lights[..], world.key());
         hidden::lights(&hidden::Scene { camera, materials, lights, world, stages }, &sections)
@@ -184,8 +188,9 @@ fn records(
     let declared = medium::records(scene, materials.own_media(), frame);
     let mut materials = materials.into_records();
     let (media, around) = medium::used(scene, &declared, &mut materials);
+    let mut motion = Vec::new();
     let objects = if lit.moves || finish::asks_about_objects(&materials) {
-        bodies.things.iter().map(|thing| thing.record(frame)).collect()
+        bodies.things.iter().map(|thing| thing.record(frame, &mut motion)).collect()
     } else {
         Vec::new()
     };
@@ -194,6 +199,8 @@ fn records(
     Lowered {
         render: finish::settings(scene, frame, lit.sections.entry, inside, lit.lights.len()),
         camera: camera::camera(&scene.camera, frame),
+        motion,
+        camera_keys: camera::keys(&scene.camera, frame),
         sky: lit.sky,
         sky_table: lit.sky_table,
         albedo: albedo::words(&materials),
@@ -233,10 +240,11 @@ fn around_camera(
     solids.around_camera(scene, materials, diagnostics)
 }
 
-/// How far a light comes while the shutter is open; `motions` is empty where nothing moves.
-fn displacement(light: &abi::Light, sections: &Sections, motions: &[[f32; 3]]) -> DVec3 {
+/// By how much at least and at most a light is displaced while the shutter is open; `motions` is empty where nothing
+/// moves.
+fn displacement(light: &abi::Light, sections: &Sections, motions: &[Motion]) -> [DVec3; 2] {
     if motions.is_empty() || !light.has_surface() {
-        return DVec3::ZERO;
+        return [DVec3::ZERO; 2];
     }
     let primitive = light.primitive as usize;
     let object = if light.kind == abi::LightKind::Sphere as u32 {
@@ -245,5 +253,5 @@ fn displacement(light: &abi::Light, sections: &Sections, motions: &[[f32; 3]]) -
         sections.shades.get(primitive).map(|shade| shade.object & !TRI_SMOOTH)
     };
     let motion = object.and_then(|object| motions.get(object as usize));
-    motion.map_or(DVec3::ZERO, |motion| motion.map(f64::from).into())
+    motion.map_or([DVec3::ZERO; 2], Motion::range)
 }

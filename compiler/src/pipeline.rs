@@ -251,6 +251,8 @@ impl Compiled {
             .records(&lowered.spheres)
             .records(&lowered.materials)
             .records(&lowered.objects)
+            .records(&lowered.motion)
+            .records(&lowered.camera_keys)
             .records(&lowered.instances)
             .records(&lowered.media)
             .records(&lowered.lights)

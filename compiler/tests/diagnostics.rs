@@ -183,6 +183,25 @@ fn a_small_stack_gives_no_error() {
 }
 
 #[test]
+fn what_gives_light_may_move_from_key_to_key_and_not_turn() {
+    let lamp = |keys: &str| {
+        let eye = "shutter = 0ms..20ms, from";
+        let lamp = "material lamp: emissive { color = linear(1) }\n";
+        let text = format!("rts 1\n{}{lamp}", GOOD.replacen("from", eye, 1));
+        let panel = "instance panel { shape = rectangle(size: (1, 1)m), material = lamp";
+        format!(
+            "{text}{panel}, at = [0ms: (0, 2, 0)m, 9ms: (1, 2, 0)m, 20ms: (1, 3, 0)m]{keys} }}\n"
+        )
+    };
+    let turns = lamp(", rotate = [0ms: (0, 0, 0)deg, 20ms: (0, 90, 0)deg]");
+    let folder = folder(&[("moves.rts", &lamp("")), ("turns.rts", &turns)]);
+    assert_eq!(check(folder.path(), &["moves.rts"]), (Some(0), String::new()));
+    let (code, text) = check(folder.path(), &["turns.rts", "--error-format", "short"]);
+    assert_eq!(code, Some(1), "{text}");
+    assert!(text.contains("E0806") && text.contains("gives light and turns"), "{text}");
+}
+
+#[test]
 fn the_guide_shows_what_is_printed() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let page = |name: &str| std::fs::read_to_string(root.join(name)).expect("a page");

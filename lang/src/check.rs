@@ -30,6 +30,7 @@ pub(crate) mod given;
 mod group;
 mod index;
 mod instance;
+mod keys;
 #[warn(clippy::wildcard_enum_match_arm)]
 pub(crate) mod light;
 mod lint;

@@ -13,8 +13,8 @@ use std::fmt::{self, Write as _};
 use crate::check::brightness::profile_scale;
 use crate::material::Shown;
 use crate::scene::{
-    AssetFormat, Axis, Camera, Directional, FileFrame, GltfChoice, Instance, Light, Projection,
-    Scene, Shape, Wrap,
+    AssetFormat, Axis, Camera, CameraKey, Directional, FileFrame, GltfChoice, Instance, Light,
+    Motion, MotionKey, Projection, Scene, Shape, Wrap,
 };
 use crate::schema::color_text;
 use crate::shape::MeshEdit;
@@ -181,7 +181,15 @@ fn instance_fields(scene: &Scene, instance: &Instance) -> Vec<(&'static str, Str
     let mut fields = vec![("shape", shape), ("material", material.to_owned())];
     let m = &instance.world_from_object;
     let column = |i: usize| [m[0][i], m[1][i], m[2][i]];
-    fields.push(("at", vector(column(3), "m")));
+    let keyed = |place: fn(&MotionKey) -> [f64; 3], unit: &'static str| {
+        let motion = instance.motion.as_ref();
+        motion.map(|motion| keys(motion.keys.iter().map(|key| (key.time, place(key))), unit))
+    };
+    let at = keyed(|key| key.at, "m").unwrap_or_else(|| vector(column(3), "m"));
+    fields.push(("at", at));
+    if instance.motion.as_ref().is_some_and(Motion::turns) {
+        fields.extend(keyed(|key| key.rotate.map(f64::to_degrees), "deg").map(|k| ("rotate", k)));
+    }
     let diagonal = (0..3).all(|row| (0..3).all(|i| row == i || m[row][i] == 0.0));
     if diagonal {
         fields.push(("scale", vector([m[0][0], m[1][1], m[2][2]], "")));
@@ -195,6 +203,12 @@ fn instance_fields(scene: &Scene, instance: &Instance) -> Vec<(&'static str, Str
     }
     fields.extend(group(instance.group.as_ref()));
     fields
+}
+
+/// Keys as they are written.
+fn keys(keys: impl Iterator<Item = (f64, [f64; 3])>, unit: &str) -> String {
+    let key = |(time, v)| format!("{}: {}", units::show(time, Dim::TIME), vector(v, unit));
+    format!("[{}]", keys.map(key).collect::<Vec<_>>().join(", "))
 }
 
 /// What is changed of a mesh file, behind its name.
@@ -259,9 +273,13 @@ fn camera_fields(camera: &Camera) -> Vec<(&'static str, String)> {
     let [open, close] = camera.shutter;
     let shutter = format!("{}..{}", units::show(open, Dim::TIME), units::show(close, Dim::TIME));
     let fit = camera.fit.as_ref().map(|fit| ("fit", fit.instance.text.clone()));
+    let place = |place: fn(&CameraKey) -> [f64; 3], here| match camera.keys.as_slice() {
+        [] => vector(here, "m"),
+        list => keys(list.iter().map(|key| (key.time, place(key))), "m"),
+    };
     let place = [
-        ("from", vector(camera.from, "m")),
-        ("to", vector(camera.to, "m")),
+        ("from", place(|key| key.from, camera.from)),
+        ("to", place(|key| key.to, camera.to)),
         ("up", vector(camera.up, "")),
     ];
     let view = match &camera.projection {

@@ -12,12 +12,14 @@ mod common;
 mod file;
 mod instance;
 mod light;
+mod motion;
 mod view;
 
 pub use common::{Name, Rgb};
 pub use file::{Asset, AssetFormat, Axis, ColorSpace, FileFrame, GltfChoice, Texture, Wrap};
 pub use instance::Instance;
 pub use light::{Beam, Directional, Light, Profile, Tint};
+pub use motion::{CameraKey, Keyed, Motion, MotionKey, at_time, bends};
 pub use view::{
     Camera, Film, Filter, Fit, Layer, Lens, Projection, Render, Sampler, Side, ToneMap,
 };

@@ -261,6 +261,8 @@ pub enum FieldType {
     IntegerOr(u32, u32, &'static [Word]),
     /// Three numbers of one dimension; the text is the unit to suggest.
     Vector(Dim, &'static str),
+    /// The same, or keys: `[0ms: (0, 0, 0)m, 20ms: (1, 0, 0)m]`.
+    Keyed(Dim, &'static str),
     /// A number with a dimension for each of red, green and blue, or one for all.
     Spectrum(Bounds),
     /// Two or three lengths above zero.
@@ -406,7 +408,7 @@ pub fn unit_of(ty: FieldType) -> Option<(Dim, &'static str)> {
         FieldType::Integer(..) | FieldType::IntegerOr(..) | FieldType::Scale | FieldType::Faces => {
             Some((Dim::NONE, ""))
         }
-        FieldType::Vector(dim, unit) => Some((dim, unit)),
+        FieldType::Vector(dim, unit) | FieldType::Keyed(dim, unit) => Some((dim, unit)),
         FieldType::Size(_) | FieldType::Points => Some((Dim::LENGTH, "m")),
         FieldType::Pixels => Some((Dim::PIXEL, "px")),
         FieldType::Color(_)
@@ -444,6 +446,7 @@ pub fn type_text(ty: FieldType) -> String {
         FieldType::Vector(Dim::NONE, _) => "three numbers".to_owned(),
         FieldType::Spectrum(b) => format!("{}, or three", noun(b.dim)),
         FieldType::Vector(dim, _) => dim.several(3),
+        FieldType::Keyed(dim, _) => format!("{}, or keys of them", dim.several(3)),
         FieldType::Size(n) => format!("{n} lengths"),
         FieldType::Points => "list of points".to_owned(),
         FieldType::Faces => "list of faces".to_owned(),
@@ -493,6 +496,7 @@ pub fn range_text(ty: FieldType) -> String {
         FieldType::Scale => "not zero".to_owned(),
         FieldType::Group => format!("letters, digits, `_` and `-`, at most {MAX_GROUP}"),
         FieldType::Vector(..)
+        | FieldType::Keyed(..)
         | FieldType::Points
         | FieldType::Faces
         | FieldType::NormalSlot

@@ -124,9 +124,15 @@ fn normals() -> Family {
     alone(bit::NORMAL_MAPS, |normal_maps| FeatureSet { normal_maps, ..FeatureSet::full() })
 }
 
-/// Whether anything moves.
+/// Whether anything moves. Ways of several pieces and cameras with keys have no bits: their code asks whether they are
+/// there, and is as sound where they are not.
 fn motion() -> Family {
-    alone(bit::MOTION, |motion| FeatureSet { motion, ..FeatureSet::full() })
+    let set =
+        |motion, keys, camera_keys| FeatureSet { motion, keys, camera_keys, ..FeatureSet::full() };
+    let ways = [(false, false), (true, false), (false, true), (true, true)];
+    let mut members = vec![(0, set(false, false, false))];
+    members.extend(ways.map(|(keys, camera)| (bit::MOTION, set(true, keys, camera))));
+    Family { mask: bit::MOTION, members }
 }
 
 /// Whether paths may have any length.

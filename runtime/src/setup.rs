@@ -23,7 +23,7 @@ const BOUND: [(u32, Kind); 6] = [
 ];
 
 /// Small tables that share one buffer, in this order.
-const HEAP: [Kind; 12] = [
+const HEAP: [Kind; 14] = [
     Kind::CAMERA,
     Kind::SKY,
     Kind::MATERIAL,
@@ -36,6 +36,8 @@ const HEAP: [Kind; 12] = [
     Kind::LIGHTNODE,
     Kind::INSTANCE,
     Kind::ALBEDO,
+    Kind::MOTION,
+    Kind::CAMERAKEY,
 ];
 
 /// Bytes of one window of a section: the largest binding that every device has. Window `w` of binding
@@ -68,19 +70,29 @@ impl Scene {
         albedo_tables(self.pack().records()).map(|word| word.map_or(NONE, at))
     }
 
-    pub(crate) fn setup(&self, job: &Job) -> Setup<'_> {
-        let settings = self.settings();
-        let camera = self.camera(job);
+    /// First heap word of a table, `at` if it is there; otherwise `NONE`.
+    fn table(&self, kind: Kind, at: u32) -> u32 {
+        if self.pack().section_bytes(kind).is_some() { at } else { NONE }
+    }
+
+    /// The small tables, and the first word of each.
+    fn heap(&self, camera: &Camera) -> (Vec<UVec4>, [u32; HEAP.len()]) {
         let mut heap: Vec<UVec4> = Vec::new();
         let at = HEAP.map(|kind| {
             let at = u32::try_from(heap.len()).expect("the checks bound every table");
             if kind == Kind::CAMERA {
-                heap.extend_from_slice(words(bytemuck::bytes_of(&camera)));
+                heap.extend_from_slice(words(bytemuck::bytes_of(camera)));
             } else if let Some(bytes) = self.pack().section_bytes(kind) {
                 heap.extend_from_slice(words(bytes));
             }
             at
         });
+        (heap, at)
+    }
+
+    pub(crate) fn setup(&self, job: &Job) -> Setup<'_> {
+        let settings = self.settings();
+        let (heap, at) = self.heap(&self.camera(job));
         let [
             camera_at,
             sky_at,
@@ -94,15 +106,20 @@ impl Scene {
             light_tree_at,
             instance_at,
             albedo_first,
+            path_at,
+            camera_key_at,
         ] = at;
-        // The full kernel asks this number whether there is a sky; a specialised one knows.
-        let sky_at = if self.pack().sky().is_some() { sky_at } else { NONE };
-        let has_tree = self.pack().section_bytes(Kind::LIGHTNODE).is_some();
-        let light_tree_at = if has_tree { light_tree_at } else { NONE };
-        // Likewise whether there are objects.
-        let has_objects = self.pack().section_bytes(Kind::OBJECT).is_some();
-        let object_at = if has_objects { object_at } else { NONE };
+        // The full kernel asks these numbers whether the tables are there; a specialised one knows.
+        let sky_at = self.table(Kind::SKY, sky_at);
+        let light_tree_at = self.table(Kind::LIGHTNODE, light_tree_at);
+        let object_at = self.table(Kind::OBJECT, object_at);
+        let path_at = self.table(Kind::MOTION, path_at);
+        // A camera of somebody else's stands still.
+        let still = job.camera.is_some();
+        let camera_key_at = if still { NONE } else { self.table(Kind::CAMERAKEY, camera_key_at) };
         let frame = Frame {
+            path_at,
+            camera_key_at,
             albedo_at: self.albedo_at(albedo_first),
             image_size: job.image_size,
             seed: job.seed,

@@ -81,8 +81,12 @@ pub struct FeatureSet {
     pub principled_coat: bool,
     /// Some principled material lets light through.
     pub principled_transmission: bool,
-    /// Some object moves while the shutter is open.
+    /// Something moves while the shutter is open.
     pub motion: bool,
+    /// Some object turns, or its way is not one straight line; only with `motion`.
+    pub keys: bool,
+    /// The camera moves; only with `motion`.
+    pub camera_keys: bool,
     /// There are instances; only with `triangles`.
     pub instances: bool,
     /// Layouts of nodes; a scene has one.
@@ -173,6 +177,8 @@ impl FeatureSet {
             principled_coat: false,
             principled_transmission: false,
             motion: false,
+            keys: false,
+            camera_keys: false,
             instances: false,
             layouts: [NodeLayout::Binary].into(),
             stack_size: 1,
@@ -217,6 +223,8 @@ impl FeatureSet {
             principled_coat: true,
             principled_transmission: true,
             motion: true,
+            keys: true,
+            camera_keys: true,
             instances: true,
             layouts: [NodeLayout::Binary, NodeLayout::Wide].into(),
             stack_size: pack::abi::MAX_STACK,

@@ -279,6 +279,21 @@ pub const CASES: &[Case] = &[
             &[WEAR, PAINT, LACE_LAMP, MOVING_PANEL, CLAY, MOVING_BALL, FLOOR],
         )
     },
+    // From key to key: bent ways, turns about one axis and several, in the world and stored once; the camera alone.
+    Case { camera: SHUTTER, ..case("keys of a ball", &[GRADIENT, PLASTIC, KEYED_BALL, FLOOR]) },
+    Case {
+        camera: SHUTTER,
+        ..case(
+            "keys of patterns and pictures",
+            &[GRADIENT, LAMP, KEYED_PANEL, BUMPS, BUMPY_PLASTIC, KEYED_TENT, KEYED_LOG, FLOOR],
+        )
+    },
+    Case {
+        camera: SHUTTER,
+        ..case("keys of instances", &[GRADIENT, SPHERE_LIGHT, BRUSHED, KEYED_BEADS, FLOOR])
+    },
+    Case { camera: KEYED_VIEW, ..case("keys of the camera", &[GRADIENT, CLAY, BALL, FLOOR]) },
+    Case { camera: KEYED_VIEW, ..case("keys of the camera of the sky", &[GRADIENT]) },
     Case { camera: BLADES_AND_SHUTTER, render: ", depth = unlimited", ..case("all", ALL) },
 ];
 
@@ -302,6 +317,7 @@ const ALL: &[&str] = &[
     MIST,
     POND,
     ALL_BEADS,
+    KEYED_CRATE,
     FLOOR,
 ];
 
@@ -317,8 +333,16 @@ const PANORAMIC: [&str; 2] = ["panoramic", "fov.horizontal = 270deg"];
 const LENS: &str = "  aperture = 40cm\n  focus = 5m\n";
 const BLADES: &str = "  aperture = 40cm\n  focus = 3m\n  blades = 5\n  rotation = 20deg\n";
 const SHUTTER: &str = "  shutter = -5ms..15ms\n";
-const BLADES_AND_SHUTTER: &str =
-    "  aperture = 40cm\n  focus = 5m\n  blades = 7\n  shutter = 0ms..20ms\n";
+const KEYED_VIEW: &str = "  aperture = 20cm
+  shutter = -5ms..15ms
+  from = [-9ms: (0.5, 1.8, 5)m, 2ms: (0.7, 1.8, 5)m, 15ms: (0.7, 2.2, 4.5)m]
+  to = [0ms: (0, 0.9, 0)m, 12ms: (-0.4, 0.8, 0)m]\n";
+const BLADES_AND_SHUTTER: &str = "  aperture = 40cm
+  focus = 5m
+  blades = 7
+  shutter = 0ms..20ms
+  from = [0ms: (0.5, 1.8, 5)m, 9ms: (0.6, 1.8, 5)m]
+  to = (0, 0.9, 0)m\n";
 const LENS_AND_SHUTTER: &str = "  aperture = 40cm\n  focus = 5m\n  shutter = 0ms..20ms\n";
 
 const SKY: &str = "sky day: constant { color = linear(0.6, 0.8, 1.0) }\n";
@@ -418,6 +442,19 @@ const FLOOR: &str = "material grey: diffuse { color = linear(0.6) }
 instance floor { shape = rectangle(size: (20, 20)m), material = grey }\n";
 const BALL: &str = "instance ball { shape = sphere(radius: 1m), material = m, at = (0, 1, 0)m }\n";
 const MOVING_BALL: &str = "instance ball { shape = sphere(radius: 1m), material = m, at = (0, 1, 0)m, velocity = (60, 10, -30)m/s }\n";
+const KEYED_BALL: &str = "instance ball { shape = sphere(radius: 1m), material = m, at = [0ms: (0, 1, 0)m, 4ms: (0.5, 1.2, 0)m, 20ms: (0, 1, 1)m], rotate = [0ms: (0, 0, 0)deg, 9ms: (0, 70, 0)deg] }\n";
+const KEYED_CRATE: &str = "instance keyed { shape = box(size: (0.5, 0.3, 0.3)m), material = lacquer, rotate = [0ms: (0, 0, 0)deg, 20ms: (90, 40, 0)deg], at = [0ms: (-2, 1.8, 0)m, 9ms: (-1.8, 1.7, 0)m, 20ms: (-1.8, 2, 0)m] }\n";
+const KEYED_TENT: &str = "asset tent = obj(\"tent.obj\", unit: m, up: +y)
+instance canvas { shape = tent, material = m, at = (1.2, 0.4, 1.6)m, scale = (1, 1.5, 1), rotate = [-9ms: (0, 0, 0)deg, 9ms: (30, 90, -20)deg] }\n";
+const KEYED_LOG: &str = "material oak: wood { color = linear(0.5, 0.3, 0.15), grain = x, scale = 3 }
+object log { shape = box(size: (1.5, 0.4, 0.4)m), material = oak, rotate = [-5ms: (0, 0, 0)deg, 15ms: (0, 500, 0)deg] }
+instance cart { shape = [log], rotate = (0, 0, 20)deg, scale = (-1, 1, 1), at = [0ms: (0, 0.8, 0)m, 7ms: (-0.4, 0.8, 0.3)m] }\n";
+const KEYED_PANEL: &str = "instance panel { shape = rectangle(size: (2, 1)m), material = lamp, rotate = (180, 0, 30)deg, at = [-1ms: (0, 4, 0)m, 3ms: (0.4, 3.6, 0)m, 9ms: (0.4, 3.8, -0.6)m] }\n";
+const KEYED_BEADS: &str = "asset bead = obj(\"bead.obj\", unit: m, up: +y)
+instance bead_a { shape = bead, material = m, rotate = [-5ms: (20, 40, 0)deg, 15ms: (20, 40, 90)deg], at = (-1.4, 0.7, 0)m, scale = (0.7, 0.5, 0.9) }
+instance bead_b { shape = bead, material = m, rotate = [0ms: (0, -70, 30)deg, 6ms: (40, -70, 60)deg], at = [0ms: (1, 0.8, 0.6)m, 9ms: (1.3, 0.8, 0.2)m], scale = (-0.6, 0.8, 0.4) }
+instance bead_c { shape = bead, material = m, at = (-0.2, 0.5, 1.4)m, scale = 0.5 }
+instance bead_d { shape = bead, material = m, at = (0.4, 1.7, 0)m, scale = 0.3, velocity = (10, 0, 5)m/s }\n";
 const MOVING_BOX: &str = "instance crate { shape = box(size: (1, 1, 1)m), material = m, rotate = (0, 30, 0)deg, at = (0, 0.7, 1)m, velocity = (0, 40, 20)m/s }\n";
 const MOVING_TENT: &str = "asset tent = obj(\"tent.obj\", unit: m, up: +y)
 instance canvas { shape = tent, material = m, at = (1.2, 0, 1.6)m, scale = (1, 1.5, 1), velocity = (-50, 0, -10)m/s }\n";
@@ -728,13 +765,13 @@ fn with(case: &Case, how: (Instancing, Layout), change: impl FnOnce(&mut Scene))
     let things = parts.concat();
     let air = ["mist", "smoke"].into_iter().find(|air| things.contains(&format!("medium {air}:")));
     let air = air.map_or(String::new(), |air| format!(", atmosphere = {air}"));
+    let still = "  from = (0.5, 1.8, 5)m\n  to = (0, 0.9, 0)m\n";
+    let place = if camera.contains("from") { "" } else { still };
     let depth = if render.contains("depth") { "" } else { ", depth = 8" };
     let text = format!(
         "rts 1\n{things}
 camera eye: {kind} {{
-  from = (0.5, 1.8, 5)m
-  to = (0, 0.9, 0)m
-  {seen}
+{place}  {seen}
 {camera}}}
 film small {{ size = (40, 30)px{film} }}
 render main: path {{ camera = eye, film = small, samples = 8{depth}, seed = 7{render}{air} }}\n",

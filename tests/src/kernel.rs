@@ -89,6 +89,8 @@ impl Bench {
     pub fn new() -> Self {
         let sampler = SamplerKind::Pcg as u32;
         let frame = Frame {
+            path_at: NONE,
+            camera_key_at: NONE,
             sampler,
             root: NONE,
             sky_at: NONE,

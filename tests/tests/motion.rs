@@ -3,6 +3,8 @@
 
 #[path = "motion/coverage.rs"]
 mod coverage;
+#[path = "motion/keys.rs"]
+mod keys;
 #[path = "motion/lighting.rs"]
 mod lighting;
 #[path = "motion/seams.rs"]

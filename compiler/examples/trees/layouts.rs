@@ -225,7 +225,9 @@ fn whose(tree: &Joined, (t, place): (u32, u32)) -> (u32, Option<u32>) {
 
 impl Words {
     fn new(tree: &Joined, root: u32, nodes: &[u8], wide: u32, triangles: &[Tri]) -> Self {
-        let frame = Frame { root, wide, object_at: NONE, ..Frame::default() };
+        let (path_at, camera_key_at) = (NONE, NONE);
+        let still = Frame { path_at, camera_key_at, object_at: NONE, ..Frame::default() };
+        let frame = Frame { root, wide, ..still };
         let record = |i: &u32| {
             let [v0, v1, v2] = triangles[*i as usize];
             Triangle { v0, id0: 3 * i, v1, id1: 3 * i + 1, v2, id2: 3 * i + 2 }

@@ -5,7 +5,9 @@
 //! overflows), and no coordinate is negative zero (so that minimum and maximum do not depend on the
 //! order of their arguments).
 
-use glam::Vec4;
+use glam::{DVec3, Vec4};
+
+use super::path::Motion;
 
 /// Largest coordinate magnitude. The half-area of a box of side 2e18 is 1.2e37, below `f32::MAX`.
 pub const COORD_MAX: f32 = 1e18;
@@ -166,6 +168,19 @@ impl Fragment {
         let low = |k: usize| round_down(f64::from(lo[k]) + reach[k].min(0.0) - room[k]);
         let high = |k: usize| round_up(f64::from(hi[k]) + reach[k].max(0.0) + room[k]);
         Self::new([0, 1, 2].map(low), [0, 1, 2].map(high), self.index()).whole()
+    }
+
+    /// The box of all places where the primitive is while it moves, likewise.
+    #[must_use]
+    pub fn moving(&self, motion: &Motion) -> Self {
+        let path = match motion {
+            Motion::Straight(way) => return self.swept(*way),
+            Motion::Along(path) => path,
+        };
+        let corner = |v: Vec4| DVec3::from(v.truncate().to_array().map(f64::from));
+        let [lo, hi] = path.sweep_with_room(corner(self.lo), corner(self.hi));
+        let (lo, hi) = (lo.to_array().map(round_down), hi.to_array().map(round_up));
+        Self::new(lo, hi, self.index()).whole()
     }
 
     /// Index of the primitive.

@@ -16,7 +16,7 @@ use super::join::{Group, GroupKind, Joined, join_groups};
 use super::plan::{SMALL_MESH, plan};
 use super::probe::visits;
 use super::top::{InstanceLeaf, Piece, clusters};
-use super::{Bounds, BvhError, Fragment, Input, MAX_PRIMITIVES, Preset};
+use super::{Bounds, BvhError, Fragment, Input, MAX_PRIMITIVES, Motion, Preset};
 use crate::cache::{Cache, CacheWarning, Cached, Source};
 
 /// The primitives of a scene when the shutter opens, in the frame in which the kernel sees them.
@@ -26,12 +26,12 @@ pub struct Primitives<'a> {
     pub triangles: &'a [[[f32; 3]; 3]],
     /// How many triangles each mesh has; the sum is `triangles.len()`.
     pub mesh_sizes: &'a [usize],
-    /// How far each mesh comes while the shutter is open; empty where nothing moves.
-    pub mesh_motions: &'a [[f32; 3]],
+    /// How each mesh moves while the shutter is open; empty where nothing does.
+    pub mesh_motions: &'a [Motion],
     /// Centre and radius of all spheres.
     pub spheres: &'a [([f32; 3], f32)],
-    /// How far each sphere comes while the shutter is open; empty where nothing moves.
-    pub sphere_motions: &'a [[f32; 3]],
+    /// How each sphere moves while the shutter is open; empty where nothing does.
+    pub sphere_motions: &'a [Motion],
 }
 
 /// Meshes that are stored once, and where they are shown.
@@ -193,7 +193,7 @@ fn build_meshes(
 fn check_counts(primitives: &Primitives, shared: &Shared) -> Result<(), BvhError> {
     let count = primitives.triangles.len();
     let listed = primitives.mesh_sizes.iter().try_fold(0_usize, |sum, &n| sum.checked_add(n));
-    let fits = |motions: &[[f32; 3]], n: usize| motions.is_empty() || motions.len() == n;
+    let fits = |motions: &[Motion], n: usize| motions.is_empty() || motions.len() == n;
     let moved = fits(primitives.mesh_motions, primitives.mesh_sizes.len())
         && fits(primitives.sphere_motions, primitives.spheres.len());
     if listed != Some(count) || !moved {
@@ -262,7 +262,7 @@ fn triangles<'a>(
 ) -> Input<'a> {
     let fragment = |i: u32, t: u32| {
         let box_ = Fragment::of_triangle(&primitives.triangles[t as usize], i);
-        moves.triangle(t).map_or(box_, |motion| box_.swept(motion))
+        moves.triangle(t).map_or(box_, |motion| box_.moving(motion))
     };
     let fragments = match members {
         [one] => one.clone().into_par_iter().map(|t| fragment(t - one.start, t)).collect(),
@@ -282,22 +282,17 @@ fn triangles<'a>(
 fn spheres(primitives: &Primitives<'_>, moves: &Moves<'_>) -> Input<'static> {
     let fragment = |(i, &(center, radius)): (u32, &([f32; 3], f32))| {
         let box_ = Fragment::of_sphere(center, radius, i);
-        moves.sphere(i).map_or(box_, |motion| box_.swept(motion))
+        moves.sphere(i).map_or(box_, |motion| box_.moving(motion))
     };
     Input::of_boxes((0..).zip(primitives.spheres).map(fragment).collect())
 }
 
-/// Whether that is any way at all.
-fn moves(motion: &[f32; 3]) -> bool {
-    motion.iter().any(|x| x.abs() > 0.0)
-}
-
-/// How far single primitives come.
+/// How single primitives move.
 struct Moves<'a> {
     /// Where each mesh ends; empty where nothing moves.
     ends: Vec<u32>,
-    meshes: &'a [[f32; 3]],
-    spheres: &'a [[f32; 3]],
+    meshes: &'a [Motion],
+    spheres: &'a [Motion],
 }
 
 impl<'a> Moves<'a> {
@@ -313,14 +308,14 @@ impl<'a> Moves<'a> {
     }
 
     /// `None` for a triangle that stands still.
-    fn triangle(&self, index: u32) -> Option<[f32; 3]> {
+    fn triangle(&self, index: u32) -> Option<&Motion> {
         let mesh = self.ends.partition_point(|end| *end <= index);
-        self.meshes.get(mesh).copied().filter(moves)
+        self.meshes.get(mesh).filter(|motion| motion.moves())
     }
 
     /// `None` for a sphere that stands still.
-    fn sphere(&self, index: u32) -> Option<[f32; 3]> {
-        self.spheres.get(index as usize).copied().filter(moves)
+    fn sphere(&self, index: u32) -> Option<&Motion> {
+        self.spheres.get(index as usize).filter(|motion| motion.moves())
     }
 }
 

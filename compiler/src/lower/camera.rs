@@ -53,6 +53,42 @@ pub(super) fn camera(camera: &scene::Camera, frame: &Normalization) -> abi::Came
     }
 }
 
+/// The keys of a camera that moves while its shutter is open, none for one that does not.
+pub(super) fn keys(camera: &scene::Camera, frame: &Normalization) -> Vec<abi::CameraKey> {
+    let [open, close] = camera.shutter;
+    if camera.keys.is_empty() || close <= open {
+        return Vec::new();
+    }
+    let times = std::iter::once(open).chain(scene::bends(&camera.keys, open, close)).chain([close]);
+    let mut keys: Vec<abi::CameraKey> = Vec::new();
+    for time in times {
+        let key = scene::at_time(&camera.keys, time);
+        let share = if time >= close { 1.0 } else { ((time - open) / (close - open)) as f32 };
+        let focus_distance = match &camera.projection {
+            Projection::Perspective(lens) if !camera.follows => frame.length(lens.focus_distance),
+            Projection::Perspective(_)
+            | Projection::Orthographic { .. }
+            | Projection::Panoramic { .. } => 0.0,
+        };
+        let key = abi::CameraKey {
+            origin: frame.point(key.from),
+            time: share,
+            aim: frame.point(key.to),
+            focus_distance,
+            up: DVec3::from(camera.up).as_vec3().to_array(),
+            ..abi::CameraKey::default()
+        };
+        // Of keys that are next to each other the later one counts.
+        if keys.last().is_some_and(|last| last.time >= key.time) {
+            keys.pop();
+        }
+        keys.push(key);
+    }
+    let place = |key: &abi::CameraKey| [key.origin, key.aim].map(|p| p.map(f32::to_bits));
+    let rests = keys.windows(2).all(|pair| place(&pair[0]) == place(&pair[1]));
+    if rests { Vec::new() } else { keys }
+}
+
 /// From the middle of a regular polygon with `n` corners, 3 or more, and the area of a disk of radius 1 to its corners:
 /// n/2 r^2 sin(2 pi / n) = pi.
 fn blade_reach(n: u32) -> f64 {

@@ -26,7 +26,7 @@ pub(super) fn light_tree(
     lights: &mut [abi::Light],
     faint: &[bool],
     materials: &[abi::Material],
-    motion: impl Fn(&abi::Light) -> DVec3,
+    motion: impl Fn(&abi::Light) -> [DVec3; 2],
     stages: &Stages,
 ) -> Vec<abi::LightNode> {
     if !(light_tree::FROM..=light_tree::UP_TO).contains(&lights.len()) {
@@ -39,7 +39,10 @@ pub(super) fn light_tree(
     for (i, light) in lights.iter().enumerate() {
         key.number(is_faint(i));
         let light = abi::Light { trail: 0, primitive: 0, ..*light };
-        key.bytes(bytemuck::bytes_of(&light)).floats(&motion(&light).to_array());
+        key.bytes(bytemuck::bytes_of(&light));
+        for end in motion(&light) {
+            key.floats(&end.to_array());
+        }
         key.number(light.has_surface() && both_sides(light.material));
     }
     let key = key.end();

@@ -22,6 +22,7 @@ use super::files::Meshes;
 use super::light::Emitter;
 use super::material::MaterialTable;
 use super::stored::{Placed, Stored, has_no_area};
+use crate::bvh::Motion;
 use crate::normalize::Normalization;
 use crate::stage::{self, Key, KeyOf, Stages};
 use body::{Ball, Bodies, Body, Face, Form, MeshForm};
@@ -340,10 +341,10 @@ impl Placement {
     }
 
     /// The entry of `of_thing` for each group.
-    pub(super) fn mesh_motions(&self, of_thing: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    pub(super) fn mesh_motions(&self, of_thing: &[Motion]) -> Vec<Motion> {
         let starts = std::iter::once(&0).chain(&self.groups).take(self.groups.len());
         let thing = |start: &u32| self.shades[*start as usize].object & !TRI_SMOOTH;
-        starts.map(|start| of_thing[thing(start) as usize]).collect()
+        starts.map(|start| of_thing[thing(start) as usize].clone()).collect()
     }
 
     /// Ends what one thing brings. Things without triangles make no group.

@@ -125,6 +125,7 @@ mod tests {
             origin: DVec3::new(5.0, 0.0, 1.0),
             rotation,
             motion: DVec3::ZERO,
+            path: None,
         };
         let at = |x, y, z| thing.origin + rotation * DVec3::new(x, y, z);
         let size = extent(&thing, &[[at(0.0, 0.0, 0.0), at(4.0, 0.2, 0.0), at(0.0, 0.0, 0.3)]]);
@@ -138,6 +139,7 @@ mod tests {
             origin: DVec3::ZERO,
             rotation: glam::DMat3::IDENTITY,
             motion: DVec3::ZERO,
+            path: None,
         };
         let plank = |k: f64| {
             let at = |x: f64, z: f64| DVec3::new(x, 0.0, z + 0.3 * k);

@@ -49,9 +49,9 @@ impl Bound {
         Self { lo, hi, axis, spread: if both_sides { PI } else { 0.0 }, power }
     }
 
-    /// Wherever the lights come that move by `motion`.
-    fn swept(self, motion: DVec3) -> Self {
-        Self { lo: self.lo.min(self.lo + motion), hi: self.hi.max(self.hi + motion), ..self }
+    /// Wherever the lights come that are displaced by `least` to `most`, axis by axis.
+    fn swept(self, [least, most]: [DVec3; 2]) -> Self {
+        Self { lo: self.lo + least, hi: self.hi + most, ..self }
     }
 
     fn union(self, other: Self) -> Self {
@@ -101,11 +101,12 @@ fn cone(a: &Bound, b: &Bound) -> (DVec3, f64) {
 }
 
 /// The nodes, parents before children and the first child behind its parent; and the trail of each light.
-/// `motion` is how far a light comes while the shutter is open, `factor` what the power of a light is multiplied with.
+/// `motion` is by how much at least and at most a light is displaced while the shutter is open, `factor` what the power
+/// of a light is multiplied with.
 pub(super) fn tree(
     lights: &[abi::Light],
     both_sides: impl Fn(u32) -> bool,
-    motion: impl Fn(&abi::Light) -> DVec3,
+    motion: impl Fn(&abi::Light) -> [DVec3; 2],
     factor: impl Fn(usize) -> f64,
 ) -> (Vec<abi::LightNode>, Vec<u32>) {
     let mut entries: Vec<(u32, Bound)> = (0..)
@@ -247,7 +248,7 @@ mod tests {
     #[test]
     fn every_light_is_at_the_end_of_its_trail() {
         for n in [1, 2, 17, 1000] {
-            let (nodes, trails) = tree(&lights(n), |_| false, |_| DVec3::ZERO, |_| 1.0);
+            let (nodes, trails) = tree(&lights(n), |_| false, |_| [DVec3::ZERO; 2], |_| 1.0);
             assert_eq!(nodes.len(), 2 * n - 1);
             for (light, mut trail) in trails.into_iter().enumerate() {
                 let mut at = 0;
@@ -262,18 +263,18 @@ mod tests {
 
     #[test]
     fn nodes_sum_power_and_keep_narrow_cones_narrow() {
-        let (nodes, _) = tree(&lights(100), |_| false, |_| DVec3::ZERO, |_| 1.0);
+        let (nodes, _) = tree(&lights(100), |_| false, |_| [DVec3::ZERO; 2], |_| 1.0);
         assert!((nodes[0].power - 1.0).abs() < 1e-6);
         let [x, y, z] = nodes[0].axis.map(f64::from);
         assert_eq!(bits([f64::from(nodes[0].cos_spread), x, y, z]), bits([1.0, 0.0, 1.0, 0.0]));
-        let (nodes, _) = tree(&lights(100), |_| true, |_| DVec3::ZERO, |_| 1.0);
+        let (nodes, _) = tree(&lights(100), |_| true, |_| [DVec3::ZERO; 2], |_| 1.0);
         assert_eq!(nodes[0].cos_spread.to_bits(), (-1.0_f32).to_bits());
     }
 
     #[test]
     fn balls_hold_lights_wherever_they_come() {
         let motion = DVec3::new(0.0, 8.0, 0.0);
-        let (nodes, _) = tree(&lights(3), |_| false, |_| motion, |_| 1.0);
+        let (nodes, _) = tree(&lights(3), |_| false, |_| [DVec3::ZERO, motion], |_| 1.0);
         let [x, y, z] = nodes[0].center.map(f64::from);
         let far = DVec3::new(0.0, 8.25, 0.0) - DVec3::new(x, y, z);
         assert!(far.length_squared() <= f64::from(nodes[0].radius2));
@@ -307,7 +308,7 @@ mod tests {
         for light in &mut lights {
             light.origin = [0.0; 3];
         }
-        let (nodes, trails) = tree(&lights, |_| false, |_| DVec3::ZERO, |_| 1.0);
+        let (nodes, trails) = tree(&lights, |_| false, |_| [DVec3::ZERO; 2], |_| 1.0);
         assert_eq!(nodes.len(), 9999);
         assert!(trails.iter().all(|trail| *trail < 1 << 13));
     }

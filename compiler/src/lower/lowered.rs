@@ -78,6 +78,10 @@ pub struct Lowered {
     pub shades: Rows<abi::TriShade>,
     /// Spheres in leaf order.
     pub spheres: Vec<abi::Sphere>,
+    /// Pieces of the ways of things that turn, or do not move on one straight line.
+    pub motion: Vec<abi::MotionPiece>,
+    /// Keys of a camera that moves.
+    pub camera_keys: Vec<abi::CameraKey>,
     /// Things in the world; empty when no material depends on them and none moves.
     pub objects: Vec<abi::Object>,
     /// Places of meshes that are stored once.

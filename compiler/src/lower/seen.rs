@@ -46,10 +46,14 @@ struct Boxed<'a> {
 /// # Errors
 /// When a mesh cannot be loaded that must be looked at.
 pub(super) fn check(look: &Look<'_>, diagnostics: &mut Vec<Diagnostic>) -> Result<(), ImportError> {
+    // A camera that moves sees many places.
+    if !look.scene.camera.keys.is_empty() {
+        return Ok(());
+    }
     let things = boxed(look);
     // Light in the air is seen wherever its lamp is.
     let is_clear = look.scene.render.atmosphere.is_none();
-    if is_clear && look.bodies.things.iter().all(|thing| thing.motion == DVec3::ZERO) {
+    if is_clear && look.bodies.things.iter().all(|thing| !thing.moves()) {
         diagnostics.extend(empty_frame(look.scene, &things));
     }
     let eye = DVec3::from(look.scene.camera.from);
@@ -179,7 +183,7 @@ impl Look<'_> {
     /// Whether a thing is closed and `p` in it.
     fn encloses(&self, thing: &Boxed<'_>, p: DVec3) -> Result<bool, ImportError> {
         let body = thing.body;
-        if self.bodies.things[body.object as usize].motion != DVec3::ZERO {
+        if self.bodies.things[body.object as usize].moves() {
             return Ok(false);
         }
         let odd = |n: usize| n % 2 == 1;

@@ -3,7 +3,8 @@
 //! A mesh that is stored once takes less memory and its tree need not be built again when it is moved; but every
 //! ray that comes near pays for the way into its frame and back, and trees that overlap cannot be taken apart as
 //! triangles in one frame can. So a mesh is shared when it is placed twice or more and that saves
-//! [`MIN_SAVED`] triangles or more; `docs/instances.md` has the measurements.
+//! [`MIN_SAVED`] triangles or more; `docs/instances.md` has the measurements. One that turns while the shutter is open
+//! is shared wherever it is placed.
 //!
 //! Never shared are places whose triangles are lights (the light table names triangles of the world), whose leaves
 //! or petals depend on the name of the thing, and whose transform has no good inverse in 24 bits.
@@ -102,8 +103,15 @@ impl Plan {
                 places.push(index);
             }
         }
+        // The tree of a mesh that turns is much tighter in its own frame than around all places of its triangles.
+        let turns = |index: &usize| {
+            shutter.way(&scene.instances[*index]).1.is_some_and(|path| path.turns())
+        };
         let mut shared: Vec<Vec<usize>> = (meshes.into_values())
-            .filter(|(mesh, places)| pays(mesh.n_triangles, places.len()))
+            .filter(|(mesh, places)| {
+                pays(mesh.n_triangles, places.len())
+                    || (mesh.n_triangles >= MIN_TRIANGLES && places.iter().any(turns))
+            })
             .map(|(_, places)| places)
             .collect();
         // In order of declaration; beyond what a pack can name, places are stored as if there were no instances.

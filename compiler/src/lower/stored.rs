@@ -9,6 +9,7 @@ use pack::abi::{self, MOVES, NONE, OBJECT_OF_INSTANCE, TRI_SMOOTH};
 use serde::{Deserialize, Serialize};
 
 use super::geometry::transform::{Transform, octahedral};
+use crate::bvh::Motion;
 use crate::import::Part;
 use crate::normalize::Normalization;
 
@@ -254,12 +255,20 @@ impl Placed {
     ///
     /// The walk into the mesh's frame rounds, so that the ray meets a triangle up to 18 * 2^-24 of
     /// [`condition`] beside its place, for rays from up to 2 away: a scene has a radius below 1.
-    pub(super) fn box_of(&self, frame: &Normalization, motion: [f32; 3]) -> [[f32; 3]; 2] {
+    pub(super) fn box_of(&self, frame: &Normalization, motion: &Motion) -> [[f32; 3]; 2] {
         let room = condition(self.normalised(frame)) / 524_288.0; // 2^-19
         let [lo, hi] = self.bounds.map(|corner| corner.to_array());
         let at =
             |corner: [f64; 3], k: usize| libm::scalbn(corner[k] - frame.center[k], frame.exponent);
-        let motion = motion.map(f64::from);
+        let motion = match motion {
+            Motion::Straight(motion) => motion.map(f64::from),
+            Motion::Along(path) => {
+                let corner = |corner: [f64; 3]| DVec3::from([0, 1, 2].map(|k| at(corner, k)));
+                let [lo, hi] = path.sweep_with_room(corner(lo), corner(hi));
+                let (lo, hi) = ((lo - room).as_vec3(), (hi + room).as_vec3());
+                return [lo.to_array().map(f32::next_down), hi.to_array().map(f32::next_up)];
+            }
+        };
         let way = |k: usize| motion[k].abs() / 4_194_304.0; // as of `Fragment::swept`
         let low = |k: usize| at(lo, k) + motion[k].min(0.0) - way(k) - room;
         let high = |k: usize| at(hi, k) + motion[k].max(0.0) + way(k) + room;
@@ -311,7 +320,7 @@ mod tests {
         let error = thin.record(&mesh, &frame, false).inverse_error();
         assert!(error < 1e-6, "{error}");
         assert_eq!(record.object, 4 | MOVES);
-        let [lo, hi] = placed.box_of(&frame, [0.0, 0.5, 0.0]);
+        let [lo, hi] = placed.box_of(&frame, &Motion::Straight([0.0, 0.5, 0.0]));
         for p in placed.triangle(&mesh.corners[0]) {
             for move_y in [0.0, 0.5] {
                 let p = frame.point(p.to_array());

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::extent::{self, Extent, Receivers};
 use super::files::{Files, Meshes};
-use super::geometry::body::{Bodies, Body, Face, Form, MeshForm, Shared};
+use super::geometry::body::{Ball, Bodies, Body, Face, Form, MeshForm, Shared};
 use super::geometry::mesh::{Measured, Pieces, measure};
 use super::geometry::{Part, part};
 use super::inside::Boundary;
@@ -189,10 +189,21 @@ fn add_surfaces(
     }
 }
 
-/// Where moving things are when the shutter closes, metres, as points whose bounds are theirs.
+/// Where moving things are when the shutter closes, or come on their way, metres, as points whose bounds are theirs.
 fn ends(bodies: &Bodies, extents: &[Extent]) -> Vec<[f64; 3]> {
     let mut ends: Vec<DVec3> = Vec::new();
     for ((body, thing), extent) in bodies.list.iter().zip(&bodies.things).zip(extents) {
+        if let Some(path) = &thing.path {
+            let of_ball = |ball: &Ball| [ball.center - ball.radius, ball.center + ball.radius];
+            let corners = match &body.form {
+                Form::Sphere(ball) => Some(of_ball(ball)),
+                Form::Nothing | Form::Faces(..) | Form::Mesh(_) | Form::Stored(..) => {
+                    extent.corners()
+                }
+            };
+            ends.extend(corners.into_iter().flat_map(|[lo, hi]| path.sweep(lo, hi)));
+            continue;
+        }
         if thing.motion == DVec3::ZERO {
             continue;
         }

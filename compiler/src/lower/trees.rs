@@ -7,7 +7,7 @@ use super::lowered::Counters;
 use super::share::Instancing;
 use super::stored::Placed;
 use super::visibility::Visibility;
-use crate::bvh::{self, BuildReport, BvhError, Joined, Layout, Preset, Primitives, Shared};
+use crate::bvh::{self, BuildReport, BvhError, Joined, Layout, Motion, Preset, Primitives, Shared};
 use crate::cache::Cache;
 use crate::normalize::Normalization;
 
@@ -100,12 +100,12 @@ fn count_triangles(placement: &Placement, counters: &mut Counters) {
     counters.dropped_triangles += placement.meshes.iter().map(|mesh| mesh.dropped).sum::<u64>();
 }
 
-/// The trees over all triangles and spheres, and their wide nodes if they are stored in such; `motions`: how far each
-/// thing comes.
+/// The trees over all triangles and spheres, and their wide nodes if they are stored in such; `motions`: how each
+/// thing moves.
 pub(super) fn build_tree(
     placement: &Placement,
     corners: &Corners,
-    (motions, frame): (&[[f32; 3]], &Normalization),
+    (motions, frame): (&[Motion], &Normalization),
     trees: &Trees<'_>,
 ) -> Result<(Joined, Vec<abi::WideNode>, BuildReport), BvhError> {
     let sizes = placement.mesh_sizes();
@@ -118,8 +118,8 @@ pub(super) fn build_tree(
         sphere_motions: &sphere_motions,
     };
     let boxed = |placed: &Placed| {
-        let motion = motions.get(placed.object as usize).copied().unwrap_or_default();
-        (placed.mesh, placed.box_of(frame, motion))
+        let motion = motions.get(placed.object as usize).cloned().unwrap_or_default();
+        (placed.mesh, placed.box_of(frame, &motion))
     };
     let instances: Vec<_> = placement.placed.iter().map(boxed).collect();
     let shared = Shared { meshes: &corners.meshes, instances: &instances };
@@ -130,12 +130,12 @@ pub(super) fn build_tree(
     Ok((joined, wide_nodes, report))
 }
 
-/// How far each mesh and each sphere comes, from the displacements of things; empty where those are.
-fn motions_of(placement: &Placement, of_thing: &[[f32; 3]]) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
+/// How each mesh and each sphere moves, from what things do; empty where that is.
+fn motions_of(placement: &Placement, of_thing: &[Motion]) -> (Vec<Motion>, Vec<Motion>) {
     if of_thing.is_empty() {
         return (Vec::new(), Vec::new());
     }
-    let sphere = |object: &u32| of_thing[*object as usize];
+    let sphere = |object: &u32| of_thing[*object as usize].clone();
     let spheres = placement.sphere_objects.iter().map(sphere).collect();
     (placement.mesh_motions(of_thing), spheres)
 }

@@ -23,7 +23,7 @@ use super::order::{Declared, order};
 use super::rows::Rows;
 use super::survey::{self, Survey};
 use super::trees::{Corners, Trees, add_meshes, build_tree};
-use crate::bvh::{self, BuildReport, Joined};
+use crate::bvh::{self, BuildReport, Joined, Motion};
 use crate::normalize::Normalization;
 use crate::stage::{Key, KeyOf, Stages};
 use crate::weld::{Welded, weld, weld_labelled};
@@ -329,12 +329,11 @@ fn check_count(placement: &Placement) -> Result<(), LowerError> {
 fn instances(
     placement: &Placement,
     joined: &Joined,
-    motions: &[[f32; 3]],
+    motions: &[Motion],
     frame: &Normalization,
 ) -> Vec<abi::Instance> {
     let record = |placed: &super::stored::Placed| {
-        let motion = motions.get(placed.object as usize).copied().unwrap_or_default();
-        let moves = motion.iter().any(|x| *x != 0.0);
+        let moves = motions.get(placed.object as usize).is_some_and(Motion::moves);
         let record = placed.record(&placement.meshes[placed.mesh], frame, moves);
         abi::Instance { root: joined.mesh_roots[placed.mesh], ..record }
     };

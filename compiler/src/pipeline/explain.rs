@@ -350,9 +350,10 @@ impl Explain<'_> {
         let thick = fog.map(|medium| by("it is the atmosphere".to_owned(), &medium.name));
         let thin = fog.map(|medium| by("its density is 0".to_owned(), &medium.name));
         let fast = |velocity: &[f64; 3]| velocity.iter().any(|v| v.abs() > 0.0);
-        let thing = instances.iter().find(|instance| fast(&instance.velocity));
+        let thing = instances.iter().find(|thing| fast(&thing.velocity) || thing.motion.is_some());
         let light = lights.iter().find(|light| fast(&light.velocity)).map(|light| &light.name);
-        let mover = thing.map(|instance| &instance.name).or(light);
+        let eye = (!camera.keys.is_empty()).then_some(&camera.name);
+        let mover = thing.map(|instance| &instance.name).or(light).or(eye);
         let moves = mover.map(|name| by("it moves while the shutter is open".to_owned(), name));
         let [open, close] = camera.shutter;
         let still = if close > open {

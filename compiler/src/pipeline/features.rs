@@ -65,7 +65,10 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
         through: materials.iter().any(|m| m.flags & material_flag::THROUGH != 0),
         sheets: materials.iter().any(Material::is_sheet),
         instances: !lowered.instances.is_empty(),
-        motion: lowered.objects.iter().any(pack::abi::Object::moves),
+        motion: lowered.objects.iter().any(pack::abi::Object::moves)
+            || !lowered.camera_keys.is_empty(),
+        keys: !lowered.motion.is_empty(),
+        camera_keys: !lowered.camera_keys.is_empty(),
         layouts: [layout(lowered)].into(),
         stack_size: lowered.render.stack_need.max(1),
         windows: Windows {

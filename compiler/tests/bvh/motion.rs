@@ -1,12 +1,16 @@
 //! Boxes of what moves while the shutter is open.
 
-use compiler::bvh::{BvhError, Fragment, Preset, Primitives, SMALL_MESH, build_scene};
+use compiler::bvh::{BvhError, Fragment, Motion, Preset, Primitives, SMALL_MESH, build_scene};
 use compiler::cache::Cache;
 
 use crate::shapes::{Rng, Tri, degenerate, fragments};
 use crate::verify;
 
 const STILL: [f32; 3] = [0.0; 3];
+
+fn straight(ways: &[[f32; 3]]) -> Vec<Motion> {
+    ways.iter().copied().map(Motion::Straight).collect()
+}
 
 /// Where the kernel finds a point at `time`.
 fn moved(p: [f32; 3], motion: [f32; 3], time: f32) -> [f32; 3] {
@@ -27,9 +31,9 @@ fn boxes_hold_what_moves_on_all_its_way() {
     let primitives = Primitives {
         triangles: &triangles,
         mesh_sizes: &sizes,
-        mesh_motions: &motions,
+        mesh_motions: &motions.map(Motion::Straight),
         spheres: &spheres,
-        sphere_motions: &sphere_motions,
+        sphere_motions: &straight(&sphere_motions),
     };
     let (tree, _) = build_scene(&primitives, Preset::Fast, &Cache::disabled()).unwrap();
     let of_triangle: Vec<[f32; 3]> = (sizes.iter().zip(motions))
@@ -56,7 +60,7 @@ fn the_cache_tells_displacements_apart() {
         let primitives = Primitives {
             triangles: &triangles,
             mesh_sizes: &[SMALL_MESH],
-            mesh_motions: motions,
+            mesh_motions: &straight(motions),
             spheres: &[],
             sphere_motions: &[],
         };
@@ -74,9 +78,9 @@ fn displacements_must_be_as_many_as_what_they_move() {
         let primitives = Primitives {
             triangles: &triangles,
             mesh_sizes: &[10],
-            mesh_motions: &vec![STILL; meshes],
+            mesh_motions: &straight(&vec![STILL; meshes]),
             spheres: &[(STILL, 1.0)],
-            sphere_motions: &vec![STILL; balls],
+            sphere_motions: &straight(&vec![STILL; balls]),
         };
         let error = build_scene(&primitives, Preset::Fast, &Cache::disabled()).unwrap_err();
         assert_eq!(error, BvhError::Sizes { count: 10 });

@@ -1,11 +1,11 @@
 //! Camera fields become angles, radii and sizes.
 
 use super::exclusive::{one_of, one_of_noting};
-use super::fields::Fields;
+use super::fields::{Fields, moments};
 use super::light::unit;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
-use crate::scene::{Camera, Film, Fit, Lens, Name, Projection, Side};
+use crate::scene::{Camera, CameraKey, Film, Fit, Lens, Name, Projection, Side, at_time};
 use crate::schema;
 use crate::schema::camera::CameraType;
 use crate::units::{self, Dim};
@@ -29,11 +29,33 @@ pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
     one_of(ev, fields, &["f_stop", "aperture"], "the opening of the lens");
     one_of(ev, fields, &["width", "height"], "the size of the view");
     check_blades(ev, fields);
-    let (Some(from), Some(to), Some(span)) =
-        (fields.vector::<3>("from"), fields.vector::<3>("to"), fields.span("to"))
-    else {
+    let times = moments_of(fields);
+    if let (Some(span), [_, ..]) = (fields.span("fit").filter(|_| fields.has("fit")), &*times) {
+        let text = "a camera that frames something cannot have keys";
+        let error =
+            Diagnostic::error(Code("E0704"), text).at(span, "the camera is put where it fits");
+        ev.fault(error.with_help("leave out `fit`, or give `from` and `to` one value each"));
         return;
-    };
+    }
+    let times = if times.is_empty() { vec![0.0] } else { times };
+    for time in times {
+        let places = ["from", "to"].map(|name| fields.triple_at(name, time));
+        let [Some(from), Some(to)] = places else { return };
+        if !check_view(ev, fields, from, to) {
+            return;
+        }
+    }
+}
+
+/// The moments of the keys of a camera, none for one that stands still.
+fn moments_of(fields: &Fields) -> Vec<f64> {
+    let keys = ["from", "to"].map(|name| fields.keys(name));
+    moments(keys.iter().flatten().map(|keys| &**keys))
+}
+
+/// Reports a view that has no direction, or no upper side; says whether there is neither.
+fn check_view(ev: &mut Evaluator<'_>, fields: &Fields, from: [f64; 3], to: [f64; 3]) -> bool {
+    let Some(span) = fields.span("to") else { return true };
     let Some(view) = unit(sub(to, from)) else {
         let error = Diagnostic::error(Code("E0704"), "the camera looks at the point where it is")
             .at(span, "the same point");
@@ -42,9 +64,9 @@ pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
             None => error,
         };
         ev.fault(error);
-        return;
+        return false;
     };
-    let Some(up) = fields.vector::<3>("up") else { return };
+    let Some(up) = fields.vector::<3>("up") else { return true };
     let sine = unit(up).map_or(0.0, |up| length(cross(view, up)));
     if sine < MIN_UP_SINE {
         let at = fields.span("up").unwrap_or(span);
@@ -53,7 +75,9 @@ pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
             .at(at, "which way is up in the image?")
             .with_help("for a view straight down write `up = (0, 0, -1)`");
         ev.fault(error);
+        return false;
     }
+    true
 }
 
 /// Blades shape an opening, and are what is turned.
@@ -133,7 +157,24 @@ pub(super) fn camera(
     film: &Film,
 ) -> Option<Camera> {
     let fit = framed.map(|instance| fit(instance, fields));
-    let [from, to] = place(fields, fit.as_ref())?;
+    let shutter = match fields.get("shutter") {
+        Some(crate::eval::value::Value::Range(open, close, _)) => [open, close],
+        _ => [0.0; 2],
+    };
+    let keys: Vec<CameraKey> = moments_of(fields)
+        .into_iter()
+        .map(|time| {
+            let [from, to] = ["from", "to"].map(|name| fields.triple_at(name, time));
+            Some(CameraKey { time, from: from?, to: to? })
+        })
+        .collect::<Option<_>>()?;
+    let [from, to] = match keys.as_slice() {
+        [] => place(fields, fit.as_ref())?,
+        keys => {
+            let key = at_time(keys, shutter[0]);
+            [key.from, key.to]
+        }
+    };
     let aspect = f64::from(film.size[1]) / f64::from(film.size[0]);
     let projection = match CameraType::of(fields.schema) {
         CameraType::Perspective => {
@@ -151,11 +192,9 @@ pub(super) fn camera(
             Projection::Panoramic { fov_horizontal: fields.number("fov.horizontal")? }
         }
     };
-    let shutter = match fields.get("shutter") {
-        Some(crate::eval::value::Value::Range(open, close, _)) => [open, close],
-        _ => [0.0; 2],
-    };
-    Some(Camera { name, fit, from, to, up: fields.vector("up")?, projection, shutter })
+    let up = fields.vector("up")?;
+    let follows = !fields.has("focus");
+    Some(Camera { name, fit, from, to, up, projection, shutter, keys, follows })
 }
 
 /// Builds the lens of a perspective camera; `aspect`: height over width of the film. `None` only for fields with

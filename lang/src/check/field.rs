@@ -1,6 +1,6 @@
 //! One value against what its field wants: type, dimension, range, texture space.
 
-use super::{group, lint};
+use super::{group, keys, lint};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::eval::value::Value;
 use crate::eval::{Evaluator, Scope, with_unit_fix};
@@ -58,6 +58,13 @@ impl Evaluator<'_> {
         let slot = Slot { schema, field, expr, module: scope.module };
         if let (FieldType::Words(words), ExprKind::List(entries)) = (field.ty, &expr.kind) {
             return self.words(slot, words, entries, scope);
+        }
+        if let (FieldType::Keyed(dim, unit), ExprKind::List(entries)) = (field.ty, &expr.kind) {
+            let triple = |ev: &mut Evaluator<'_>, expr: &Expr| match ev.eval(expr, scope) {
+                Value::Poison => Value::Poison,
+                value => ev.fit_vector(Slot { expr, ..slot }, value, (dim, unit), 3),
+            };
+            return keys::keys(self, (&slot.name(), slot.span()), dim, (entries, scope), triple);
         }
         match &expr.kind {
             ExprKind::If { condition, then, otherwise } => {
@@ -215,7 +222,9 @@ impl Evaluator<'_> {
             FieldType::Integer(min, max) | FieldType::IntegerOr(min, max, _) => {
                 self.fit_integer(slot, &value, [min, max])
             }
-            FieldType::Vector(dim, unit) => self.fit_vector(slot, value, (dim, unit), 3),
+            FieldType::Vector(dim, unit) | FieldType::Keyed(dim, unit) => {
+                self.fit_vector(slot, value, (dim, unit), 3)
+            }
             FieldType::Spectrum(bounds) => self.fit_spectrum(slot, value, bounds),
             FieldType::Size(n) => self.fit_size(slot, value, n),
             FieldType::Points => self.fit_points(slot, value),

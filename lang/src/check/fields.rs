@@ -1,10 +1,11 @@
 //! Evaluated fields of one declaration or call, with their defaults.
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
-use crate::eval::value::Value;
+use crate::eval::value::{Key, Value};
 use crate::resolve::ItemId;
-use crate::scene::{Axis, Rgb};
+use crate::scene::{Axis, MotionKey, Rgb, at_time};
 use crate::schema::{self, Default, Field, FieldType, TypeSchema};
 use crate::shape::Lengths;
 use crate::source::Span;
@@ -66,6 +67,21 @@ fn axis(word: &str) -> Option<Axis> {
         "-z" => Axis::MinusZ,
         _ => return None,
     })
+}
+
+/// What keys say of a moment.
+fn triple_at(keys: &[Key], time: f64) -> [f64; 3] {
+    let key = |(time, at): &Key| MotionKey { time: *time, at: *at, rotate: [0.0; 3] };
+    let keys: Vec<MotionKey> = keys.iter().map(key).collect();
+    at_time(&keys, time).at
+}
+
+/// The moments of several lists of keys, each once, in order.
+pub(super) fn moments<'a>(lists: impl IntoIterator<Item = &'a [Key]>) -> Vec<f64> {
+    let mut times: Vec<f64> = lists.into_iter().flatten().map(|(time, _)| *time + 0.0).collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup_by(|a, b| a.total_cmp(b).is_eq());
+    times
 }
 
 impl Fields {
@@ -163,12 +179,26 @@ impl Fields {
         }
     }
 
-    /// Some numbers in SI.
+    /// Some numbers in SI; of keys those of the moment 0.
     pub(crate) fn vector<const N: usize>(&self, name: &str) -> Option<[f64; N]> {
         match self.get(name) {
             Some(Value::Vector(values, _)) => values.try_into().ok(),
+            Some(Value::Keys(keys, _)) => triple_at(&keys, 0.0).to_vec().try_into().ok(),
             _ => None,
         }
+    }
+
+    /// The keys of a field that has some: times and numbers in SI.
+    pub(crate) fn keys(&self, name: &str) -> Option<Rc<[Key]>> {
+        match self.get(name) {
+            Some(Value::Keys(keys, _)) => Some(keys),
+            _ => None,
+        }
+    }
+
+    /// Some numbers in SI, at some moment.
+    pub(crate) fn triple_at(&self, name: &str, time: f64) -> Option<[f64; 3]> {
+        self.keys(name).map_or_else(|| self.vector(name), |keys| Some(triple_at(&keys, time)))
     }
 
     /// The numbers of every field that has some, in SI.

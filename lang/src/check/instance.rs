@@ -6,7 +6,7 @@ use super::fields::Fields;
 use super::given::Givens;
 use super::group::{self, Group};
 use super::object::{self, Objects, Thing};
-use super::transform::{self, Pose};
+use super::transform::{self, Mixed, Pose, Way};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::value::{ShapeValue, Value};
 use crate::eval::{Evaluator, Scope};
@@ -252,6 +252,10 @@ impl World {
             ev.fault(error);
             return;
         }
+        if let Way::Not(why) = world.way {
+            mixed(ev, place, why);
+            return;
+        }
         if !transform::is_sound(world) {
             let text = format!("`{base}{tail}` is scaled or moved beyond what can be drawn");
             ev.fault(Diagnostic::error(Code("E0402"), text).at(place.name_span, "this instance"));
@@ -266,9 +270,26 @@ impl World {
             shape_span: thing.shape_span,
             material,
             group,
-            pose: *world,
+            pose: world.clone(),
         });
     }
+}
+
+/// Reports keys that do not go together.
+fn mixed(ev: &mut Evaluator<'_>, place: &Place<'_>, why: Mixed) {
+    let (base, _, suffix) = place.key;
+    let (text, help) = match why {
+        Mixed::Stretched => (
+            format!("`{base}{suffix}` holds something that turns, and is stretched"),
+            "give the group's `scale` one number, and scale what turns itself",
+        ),
+        Mixed::Twice => (
+            format!("`{base}{suffix}` turns, and holds something that moves"),
+            "let either the group or its member turn; a group that only moves may hold both",
+        ),
+    };
+    let error = Diagnostic::error(Code("E0806"), text).at(place.name_span, "this instance");
+    ev.fault(error.with_help(help));
 }
 
 /// The first group that is there.

@@ -3,7 +3,7 @@
 use super::brightness::{self, Emitter};
 use super::exclusive::one_of;
 use super::fields::Fields;
-use super::transform::{self, Pose};
+use super::transform::{self, Pose, Way};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::eval::Evaluator;
 use crate::material::{Color, Emissive, Scalar};
@@ -356,6 +356,7 @@ fn panel(ev: &mut Evaluator<'_>, name: Name, fields: &Fields, form: &Form) -> Op
     let pose = Pose {
         matrix: transform::facing(at, facing(fields, at)?, spin),
         velocity: fields.vector("velocity")?,
+        way: Way::Still,
     };
     let material = glow(fields, radiance)?;
     let group = fields.text("group");

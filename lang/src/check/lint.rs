@@ -10,7 +10,10 @@ use crate::units::{self, Dim};
 /// Looks at a literal as it is written.
 pub(super) fn literal(ev: &mut Evaluator<'_>, field: &Field, expr: &Expr) {
     match (&expr.kind, field.ty) {
-        (ExprKind::Tuple { items, unit: Some(unit) }, FieldType::Vector(Dim::ANGLE, _)) => {
+        (
+            ExprKind::Tuple { items, unit: Some(unit) },
+            FieldType::Vector(Dim::ANGLE, _) | FieldType::Keyed(Dim::ANGLE, _),
+        ) => {
             if let Some(item) = items.iter().find(|item| looks_like_radians(item)) {
                 radians(ev, item.span, unit);
             }

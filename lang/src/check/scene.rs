@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::instance::Placed;
 use super::light::{Lit, Panel};
 use super::render::name;
+use super::transform::Way;
 use super::{Checker, dark, ids_of, is_in_world, light, material, medium, mix, motion, sky};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
@@ -190,6 +191,7 @@ fn add_panel(scene: &mut Scene, panel: Panel) {
         edits: Vec::new(),
         world_from_object: panel.pose.matrix,
         velocity: panel.pose.velocity,
+        motion: None,
         group: panel.group,
     });
     let mut material = panel.material;
@@ -253,6 +255,10 @@ fn instances(
                 edits,
                 world_from_object: placed.pose.matrix,
                 velocity: placed.pose.velocity,
+                motion: match placed.pose.way {
+                    Way::Keys(motion) => Some((*motion).clone()),
+                    Way::Still | Way::Not(_) => None,
+                },
                 group: placed.group.map(|(name, _)| name.as_ref().to_owned()),
             })
         })

@@ -46,6 +46,8 @@ pub(crate) enum Value {
     Textured(Rc<TextureExpression<ItemId>>),
     /// Geometry.
     Shape(Rc<ShapeValue>),
+    /// `[0ms: (0, 0, 0)m, 20ms: (1, 0, 0)m]`: times and numbers in SI, in order of time.
+    Keys(Rc<[Key]>, Dim),
     /// `[a, b]`, with the place of each entry.
     List(Rc<[(Value, Span)]>),
     /// `default`.
@@ -53,6 +55,9 @@ pub(crate) enum Value {
     /// `none`.
     None,
 }
+
+/// A time and three numbers, in SI.
+pub(crate) type Key = (f64, [f64; 3]);
 
 /// Geometry of an object or an instance.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,6 +98,7 @@ impl Value {
             Self::Textured(of) if of.is_color() => "a colour of textures".to_owned(),
             Self::Textured(_) => "a number of textures".to_owned(),
             Self::Shape(_) => "a shape".to_owned(),
+            Self::Keys(..) => "keys".to_owned(),
             Self::List(_) => "a list".to_owned(),
             Self::Default => "`default`".to_owned(),
             Self::None => "`none`".to_owned(),
@@ -107,7 +113,10 @@ impl Value {
     /// The dimension of a number or a vector.
     pub(crate) fn dim(&self) -> Option<Dim> {
         match self {
-            Self::Number(_, dim) | Self::Vector(_, dim) | Self::Range(_, _, dim) => Some(*dim),
+            Self::Number(_, dim)
+            | Self::Vector(_, dim)
+            | Self::Range(_, _, dim)
+            | Self::Keys(_, dim) => Some(*dim),
             _ => None,
         }
     }
@@ -120,6 +129,7 @@ impl Value {
             Self::Vector(values, _) => values.iter().all(sound),
             Self::Color(rgb) => rgb.iter().all(sound),
             Self::Range(a, b, _) => sound(a) && sound(b),
+            Self::Keys(keys, _) => keys.iter().all(|(time, v)| sound(time) && v.iter().all(sound)),
             Self::Textured(of) => of.range().iter().all(sound),
             _ => true,
         }

@@ -1,6 +1,7 @@
 //! Things in the world.
 
 use super::common::Name;
+use super::motion::Motion;
 use crate::shape::{MeshEdit, Shape};
 use crate::source::Span;
 
@@ -27,6 +28,8 @@ pub struct Instance {
     pub world_from_object: [[f64; 4]; 3],
     /// World frame, metres per second; `world_from_object` is that of the moment 0.
     pub velocity: [f64; 3],
+    /// How it moves from key to key, beside `velocity`; its pose at the moment 0 is `world_from_object`.
+    pub motion: Option<Motion>,
     /// Its light group, if it or an object around it names one.
     pub group: Option<String>,
 }

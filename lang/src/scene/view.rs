@@ -1,6 +1,7 @@
 //! Who looks, and what becomes of it.
 
 use super::common::Name;
+use super::motion::CameraKey;
 use crate::schema::words;
 
 /// A camera.
@@ -21,6 +22,11 @@ pub struct Camera {
     pub projection: Projection,
     /// Shutter opens and closes, seconds relative to the frame.
     pub shutter: [f64; 2],
+    /// Where it is when, in order of time, two or more; none where it stands still. `from` and `to` are those of the
+    /// moment when the shutter opens.
+    pub keys: Vec<CameraKey>,
+    /// The distance of what is sharp follows the keys.
+    pub follows: bool,
 }
 
 /// How directions become places on the film.

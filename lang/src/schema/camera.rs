@@ -22,21 +22,22 @@ const FOV: FieldType = FieldType::Number(Bounds {
 
 const MILLIMETRES: FieldType = FieldType::Number(Bounds::above(Dim::LENGTH, "mm", 0.0));
 
+const FROM_DOC: &str = "Where the eye is, or keys: `[0ms: (0, 1, 5)m, 20ms: (1, 1, 5)m]`.";
+
 const FROM: Field =
-    Field::new("from", FieldType::Vector(Dim::LENGTH, "m"), Default::Required, "Where the eye is.")
-        .foreign(&[
-            ("origin", "Mitsuba"),
-            ("orig", "LuxCore"),
-            ("eye", "common use"),
-            ("position", "common use"),
-            ("lookfrom", "Ray Tracing in One Weekend"),
-        ]);
+    Field::new("from", FieldType::Keyed(Dim::LENGTH, "m"), Default::Required, FROM_DOC).foreign(&[
+        ("origin", "Mitsuba"),
+        ("orig", "LuxCore"),
+        ("eye", "common use"),
+        ("position", "common use"),
+        ("lookfrom", "Ray Tracing in One Weekend"),
+    ]);
 
 const TO: Field = Field::new(
     "to",
-    FieldType::Vector(Dim::LENGTH, "m"),
+    FieldType::Keyed(Dim::LENGTH, "m"),
     Default::Required,
-    "The point in the middle of the image.",
+    "The point in the middle of the image, or keys, as of `from`.",
 )
 .foreign(&[
     ("target", "LuxCore and Mitsuba"),

@@ -8,9 +8,10 @@ pub(super) const INSTANCE_TYPES: &[&TypeSchema] = &[&INSTANCE];
 
 pub(super) const AT: Field = Field::new(
     "at",
-    FieldType::Vector(Dim::LENGTH, "m"),
+    FieldType::Keyed(Dim::LENGTH, "m"),
     Default::Vector([0.0; 3]),
-    "Where its origin is.",
+    "Where its origin is; or keys of when it is where, `[0ms: (0, 0, 0)m, 20ms: (1, 0, 0)m]`, between which it goes \
+     straight and evenly. Times are those of the camera's `shutter`; before the first and after the last key it rests.",
 )
 .foreign(&[
     ("translate", "pbrt and Mitsuba"),
@@ -18,13 +19,15 @@ pub(super) const AT: Field = Field::new(
     ("location", "Blender"),
     ("position", "common use"),
     ("pos", "common use"),
+    ("motion", "common use"),
 ]);
 
 pub(super) const ROTATE: Field = Field::new(
     "rotate",
-    FieldType::Vector(Dim::ANGLE, "deg"),
+    FieldType::Keyed(Dim::ANGLE, "deg"),
     Default::Vector([0.0; 3]),
-    "Turned about x, then about y, then about z; each counter-clockwise seen from the tip of the axis.",
+    "Turned about x, then about y, then about z; each counter-clockwise seen from the tip of the axis. Or keys, as of \
+     `at`: between them each angle changes evenly, so that 720deg are two whole turns. What gives light cannot turn.",
 )
 .foreign(&[("rotation", "glTF and Blender"), ("rotation_euler", "Blender"), ("orient", "common use")]);
 
@@ -60,7 +63,7 @@ pub(super) const VELOCITY: Field = Field::new(
      group it is turned and scaled with the group, and the group's own is added.",
 )
 .typical("a walker 1.5m/s, a thrown ball 20m/s, a shutter 0ms..20ms")
-.foreign(&[("speed", "common use"), ("vel", "common use"), ("motion", "common use")]);
+.foreign(&[("speed", "common use"), ("vel", "common use")]);
 
 pub(super) const SHAPE: &str = "What it looks like: a shape, a mesh file or part, an object, or a list of objects. Behind a mesh file may stand \
      what is changed of it: `car { material \"paint*\" = red, part \"wheel*\" = none }`. The texts are names of its \

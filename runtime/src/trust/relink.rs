@@ -26,13 +26,22 @@ pub(crate) struct Wanted {
     pub(crate) features: u64,
     /// Whether triangles interpolate normals, which has no bit.
     pub(crate) smooth: bool,
+    /// Whether things turn, or have ways of several pieces; likewise.
+    pub(crate) keys: bool,
+    /// Whether the camera moves; likewise.
+    pub(crate) camera_keys: bool,
 }
 
 impl Wanted {
     /// What the pack's own kernel does.
     pub(crate) fn of(setup: &Setup<'_>) -> Self {
-        let smooth = setup.kernel().contains("fn triangle_surface(");
-        Self { features: setup.features(), smooth }
+        let has = |function| setup.kernel().contains(function);
+        Self {
+            features: setup.features(),
+            smooth: has("fn triangle_surface("),
+            keys: has("fn pose_at("),
+            camera_keys: has("fn keys_camera("),
+        }
     }
 
     /// With texture coordinates, which surfaces have where some texture may ask for them.
@@ -132,6 +141,13 @@ const STACK: &str = "STACK_SIZE";
 /// Words of the texts for triangles that interpolate normals, where there is another text for those that do not.
 const SMOOTH: [&str; 4] = ["triangle_surface(", "SmoothStart", "smooth_start_", "smooth_probe_"];
 
+/// Words of the texts for things that turn, where there is another text for those that do not.
+const KEYED: [&str; 2] = ["pose_", "dispatch_triangle_dir(i, ray.dir"];
+/// Words of the texts for cameras that move, likewise.
+const EYE: [&str; 1] = ["keys_camera("];
+/// Words of the text for either.
+const TIME: [&str; 1] = ["load_frame_camera_key_at() == NONE"];
+
 /// How one text is chosen for a name.
 struct Choice<'a> {
     own: &'a BTreeMap<&'a str, &'a str>,
@@ -146,18 +162,26 @@ impl Choice<'_> {
             let own = self.own.get(STACK).filter(|text| stack_size(text).is_some());
             return Some((*own.unwrap_or(&"const STACK_SIZE: u32 = 0x1u;")).to_owned());
         }
-        let Wanted { features, smooth } = self.wanted;
+        let Wanted { features, smooth, keys, camera_keys } = self.wanted;
         let rows = table().get(name).into_iter().flatten();
         let fitting: BTreeSet<&str> = rows
             .filter(|known| known.condition.holds(features, self.sections))
             .map(|known| known.text)
             .collect();
-        let interpolates = |text: &&&str| SMOOTH.iter().any(|word| text.contains(word)) == smooth;
+        let kinds: [(&[&str], bool); 4] =
+            [(&SMOOTH, smooth), (&KEYED, keys), (&EYE, camera_keys), (&TIME, keys || camera_keys)];
+        // What has no bit tells texts apart that fit the same features.
         let chosen = match fitting.len() {
             0 => None,
             1 => fitting.first(),
-            // Smooth or flat triangles.
-            _ => fitting.iter().find(interpolates),
+            _ => {
+                let is = |text: &&str, words: &[&str]| words.iter().any(|word| text.contains(word));
+                let kind =
+                    kinds.iter().find(|(words, _)| fitting.iter().any(|text| is(text, words)));
+                kind.and_then(|(words, wanted)| {
+                    fitting.iter().find(|text| is(text, words) == *wanted)
+                })
+            }
         };
         let switch = || SWITCHES.iter().find(|switch| switch.name == name);
         chosen.map(|text| (*text).to_owned()).or_else(|| Some(switch()?.text(features)))

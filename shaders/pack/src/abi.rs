@@ -19,6 +19,7 @@ mod light;
 mod light_node;
 mod material;
 mod medium;
+mod motion;
 mod object;
 mod render;
 mod sky;
@@ -41,6 +42,7 @@ pub use light::{Light, LightKind, LightSurface};
 pub use light_node::{LIGHT_LEAF, LightNode, MAX_LIGHT_DEPTH};
 pub use material::{Lobes, Material, MaterialKind, Number, Traits, material_flag};
 pub use medium::Medium;
+pub use motion::{CameraKey, MotionPiece};
 pub use object::Object;
 pub use render::{
     FilterKind, RenderSettings, SamplerKind, ToneMap, UNLIMITED_DEPTH, f64_bits, f64_from_bits,
@@ -75,6 +77,8 @@ pub fn records() -> Vec<Record> {
         Record::of::<TriShade>(),
         Record::of::<Sphere>(),
         Record::of::<Object>(),
+        Record::of::<MotionPiece>(),
+        Record::of::<CameraKey>(),
         Record::of::<Instance>(),
         Record::of::<Material>(),
         Record::of::<Medium>(),

@@ -95,6 +95,8 @@ fn records(contents: &Contents<'_>) -> Result<(), PackError> {
     each(contents.spheres, contents)?;
     each(contents.materials, contents)?;
     each(contents.objects, contents)?;
+    each(contents.motion, contents)?;
+    each(contents.camera_keys, contents)?;
     each(contents.instances, contents)?;
     each(contents.media, contents)?;
     each(contents.lights, contents)?;

@@ -4,8 +4,8 @@
 //! through this view, so both check and derive the same things. It judges nothing.
 
 use crate::abi::{
-    Camera, Instance, Light, LightNode, Material, Medium, Node, Object, RenderSettings, Sky,
-    Sphere, Texture, TriShade, Triangle, WideNode,
+    Camera, CameraKey, Instance, Light, LightNode, Material, Medium, MotionPiece, Node, Object,
+    RenderSettings, Sky, Sphere, Texture, TriShade, Triangle, WideNode,
 };
 use crate::error::PackError;
 use crate::kind::{Kind, PackRecord};
@@ -32,6 +32,8 @@ pub(crate) struct Contents<'a> {
     pub(crate) srgb: &'a [f32],
     pub(crate) sky_table: &'a [f32],
     pub(crate) albedo: &'a [f32],
+    pub(crate) motion: &'a [MotionPiece],
+    pub(crate) camera_keys: &'a [CameraKey],
     pub(crate) kernel: &'a [u8],
 }
 
@@ -62,6 +64,8 @@ impl<'a> Contents<'a> {
             srgb: find(Kind::SRGBLUT).map_or(&[], bytemuck::cast_slice),
             sky_table: find(Kind::SKYTABLE).map_or(&[], bytemuck::cast_slice),
             albedo: find(Kind::ALBEDO).map_or(&[], bytemuck::cast_slice),
+            motion: records(&find),
+            camera_keys: records(&find),
             kernel: find(Kind::KERNEL).ok_or_else(|| first(Kind::KERNEL))?,
         })
     }
@@ -82,6 +86,7 @@ impl<'a> Contents<'a> {
             Kind::LIGHT => self.lights.len(),
             Kind::TEXTURE => self.textures.len(),
             Kind::TEXEL => self.texels.len(),
+            Kind::MOTION => self.motion.len(),
             _ => 0,
         }
     }

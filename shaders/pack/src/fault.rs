@@ -350,6 +350,17 @@ pub enum ElementFault {
         /// Of the element before.
         before: f32,
     },
+    /// A time that does not come after another.
+    #[error("is {found}, not after the {before} before it")]
+    NotAfter {
+        /// In the file.
+        found: f32,
+        /// The other.
+        before: f32,
+    },
+    /// The last piece of a way.
+    #[error("is {0}, but no piece goes on from there, expected 1")]
+    NoWayOn(f32),
     /// An edge between rows of the sky's table is not below the one before.
     #[error("is {found}, not less than the {before} before it")]
     Rising {
@@ -358,7 +369,7 @@ pub enum ElementFault {
         /// Of the element before.
         before: f32,
     },
-    /// The first or last edge of the sky's rows.
+    /// The first or last of numbers in order.
     #[error("is {found}, expected exactly {expected}")]
     Edge {
         /// In the file.

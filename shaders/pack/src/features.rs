@@ -55,7 +55,8 @@ features! {
     PRINCIPLED_COAT = 29 "principled coat",
     /// Has a principled material that lets light through.
     PRINCIPLED_TRANSMISSION = 30 "principled transmission",
-    /// Something moves while the shutter is open.
+    /// Something moves while the shutter is open. Ways of several pieces and cameras with keys have no bits of their
+    /// own: sections say that they are there.
     MOTION = 31 "motion",
     /// The opening of the lens has corners.
     BLADES = 36 "aperture blades",
@@ -175,7 +176,8 @@ pub(crate) fn of(contents: &Contents<'_>) -> u64 {
     set(LIGHT_TREE, !contents.light_nodes.is_empty());
     set(INSTANCES, !contents.instances.is_empty());
     set(WIDE_NODES, !contents.wide_nodes.is_empty());
-    set(MOTION, contents.objects.iter().any(Object::moves));
+    let moves = contents.objects.iter().any(Object::moves);
+    set(MOTION, moves || !contents.camera_keys.is_empty());
     for light in contents.lights {
         set(LightKind::from_tag(light.kind).map_or(0, LightKind::feature), true);
     }

@@ -52,6 +52,10 @@ impl Kind {
     /// Tables of directional albedo, `f32` values, four a word. Present exactly when a material reads one:
     /// [`abi::albedo_words`].
     pub const ALBEDO: Self = Self(*b"ALBEDO  ");
+    /// [`abi::MotionPiece`]s; absent when nothing turns and every way is one straight line.
+    pub const MOTION: Self = Self(*b"MOTION  ");
+    /// [`abi::CameraKey`]s; absent when the camera stands still.
+    pub const CAMERAKEY: Self = Self(*b"CAMKEY  ");
     /// The linked WGSL text.
     pub const KERNEL: Self = Self(*b"KERNEL  ");
     /// The [`crate::Manifest`]; never needed to render.
@@ -154,7 +158,7 @@ const MAX_SKY_WORDS: u64 = (32 << 20) / 16 + (1 << 16);
 pub(crate) const SRGB_WORDS: u64 = 64;
 
 /// Every section of this format, in file order.
-pub const SECTIONS: [SectionSpec; 21] = [
+pub const SECTIONS: [SectionSpec; 23] = [
     one(Kind::RENDER, size_of::<abi::RenderSettings>(), true),
     // 2: kinds of cameras.
     SectionSpec { version: 2, ..one(Kind::CAMERA, size_of::<abi::Camera>(), true) },
@@ -179,6 +183,9 @@ pub const SECTIONS: [SectionSpec; 21] = [
     SectionSpec { min_count: SRGB_WORDS, ..table(Kind::SRGBLUT, 16, SRGB_WORDS) },
     table(Kind::SKYTABLE, 16, MAX_SKY_WORDS),
     table(Kind::ALBEDO, 16, 1 << 16),
+    table(Kind::MOTION, size_of::<abi::MotionPiece>(), 1 << 20),
+    // One key is no motion.
+    SectionSpec { min_count: 2, ..table(Kind::CAMERAKEY, size_of::<abi::CameraKey>(), 1 << 16) },
     SectionSpec { required: true, ..table(Kind::KERNEL, 1, MAX_KERNEL) },
     // 2: features with their declarations, and the size of the kernel. 3: what instances show; since then every
     // primitive says which instance or light it is, also where there is no OBJECT.
@@ -202,4 +209,5 @@ pack_records! {
     TriShade => TRISHADE, Sphere => SPHERE, Material => MATERIAL, Object => OBJECT,
     Instance => INSTANCE,
     Medium => MEDIUM, Light => LIGHT, LightNode => LIGHTNODE, Texture => TEXTURE,
+    MotionPiece => MOTION, CameraKey => CAMERAKEY,
 }

@@ -2,7 +2,7 @@
 //!
 //! Every case starts from the same valid pack and breaks one thing; hashes, lengths and ids are
 //! put right again, so that only the rule in question can fire. Cases of a single wrong word are
-//! data: `bad_packs.txt`; those of WIDENODE start from the same pack with wide nodes. A last test reads the error enums and fails when a rule has no case here.
+//! data: `bad_packs.txt`; those of WIDENODE, MOTION and CAMKEY start from the same pack with these sections. A last test reads the error enums and fails when a rule has no case here.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
@@ -35,7 +35,13 @@ use Mutation::{Parts, Raw, Table, Word};
 
 fn error(mutation: &Mutation) -> PackError {
     let wide = matches!(mutation, Word(Kind::WIDENODE, ..));
-    let mut bytes = if wide { Scene::wide() } else { Scene::full() }.bytes();
+    let keyed = matches!(mutation, Word(Kind::MOTION | Kind::CAMERAKEY, ..));
+    let mut bytes = match (wide, keyed) {
+        (true, _) => Scene::wide(),
+        (false, true) => Scene::with_keys(),
+        (false, false) => Scene::full(),
+    }
+    .bytes();
     match mutation {
         Raw(change) => change(&mut bytes),
         Table(change) => {

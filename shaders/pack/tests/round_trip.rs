@@ -30,7 +30,7 @@ fn assert_same(pack: &Pack, scene: &Scene) {
 
 #[test]
 fn everything_comes_back() {
-    for scene in [Scene::full(), Scene::empty()] {
+    for scene in [Scene::full(), Scene::with_keys(), Scene::empty()] {
         let pack = Pack::from_bytes(scene.bytes()).unwrap();
         assert_same(&pack, &scene);
         assert_eq!(pack.recipe_id(), [7; 32]);
@@ -107,6 +107,8 @@ fn the_order_of_calls_and_the_number_of_threads_do_not_change_a_byte() {
     writer
         .records(&scene.media)
         .records(&scene.objects)
+        .records(&scene.motion)
+        .records(&scene.camera_keys)
         .records(&scene.nodes)
         .record(scene.sky.as_ref().unwrap());
     writer.record(&scene.camera).record(&scene.render);
@@ -195,13 +197,18 @@ fn absent_kinds_bring_no_section() {
         let there = pack::SECTIONS.iter().filter(|spec| spec.kind != absent);
         there.map(|spec| spec.kind.to_string()).collect()
     };
-    assert_eq!(kinds(&Scene::with_light_tree().and_instances().and_albedo()), but(Kind::WIDENODE));
+    let keyed = |scene: Scene| {
+        let Scene { objects, motion, camera_keys, .. } = Scene::with_keys();
+        Scene { objects, motion, camera_keys, ..scene }
+    };
+    let all = keyed(Scene::with_light_tree().and_instances().and_albedo());
+    assert_eq!(kinds(&all), but(Kind::WIDENODE));
     let Scene { render, wide_nodes, nodes, .. } = Scene::wide();
     let render = pack::abi::RenderSettings {
         stack_need: render.stack_need,
         ..Scene::with_light_tree().render
     };
-    let wide = Scene { render, nodes, wide_nodes, ..Scene::with_light_tree().and_albedo() };
+    let wide = keyed(Scene { render, nodes, wide_nodes, ..Scene::with_light_tree().and_albedo() });
     let mut others = but(Kind::NODE);
     others.retain(|kind| *kind != Kind::INSTANCE.to_string());
     assert_eq!(kinds(&wide), others);

@@ -18,6 +18,7 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
         "sampler/key.wgsl",
         "scene/constants.wgsl",
         "scene/dispatch_sky.wgsl",
+        "scene/eye.wgsl",
         "scene/motion.wgsl",
         "scene/placed.wgsl",
         "scene/records.wgsl",
@@ -134,7 +135,7 @@ fn camera(features: &FeatureSet) -> String {
     format!(
         "\n// The ray through `at`, pixels from the top left corner.\n\
          fn dispatch_camera(key: SampleKey, at: vec2f) -> CameraRay {{\n    \
-         let camera = load_camera();\n{lens}{}}}\n",
+         let camera = dispatch_eye(key);\n{lens}{}}}\n",
         switch("camera.kind", &cases, cases.first().map_or("", |(_, ray)| ray.as_str()))
     )
 }
@@ -145,12 +146,13 @@ fn surface(features: &FeatureSet) -> String {
         let mut sphere = String::from(
             "    let i = hit.prim & ~PRIM_SPHERE;\n    \
              let start = dispatch_thing_origin(load_sphere_object(i), origin, time);\n    \
-             var s = sphere_surface(i, start, dir, hit.t);\n    dispatch_thing_carry(&s, load_sphere_object(i), time);\n",
+             let back = dispatch_thing_dir(load_sphere_object(i), dir, time);\n    \
+             var s = sphere_surface(i, start, back, hit.t);\n",
         );
         if !features.textures.is_empty() || features.tangents {
             sphere += "    s.uv = sphere_uv(select(-s.ng, s.ng, s.front));\n";
         }
-        sphere += "    return s;\n";
+        sphere += "    dispatch_thing_carry(&s, load_sphere_object(i), time);\n    return s;\n";
         if features.triangles {
             let inner = sphere.replace("    ", "        ");
             let _ = write!(body, "    if ((hit.prim & PRIM_SPHERE) != 0u) {{\n{inner}    }}\n");
@@ -164,7 +166,8 @@ fn surface(features: &FeatureSet) -> String {
         let _ = write!(
             body,
             "    if (dispatch_is_placed(hit)) {{\n        return dispatch_placed_surface(hit, dir, time);\n    }}\n    \
-             var s = {function}(hit.prim, hit.b, dir);\n    \
+             let back = dispatch_triangle_dir(hit.prim, dir, time);\n    \
+             var s = {function}(hit.prim, hit.b, back);\n    \
              dispatch_triangle_carry(&s, hit.prim, time);\n    return s;\n"
         );
     }
@@ -178,8 +181,9 @@ fn tangent(features: &FeatureSet) -> String {
     let mut body = String::new();
     if features.tangents && features.geometry() {
         body += "    if ((flags & FLAG_TANGENT) == 0u) {\n        return;\n    }\n";
-        let sphere = "(*s).tangent = sphere_tangent(select(-(*s).ng, (*s).ng, (*s).front));";
-        let triangle = "let t = dispatch_placed_tangent(hit.instance, triangle_tangent(hit.prim));\n    (*s).tangent = t.xyz;\n    \
+        let sphere = "let out = dispatch_turn_back((*s).object, select(-(*s).ng, (*s).ng, (*s).front), time);\n        \
+                      (*s).tangent = dispatch_turn((*s).object, sphere_tangent(out), time);";
+        let triangle = "let t = dispatch_placed_tangent(hit.instance, triangle_tangent(hit.prim));\n    (*s).tangent = dispatch_turn((*s).object, t.xyz, time);\n    \
                         (*s).handed = select(-t.w, t.w, (*s).front);";
         let lines = match (features.spheres, features.triangles) {
             (true, true) => format!(
@@ -195,7 +199,7 @@ fn tangent(features: &FeatureSet) -> String {
     }
     format!(
         "\n// Finds the direction in which u grows, for materials whose flags ask for it.\n\
-         fn dispatch_tangent(s: ptr<function, Surface>, hit: Hit, flags: u32) {{\n{body}}}\n"
+         fn dispatch_tangent(s: ptr<function, Surface>, hit: Hit, flags: u32, time: f32) {{\n{body}}}\n"
     )
 }
 

@@ -40,20 +40,20 @@ pub(crate) fn candidate(features: &FeatureSet) -> String {
     } else {
         "    return true;\n}\n"
     };
-    text += "\n// A sphere at distance `t` of the ray, which starts at `origin` for a sphere that stands still.\n\
-             fn candidate_sphere(sphere: Sphere, ray: Ray, origin: vec3f, t: f32) -> bool {\n";
+    text += "\n// A sphere at distance `t` of the ray, which starts at `origin` along `dir` for a sphere that stands still.\n\
+             fn candidate_sphere(sphere: Sphere, ray: Ray, origin: vec3f, dir: vec3f, t: f32) -> bool {\n";
     if features.surface_lights() {
         text += "    if (ray.light != NONE && sphere.light == ray.light) {\n        return false;\n    }\n";
     }
     if features.alpha_blend {
         text += "    if (coverage_is_partial(sphere.material)) {\n        \
-                 let n = sphere_normal(sphere, origin, ray.dir, t);\n        \
+                 let n = sphere_normal(sphere, origin, dir, t);\n        \
                  let coverage = coverage_at(sphere.material, sphere_uv(n));\n        \
-                 return coverage_meets(ray, coverage, coverage_sphere_id(sphere, dot(n, ray.dir) < 0.0));\n    }\n";
+                 return coverage_meets(ray, coverage, coverage_sphere_id(sphere, dot(n, dir) < 0.0));\n    }\n";
     }
     if features.alpha_clip {
         text += "    if (alpha_is_plain(sphere.material)) {\n        return true;\n    }\n    \
-                 let uv = sphere_uv(sphere_normal(sphere, origin, ray.dir, t));\n    \
+                 let uv = sphere_uv(sphere_normal(sphere, origin, dir, t));\n    \
                  return alpha_exists(sphere.material, uv);\n}\n";
     } else {
         text += "    return true;\n}\n";
@@ -125,6 +125,26 @@ pub(crate) fn leaf(features: &FeatureSet) -> String {
     };
     let _ = writeln!(text, "    return {otherwise};");
     text + "}\n"
+}
+
+/// `scene/shear.wgsl`: how a ray is sheared for a triangle that turns.
+pub(crate) fn shear(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: whether triangles of this scene turn.\n\n");
+    text += &imports(["shape/triangle.wgsl", "trace/ray.wgsl"]);
+    let own = if features.keys {
+        text += &imports(["scene/constants.wgsl", "scene/motion.wgsl"]);
+        "    if ((id & MOVES) != 0u) {\n        \
+         return triangle_shear(dispatch_triangle_dir(i, ray.dir, ray.time));\n    }\n"
+    } else {
+        ""
+    };
+    let _ = write!(
+        text,
+        "\n// The shear for triangle `i`, one of whose ids is `id`; `shear`: that for triangles that stand still.\n\
+         fn dispatch_triangle_shear(i: u32, id: u32, ray: Ray, shear: TriangleShear) -> TriangleShear {{\n{own}    \
+         return shear;\n}}\n"
+    );
+    text
 }
 
 /// How a walk goes into an instance and out of it.

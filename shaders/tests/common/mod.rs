@@ -85,6 +85,14 @@ const OTHERS: &[Other] = &[
     ("coat", |f| principled(f).principled_coat = true),
     ("transmission", |f| principled(f).principled_transmission = true),
     ("motion", |f| f.motion = true),
+    ("keys", |f| {
+        f.motion = true;
+        f.keys = true;
+    }),
+    ("camera keys", |f| {
+        f.motion = true;
+        f.camera_keys = true;
+    }),
     ("wide nodes", |f| f.layouts = [NodeLayout::Wide].into()),
 ];
 

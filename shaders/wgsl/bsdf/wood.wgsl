@@ -8,6 +8,7 @@
 #import "math/vector.wgsl"
 #import "pattern/bump.wgsl"
 #import "pattern/fbm.wgsl"
+#import "scene/motion.wgsl"
 #import "scene/records.wgsl"
 #import "surface/surface.wgsl"
 
@@ -65,7 +66,7 @@ fn wood_pattern(scatter: ptr<function, Scatter>, s: Surface, wo: vec3f) {
     (*scatter).color += (late - (*scatter).color) * wood_late(bands);
     let x = load_object_row_x(s.object);
     let grain = x * axis.x + load_object_row_y(s.object) * axis.y + load_object_row_z(s.object) * axis.z;
-    let along = grain / sqrt(dot(x, x));
+    let along = dispatch_turn_of(s.object, grain, (*scatter).key) / sqrt(dot(x, x));
     let n = (*scatter).ns;
     (*scatter).tangent = along - n * dot(n, along);
 }

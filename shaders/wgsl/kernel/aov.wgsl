@@ -92,7 +92,7 @@ fn aov_surface(path: ptr<function, Path>, found: ptr<function, AovSample>, hit: 
     if (dispatch_unseen(path, s, m.flags, ray_skip(hit))) {
         return;
     }
-    dispatch_tangent(&s, hit, m.flags);
+    dispatch_tangent(&s, hit, m.flags, (*path).time);
     dispatch_horizon(&s, m.kind, m.flags);
     dispatch_shading_normal(&s, m, (*path).dir);
     var scatter = scatter_at(m, s, (*path).key);

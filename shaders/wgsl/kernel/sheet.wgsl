@@ -17,7 +17,7 @@ fn sheet_through(path: ptr<function, Path>, at: Surface, hit: Hit) -> vec3f {
     var s = at;
     let m = load_material(s.material);
     let dir = (*path).shadow_dir;
-    dispatch_tangent(&s, hit, m.flags);
+    dispatch_tangent(&s, hit, m.flags, (*path).time);
     dispatch_shading_normal(&s, m, dir);
     return dispatch_straight(scatter_at(m, s, (*path).key), -dir);
 }

@@ -48,7 +48,7 @@ fn vertex_surface(path: ptr<function, Path>, hit: Hit, v: ptr<function, Vertex>)
     if (dispatch_unseen(path, s, m.flags, ray_skip(hit))) {
         return false;
     }
-    dispatch_tangent(&s, hit, m.flags);
+    dispatch_tangent(&s, hit, m.flags, (*path).time);
     dispatch_horizon(&s, m.kind, m.flags);
     dispatch_shading_normal(&s, m, (*path).dir);
     vertex_emit(path, s, m);

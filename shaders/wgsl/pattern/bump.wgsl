@@ -5,6 +5,7 @@
 
 #import "bsdf/scatter.wgsl"
 #import "math/vector.wgsl"
+#import "scene/motion.wgsl"
 #import "scene/records.wgsl"
 #import "surface/surface.wgsl"
 
@@ -31,7 +32,7 @@ fn bump_tilt(scatter: ptr<function, Scatter>, object: u32, values: vec4f, wo: ve
     // The rows of the object are its axes in the world, all of one length.
     let x = load_object_row_x(object);
     let turned = x * d.x + load_object_row_y(object) * d.y + load_object_row_z(object) * d.z;
-    let slope = turned / sqrt(dot(x, x));
+    let slope = dispatch_turn_of(object, turned, (*scatter).key) / sqrt(dot(x, x));
     let n = (*scatter).ns;
     let ng = (*scatter).ng;
     let tilted = vector_unit_or(n - (slope - n * dot(n, slope)), n);

@@ -34,14 +34,15 @@ fn instance_surface(hit: Hit, dir: vec3f, time: f32) -> Surface {
     let q = tri.v0 * (1.0 - b.x - b.y) + tri.v1 * b.x + tri.v2 * b.y;
     let p = instance_vector(hit.instance, q) + load_instance_center(hit.instance);
     let out = instance_normal(hit.instance, triangle_normal(tri));
-    var s = surface_new(p, out, dir, load_instance_reach(hit.instance));
+    let object = load_instance_object(hit.instance);
+    let back = dispatch_thing_dir(object, dir, time);
+    var s = surface_new(p, out, back, load_instance_reach(hit.instance));
     s.uv = triangle_uv(hit.prim, b);
     s.material = instance_material(hit.instance, load_tri_shade_material(hit.prim));
-    let object = load_instance_object(hit.instance);
     s.object = object & ~MOVES;
     if ((load_tri_shade_object(hit.prim) & TRI_SMOOTH) != 0u) {
         let n = instance_smooth_normal(hit.instance, load_tri_shade_normals(hit.prim), b, s.ng);
-        s.ns = surface_shading_normal(s.ng, n, dir);
+        s.ns = surface_shading_normal(s.ng, n, back);
         s.bulge = instance_bulge(hit, q, s);
     }
     dispatch_thing_carry(&s, object, time);

@@ -11,10 +11,12 @@ fn instance_ray(i: u32, ray: Ray) -> Ray {
     let x = load_instance_row_x(i);
     let y = load_instance_row_y(i);
     let z = load_instance_row_z(i);
-    let o = dispatch_thing_origin(load_instance_object(i), ray.origin, ray.time) - load_instance_center(i);
+    let object = load_instance_object(i);
+    let o = dispatch_thing_origin(object, ray.origin, ray.time) - load_instance_center(i);
+    let dir = dispatch_thing_dir(object, ray.dir, ray.time);
     var inner = ray;
     inner.origin = vec3f(dot(x, o), dot(y, o), dot(z, o));
-    inner.dir = vec3f(dot(x, ray.dir), dot(y, ray.dir), dot(z, ray.dir));
+    inner.dir = vec3f(dot(x, dir), dot(y, dir), dot(z, dir));
     inner.instance = i;
     return inner;
 }

@@ -19,11 +19,12 @@ fn spheres_trace(first: u32, count: u32, ray: Ray, best: Hit) -> Hit {
         let prim = i | PRIM_SPHERE;
         let sphere = load_sphere(i);
         let origin = dispatch_thing_origin(sphere.object, ray.origin, ray.time);
-        let t = sphere_intersect(sphere, origin, ray.dir, prim == ray.skip.x);
+        let dir = dispatch_thing_dir(sphere.object, ray.dir, ray.time);
+        let t = sphere_intersect(sphere, origin, dir, prim == ray.skip.x);
         // The far end counts where the near end is behind the ray, or not there.
-        if (spheres_counts(hit, t.x, prim, ray) && candidate_sphere(sphere, ray, origin, t.x)) {
+        if (spheres_counts(hit, t.x, prim, ray) && candidate_sphere(sphere, ray, origin, dir, t.x)) {
             hit = Hit(t.x, prim, vec2f(0.0), NONE);
-        } else if (spheres_counts(hit, t.y, prim, ray) && candidate_sphere(sphere, ray, origin, t.y)) {
+        } else if (spheres_counts(hit, t.y, prim, ray) && candidate_sphere(sphere, ray, origin, dir, t.y)) {
             hit = Hit(t.y, prim, vec2f(0.0), NONE);
         }
         i += 1u;

@@ -161,6 +161,12 @@ impl Bodies {
         for (body, thing) in self.list.iter().zip(&self.things) {
             body.read(materials, key);
             key.floats(&thing.motion.to_array());
+            if let Some(path) = &thing.path {
+                key.floats(&path.pivot.to_array());
+                path.records().for_each(|piece| {
+                    key.bytes(bytemuck::bytes_of(&piece));
+                });
+            }
         }
     }
 }

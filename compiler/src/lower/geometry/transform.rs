@@ -17,10 +17,8 @@ pub(in crate::lower) struct Transform {
 
 impl Transform {
     pub(in crate::lower) fn of(instance: &Instance, shutter: Shutter) -> Self {
-        let m = instance.world_from_object;
-        let column = |k: usize| DVec3::new(m[0][k], m[1][k], m[2][k]);
-        let linear = DMat3::from_cols(column(0), column(1), column(2));
-        Self::new(linear, column(3) + shutter.lead(instance.velocity))
+        let (linear, translation) = shutter.pose(instance);
+        Self::new(linear, translation)
     }
 
     pub(in crate::lower) fn new(linear: DMat3, translation: DVec3) -> Self {

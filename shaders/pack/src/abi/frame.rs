@@ -69,5 +69,13 @@ abi_struct! {
         pub filter_width: f32,
         /// First heap word of each `AlbedoTable`; `NONE` for those that no material reads.
         pub albedo_at: [u32; 4],
+        /// First heap word of the `MotionPiece` table; `NONE`: what moves does so on straight lines.
+        pub path_at: u32,
+        /// First heap word of the `CameraKey` table; `NONE`: the camera stands still.
+        pub camera_key_at: u32,
+        /// Unused.
+        pub _pad0: u32,
+        /// Unused.
+        pub _pad1: u32,
     }
 }

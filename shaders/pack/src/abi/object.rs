@@ -3,7 +3,7 @@
 use super::field::abi_struct;
 
 abi_struct! {
-    /// A thing in the world, 64 bytes: its own frame, its motion, its key. The point `p` of the
+    /// A thing in the world, 80 bytes: its own frame, its motion, its key. The point `p` of the
     /// normalised world frame is (row_x . p + offset_x, ...) in the object, in metres, unscaled:
     /// patterns turn and move with the thing, but do not grow with it.
     pub struct Object {
@@ -24,6 +24,10 @@ abi_struct! {
         pub motion: [f32; 3],
         /// A hash of its name: what differs from one petal to the next depends on it alone.
         pub key: u32,
+        /// The point about which it turns, normalised world frame, where the shutter opens.
+        pub pivot: [f32; 3],
+        /// 1 + the index of the first `MotionPiece` of its way; 0: its way is `motion`.
+        pub path: u32,
     }
 }
 
@@ -31,6 +35,6 @@ impl Object {
     /// Whether it moves while the shutter is open.
     #[must_use]
     pub fn moves(&self) -> bool {
-        self.motion.iter().any(|component| *component != 0.0)
+        self.path != 0 || self.motion.iter().any(|component| *component != 0.0)
     }
 }

@@ -95,6 +95,13 @@ pub(super) fn direction(value: [f32; 3]) -> Fault {
     (!unit).then_some(ElementFault::NotUnit(length))
 }
 
+/// A quaternion of length 1, as `direction`.
+pub(super) fn rotation(value: [f32; 4]) -> Fault {
+    let length = value.iter().map(|lane| lane * lane).sum::<f32>().sqrt();
+    let unit = (length - 1.0).abs() <= 1e-3;
+    (!unit).then_some(ElementFault::NotUnit(length))
+}
+
 /// An integer in a range.
 pub(super) fn count<const N: usize>(value: [u32; N], min: u32, max: u32) -> Fault {
     let found = value.into_iter().find(|found| !(min..=max).contains(found))?;

@@ -4,10 +4,10 @@
 //! field that is not in it may hold any value, and the comment there says why.
 
 use crate::abi::{
-    Camera, CameraKind, FilterKind, Instance, Light, LightKind, LightNode, LightSurface, MOVES,
-    Material, MaterialKind, Medium, Node, OBJECT_OF_INSTANCE, Object, RenderSettings, SamplerKind,
-    Sky, SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap, TriShade, Triangle,
-    UNLIMITED_DEPTH, WideNode, Wrap, material_flag,
+    Camera, CameraKey, CameraKind, FilterKind, Instance, Light, LightKind, LightNode, LightSurface,
+    MOVES, Material, MaterialKind, Medium, MotionPiece, Node, OBJECT_OF_INSTANCE, Object,
+    RenderSettings, SamplerKind, Sky, SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap,
+    TriShade, Triangle, UNLIMITED_DEPTH, WideNode, Wrap, material_flag,
 };
 use crate::contents::Contents;
 use crate::fault::ElementFault;
@@ -16,8 +16,8 @@ use crate::kind::{Kind, PackRecord};
 use super::broken::Broken;
 use super::rule::{
     TableRef, bits, corner, cosine, count, direction, finite, finite64, index, index_or_none,
-    indices_or_none, not_negative, positive, power_of_two, probability, refractive, step, tag,
-    unit_range, unused,
+    indices_or_none, not_negative, positive, power_of_two, probability, refractive, rotation, step,
+    tag, unit_range, unused,
 };
 
 /// A record with rules.
@@ -151,6 +151,26 @@ rules! { pack;
         row_z: finite(),
         offset_z: finite(),
         motion: finite(),
+        pivot: finite(),
+        path: way(table(pack, Kind::MOTION)),
+    }
+    // That pieces follow each other is checked with the ways.
+    MotionPiece {
+        shift: finite(),
+        start: unit_range(),
+        travel: finite(),
+        end: unit_range(),
+        axis: direction(),
+        turns: finite(),
+        turn: rotation(),
+    }
+    CameraKey {
+        origin: finite(),
+        time: unit_range(),
+        aim: finite(),
+        focus_distance: not_negative(),
+        up: finite(),
+        _pad0: unused(),
     }
     // `root` is the tree's; `_pad` are the fourth lanes of columns.
     Instance and instance {
@@ -294,6 +314,11 @@ fn at_least_one(value: u32) -> Option<ElementFault> {
 
 fn at_most(value: u32, max: u32) -> Option<ElementFault> {
     count([value], 0, max)
+}
+
+/// 1 + an index into the pieces of ways, or 0.
+fn way(value: u32, (_, count): TableRef) -> Option<ElementFault> {
+    at_most(value, u32::try_from(count).unwrap_or(u32::MAX))
 }
 
 /// Longest path in segments that a pack may ask for, beside those of any length.

@@ -8,10 +8,10 @@
 pub(crate) mod sound;
 
 use pack::abi::{
-    AlbedoTable, Camera, ChildRef, Instance, LIGHT_LEAF, Light, LightKind, LightNode, MOVES,
-    Material, MaterialKind, Medium, NONE, Node, OBJECT_OF_INSTANCE, Object, RenderSettings, Sky,
-    SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, TextureOp, TextureOpKind, ToneMap,
-    TriShade, Triangle, WideNode, Wrap, f64_bits, material_flag,
+    AlbedoTable, Camera, CameraKey, ChildRef, Instance, LIGHT_LEAF, Light, LightKind, LightNode,
+    MOVES, Material, MaterialKind, Medium, MotionPiece, NONE, Node, OBJECT_OF_INSTANCE, Object,
+    RenderSettings, Sky, SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, TextureOp,
+    TextureOpKind, ToneMap, TriShade, Triangle, WideNode, Wrap, f64_bits, material_flag,
 };
 use pack::manifest::Named;
 use pack::{Kind, Manifest, PackWriter};
@@ -28,6 +28,8 @@ pub(crate) struct Scene {
     pub(crate) spheres: Vec<Sphere>,
     pub(crate) materials: Vec<Material>,
     pub(crate) objects: Vec<Object>,
+    pub(crate) motion: Vec<MotionPiece>,
+    pub(crate) camera_keys: Vec<CameraKey>,
     pub(crate) instances: Vec<Instance>,
     pub(crate) media: Vec<Medium>,
     pub(crate) lights: Vec<Light>,
@@ -264,6 +266,22 @@ pub(crate) fn manifest() -> Manifest {
     }
 }
 
+fn piece([start, end]: [f32; 2]) -> MotionPiece {
+    MotionPiece {
+        start,
+        travel: [0.0, 0.25, 0.0],
+        end,
+        axis: [0.0, 0.0, 1.0],
+        turns: 0.25,
+        turn: [0.0, 0.0, 0.0, 1.0],
+        ..MotionPiece::default()
+    }
+}
+
+fn camera_key(time: f32) -> CameraKey {
+    CameraKey { time, aim: [0.0, 0.0, 1.0], up: [0.0, 1.0, 0.0], ..CameraKey::default() }
+}
+
 impl Scene {
     /// Four triangles, three spheres, eight materials, three lights, three textures, a sky.
     pub(crate) fn full() -> Self {
@@ -309,6 +327,8 @@ impl Scene {
                 Object::default(),
                 Object { motion: [0.0, 0.25, 0.0], ..Object::default() },
             ],
+            motion: Vec::new(),
+            camera_keys: Vec::new(),
             instances: Vec::new(),
             media: vec![Medium { sigma_s: [0.5; 3], ..Medium::default() }],
             lights: lights(),
@@ -326,6 +346,15 @@ impl Scene {
             kernel: "// kernel\nfn main() {}\n".to_owned(),
             manifest: Some(manifest()),
         }
+    }
+
+    /// The example with a thing that turns and a camera that moves.
+    pub(crate) fn with_keys() -> Self {
+        let mut scene = Self::full();
+        scene.objects[1] = Object { pivot: [0.0, 0.25, 0.0], path: 1, ..Object::default() };
+        scene.motion = vec![piece([0.0, 0.5]), piece([0.5, 1.0])];
+        scene.camera_keys = [0.0, 1.0].map(camera_key).to_vec();
+        scene
     }
 
     /// The same, with materials that read the first and the last table of directional albedo.
@@ -457,6 +486,8 @@ impl Scene {
             spheres: Vec::new(),
             materials: Vec::new(),
             objects: Vec::new(),
+            motion: Vec::new(),
+            camera_keys: Vec::new(),
             instances: Vec::new(),
             media: Vec::new(),
             lights: Vec::new(),
@@ -480,6 +511,8 @@ impl Scene {
             .records(&self.spheres)
             .records(&self.materials)
             .records(&self.objects)
+            .records(&self.motion)
+            .records(&self.camera_keys)
             .records(&self.instances)
             .records(&self.media)
             .records(&self.lights)
