@@ -56,6 +56,8 @@ fn lengths(scene: &mut Scene, mut change: impl FnMut(&mut f64)) {
     for instance in &mut scene.instances {
         instance.world_from_object.iter_mut().for_each(|row| change(&mut row[3]));
         instance.velocity.iter_mut().for_each(&mut change);
+        let keys = instance.motion.iter_mut().flat_map(|motion| &mut motion.keys);
+        keys.flat_map(|key| &mut key.at).for_each(&mut change);
         instance.shape.lengths_mut().iter_mut().for_each(&mut change);
     }
     for light in &mut scene.lights {
@@ -64,6 +66,8 @@ fn lengths(scene: &mut Scene, mut change: impl FnMut(&mut f64)) {
     }
     let camera = &mut scene.camera;
     camera.from.iter_mut().chain(&mut camera.to).for_each(&mut change);
+    let keys = camera.keys.iter_mut().flat_map(|key| [&mut key.from, &mut key.to]);
+    keys.flatten().for_each(&mut change);
     match &mut camera.projection {
         lang::scene::Projection::Perspective(lens) => {
             change(&mut lens.radius);
@@ -95,6 +99,9 @@ fn snap(scene: &mut Scene) {
     for instance in &mut scene.instances {
         instance.world_from_object.iter_mut().flatten().for_each(snap);
     }
+    let keys = scene.instances.iter_mut().filter_map(|instance| instance.motion.as_mut());
+    keys.flat_map(|motion| &mut motion.keys).for_each(|key| snap(&mut key.time));
+    scene.camera.keys.iter_mut().for_each(|key| snap(&mut key.time));
     scene.camera.shutter.iter_mut().for_each(snap);
 }
 
@@ -106,10 +113,16 @@ fn shift(scene: &mut Scene) {
         for (row, by) in instance.world_from_object.iter_mut().zip(by) {
             row[3] += by;
         }
+        let keys = instance.motion.iter_mut().flat_map(|motion| &mut motion.keys);
+        keys.for_each(|key| add(&mut key.at));
     }
     scene.lights.iter_mut().for_each(|light| add(&mut light.center));
     add(&mut scene.camera.from);
     add(&mut scene.camera.to);
+    for key in &mut scene.camera.keys {
+        add(&mut key.from);
+        add(&mut key.to);
+    }
 }
 
 /// Bit for bit, since `f64` holds every number on both sides, and what the compiler takes from them are
