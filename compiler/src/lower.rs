@@ -25,6 +25,7 @@ mod hidden;
 mod inside;
 mod light;
 mod light_tree;
+mod linking;
 mod listing;
 mod lowered;
 mod material;
@@ -54,7 +55,7 @@ mod world;
 use glam::DVec3;
 use lang::diagnostic::Diagnostic;
 use lang::scene::Scene;
-use pack::abi::{self, MOVES, NONE, TRI_SMOOTH};
+use pack::abi::{self, NONE};
 
 use self::geometry::body::Bodies;
 use self::inside::{Boundary, Solids};
@@ -194,11 +195,15 @@ fn records(
     } else {
         Vec::new()
     };
+    let links = linking::links(scene, &lit.lights, &lit.sections);
+    let mut media = media;
+    linking::media(scene, &links, (&materials, &mut media), (&lit.sections, around));
     let Sections { nodes, wide_nodes, triangles, shades, spheres, instances, .. } = lit.sections;
     let inside = (lit.inside, around);
     Lowered {
         render: finish::settings(scene, frame, lit.sections.entry, inside, lit.lights.len()),
         camera: camera::camera(&scene.camera, frame),
+        links,
         motion,
         camera_keys: camera::keys(&scene.camera, frame),
         sky: lit.sky,
@@ -246,12 +251,7 @@ fn displacement(light: &abi::Light, sections: &Sections, motions: &[Motion]) -> 
     if motions.is_empty() || !light.has_surface() {
         return [DVec3::ZERO; 2];
     }
-    let primitive = light.primitive as usize;
-    let object = if light.kind == abi::LightKind::Sphere as u32 {
-        sections.spheres.get(primitive).map(|sphere| sphere.object & !MOVES)
-    } else {
-        sections.shades.get(primitive).map(|shade| shade.object & !TRI_SMOOTH)
-    };
-    let motion = object.and_then(|object| motions.get(object as usize));
+    let motion =
+        linking::object_of(light, sections).and_then(|object| motions.get(object as usize));
     motion.map_or([DVec3::ZERO; 2], Motion::range)
 }

@@ -251,6 +251,7 @@ impl Compiled {
             .records(&lowered.spheres)
             .records(&lowered.materials)
             .records(&lowered.objects)
+            .records(&lowered.links)
             .records(&lowered.motion)
             .records(&lowered.camera_keys)
             .records(&lowered.instances)

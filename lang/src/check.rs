@@ -33,6 +33,8 @@ mod instance;
 mod keys;
 #[warn(clippy::wildcard_enum_match_arm)]
 pub(crate) mod light;
+mod link_sets;
+mod linked;
 mod lint;
 #[warn(clippy::wildcard_enum_match_arm)]
 mod material;

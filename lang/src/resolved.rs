@@ -14,7 +14,7 @@ use crate::check::brightness::profile_scale;
 use crate::material::Shown;
 use crate::scene::{
     AssetFormat, Axis, Camera, CameraKey, Directional, FileFrame, GltfChoice, Instance, Light,
-    Motion, MotionKey, Projection, Scene, Shape, Wrap,
+    LightLinks, Motion, MotionKey, Projection, Scene, Shape, Wrap,
 };
 use crate::schema::color_text;
 use crate::shape::MeshEdit;
@@ -136,6 +136,7 @@ fn light_fields(scene: &Scene, light: &Light) -> (&'static str, Vec<(&'static st
         fields.push(("visible", "off".to_owned()));
     }
     fields.extend(group(light.group.as_ref()));
+    fields.extend(links(light.links.as_ref()));
     (kind, fields)
 }
 
@@ -147,6 +148,7 @@ fn directional_fields(light: &Directional) -> Vec<(&'static str, String)> {
         ("strength", "1".to_owned()),
     ];
     fields.extend(group(light.group.as_ref()));
+    fields.extend(links(light.links.as_ref()));
     fields
 }
 
@@ -162,6 +164,17 @@ fn block(out: &mut String, head: &str, fields: &[(&str, String)]) -> fmt::Result
 /// A light group, where there is one.
 fn group(name: Option<&String>) -> Option<(&'static str, String)> {
     name.map(|name| ("group", format!("\"{name}\"")))
+}
+
+/// What a light lights, where that is not everything.
+fn links(links: Option<&LightLinks>) -> Option<(&'static str, String)> {
+    let links = links?;
+    let field = match links {
+        LightLinks::Only(_) => "only",
+        LightLinks::Except(_) => "except",
+    };
+    let names: Vec<&str> = links.names().iter().map(|name| name.text.as_str()).collect();
+    Some((field, format!("[{}]", names.join(", "))))
 }
 
 fn instance_fields(scene: &Scene, instance: &Instance) -> Vec<(&'static str, String)> {
@@ -202,6 +215,7 @@ fn instance_fields(scene: &Scene, instance: &Instance) -> Vec<(&'static str, Str
         fields.push(("velocity", vector(instance.velocity, "m/s")));
     }
     fields.extend(group(instance.group.as_ref()));
+    fields.extend(links(instance.links.as_ref()));
     fields
 }
 

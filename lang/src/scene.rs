@@ -12,6 +12,7 @@ mod common;
 mod file;
 mod instance;
 mod light;
+mod links;
 mod motion;
 mod view;
 
@@ -19,6 +20,7 @@ pub use common::{Name, Rgb};
 pub use file::{Asset, AssetFormat, Axis, ColorSpace, FileFrame, GltfChoice, Texture, Wrap};
 pub use instance::Instance;
 pub use light::{Beam, Directional, Light, Profile, Tint};
+pub use links::LightLinks;
 pub use motion::{CameraKey, Keyed, Motion, MotionKey, at_time, bends};
 pub use view::{
     Camera, Film, Filter, Fit, Layer, Lens, Projection, Render, Sampler, Side, ToneMap,
@@ -59,4 +61,14 @@ pub struct Scene {
     pub film: Film,
     /// The one `render` declaration.
     pub render: Render,
+}
+
+impl Scene {
+    /// What lights light that do not light everything, in the order of instances, lights and directional lights.
+    pub fn light_links(&self) -> impl Iterator<Item = &LightLinks> {
+        let things = self.instances.iter().map(|instance| &instance.links);
+        let lights = self.lights.iter().map(|light| &light.links);
+        let far = self.directional.iter().map(|light| &light.links);
+        things.chain(lights).chain(far).filter_map(Option::as_ref)
+    }
 }

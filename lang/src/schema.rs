@@ -287,6 +287,8 @@ pub enum FieldType {
     Words(&'static [Word]),
     /// The name of a declaration.
     Name(Kind),
+    /// A list of names of declarations, or one name.
+    Names(Kind),
     /// A shape, an object or a list of objects.
     Shape,
     /// `a..b`, with a not after b.
@@ -417,6 +419,7 @@ pub fn unit_of(ty: FieldType) -> Option<(Dim, &'static str)> {
         | FieldType::Word(_)
         | FieldType::Words(_)
         | FieldType::Name(_)
+        | FieldType::Names(_)
         | FieldType::Shape
         | FieldType::Text
         | FieldType::Path
@@ -458,6 +461,7 @@ pub fn type_text(ty: FieldType) -> String {
         FieldType::Word(words) => either(words),
         FieldType::Words(_) => "list of words".to_owned(),
         FieldType::Name(kind) => format!("name of {}", kind.with_article()),
+        FieldType::Names(kind) => format!("list of names of {}s", kind.name()),
         FieldType::Shape => "shape, object, or list of objects".to_owned(),
         FieldType::Interval(b) => format!("interval of {}", noun(b.dim)),
         FieldType::Text => "text".to_owned(),
@@ -503,6 +507,7 @@ pub fn range_text(ty: FieldType) -> String {
         | FieldType::Word(_)
         | FieldType::Words(_)
         | FieldType::Name(_)
+        | FieldType::Names(_)
         | FieldType::Shape
         | FieldType::Text
         | FieldType::Path

@@ -190,15 +190,16 @@ fn tints() -> Family {
     Family { mask: bits.iter().sum(), members: subsets(&bits).into_iter().map(member).collect() }
 }
 
-/// Several lights, and the tree of lights.
+/// Several lights, the tree of lights, and light linking, which has no bit: its code asks whether there is any.
 fn choices() -> Family {
-    let member = |(light_choice, light_tree)| {
+    let member = |(light_choice, light_tree), links| {
         let choice = if light_choice { bit::LIGHT_CHOICE } else { 0 };
         let tree = if light_tree { bit::LIGHT_TREE } else { 0 };
-        (choice | tree, FeatureSet { light_choice, light_tree, ..FeatureSet::full() })
+        (choice | tree, FeatureSet { light_choice, light_tree, links, ..FeatureSet::full() })
     };
-    let mask = bit::LIGHT_CHOICE | bit::LIGHT_TREE;
-    Family { mask, members: [(false, false), (true, false), (true, true)].map(member).into() }
+    let all = [(false, false), (true, false), (true, true)];
+    let members = all.into_iter().flat_map(|choice| [false, true].map(|on| member(choice, on)));
+    Family { mask: bit::LIGHT_CHOICE | bit::LIGHT_TREE, members: members.collect() }
 }
 
 fn views() -> Family {

@@ -23,7 +23,7 @@ const BOUND: [(u32, Kind); 6] = [
 ];
 
 /// Small tables that share one buffer, in this order.
-const HEAP: [Kind; 14] = [
+const HEAP: [Kind; 15] = [
     Kind::CAMERA,
     Kind::SKY,
     Kind::MATERIAL,
@@ -38,6 +38,7 @@ const HEAP: [Kind; 14] = [
     Kind::ALBEDO,
     Kind::MOTION,
     Kind::CAMERAKEY,
+    Kind::LIGHTLINK,
 ];
 
 /// Bytes of one window of a section: the largest binding that every device has. Window `w` of binding
@@ -108,6 +109,7 @@ impl Scene {
             albedo_first,
             path_at,
             camera_key_at,
+            link_at,
         ] = at;
         // The full kernel asks these numbers whether the tables are there; a specialised one knows.
         let sky_at = self.table(Kind::SKY, sky_at);
@@ -118,6 +120,7 @@ impl Scene {
         let still = job.camera.is_some();
         let camera_key_at = if still { NONE } else { self.table(Kind::CAMERAKEY, camera_key_at) };
         let frame = Frame {
+            link_at: self.table(Kind::LIGHTLINK, link_at),
             path_at,
             camera_key_at,
             albedo_at: self.albedo_at(albedo_first),

@@ -87,6 +87,8 @@ pub struct FeatureSet {
     pub keys: bool,
     /// The camera moves; only with `motion`.
     pub camera_keys: bool,
+    /// Some light does not light everything.
+    pub links: bool,
     /// There are instances; only with `triangles`.
     pub instances: bool,
     /// Layouts of nodes; a scene has one.
@@ -179,6 +181,7 @@ impl FeatureSet {
             motion: false,
             keys: false,
             camera_keys: false,
+            links: false,
             instances: false,
             layouts: [NodeLayout::Binary].into(),
             stack_size: 1,
@@ -225,6 +228,7 @@ impl FeatureSet {
             motion: true,
             keys: true,
             camera_keys: true,
+            links: true,
             instances: true,
             layouts: [NodeLayout::Binary, NodeLayout::Wide].into(),
             stack_size: pack::abi::MAX_STACK,

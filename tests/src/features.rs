@@ -258,6 +258,9 @@ pub const CASES: &[Case] = &[
     case("water", &[GRADIENT, SPHERE_LIGHT, POND, CLAY, BALL, FLOOR]),
     case("sea", &[GRADIENT, SPHERE_LIGHT, SEA, CLAY, BALL]),
     case("priorities alone", &[GRADIENT, LAMP, PANEL, PRIORITIES, FLOOR]),
+    // Light linking: of what moves, of media and of air; beside one other light, and in a tree.
+    case("a linked light", &[GRADIENT, LINKED, PLASTIC, BALL, TENT, FLOOR]),
+    case("linked lights and media", &[SKY, LINKED, LINKED_SUN, SMOKE, INK, FILLED, BALL, FLOOR]),
     // Things that move while the shutter is open.
     Case { camera: SHUTTER, ..case("moving sphere", &[GRADIENT, PLASTIC, MOVING_BALL, FLOOR]) },
     Case { camera: SHUTTER, ..case("moving box alone", &[SKY, CLAY, MOVING_BOX]) },
@@ -300,6 +303,7 @@ pub const CASES: &[Case] = &[
 const ALL: &[&str] = &[
     GRADIENT,
     TINTED,
+    LINKED,
     SPOT,
     SUN,
     LAMP,
@@ -367,6 +371,8 @@ const TINTED: &str = "light bulb: sphere {
   tint.color = linear(1, 0.65, 0.22)
   tint.angle = 14deg
 }\n";
+const LINKED: &str = "light rim: rectangle { at = (-2, 3, 1)m, to = (0, 1, 0)m, size = (1, 1)m, strength = 6, except = floor }\n";
+const LINKED_SUN: &str = "light key: directional { direction = (1, 2, 1), angular_diameter = 4deg, strength = 200, only = [floor, ball] }\n";
 const SPOT: &str = "light stage: spot { at = (1, 4, 2)m, to = (0, 0.5, 0)m, cone = 20deg, edge = 8deg, radius = 20cm, power = 4000lm }\n";
 const LUMINAIRE: &str = "texture wash = image(\"wash.ies\", space: linear)
 light lamp: point { at = (1, 3, 1)m, to = (0, 0.5, 0)m, profile = wash, radius = 5cm, spin = 20deg }\n";

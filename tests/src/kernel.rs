@@ -89,6 +89,7 @@ impl Bench {
     pub fn new() -> Self {
         let sampler = SamplerKind::Pcg as u32;
         let frame = Frame {
+            link_at: NONE,
             path_at: NONE,
             camera_key_at: NONE,
             sampler,

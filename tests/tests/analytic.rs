@@ -8,6 +8,8 @@
 
 #[path = "analytic/coverage.rs"]
 mod coverage;
+#[path = "analytic/links.rs"]
+mod links;
 #[path = "analytic/media.rs"]
 mod media;
 #[path = "analytic/unlimited.rs"]

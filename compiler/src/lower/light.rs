@@ -251,6 +251,7 @@ mod tests {
             profile: None,
             visible: true,
             group: None,
+            links: None,
         };
         let [_, y, _, outer, inner] = facing(&light);
         assert!(inner > outer && y.to_bits() == 1.0_f32.to_bits(), "{outer} {inner}");

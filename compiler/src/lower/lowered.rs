@@ -78,6 +78,8 @@ pub struct Lowered {
     pub shades: Rows<abi::TriShade>,
     /// Spheres in leaf order.
     pub spheres: Vec<abi::Sphere>,
+    /// Light linking: of all lights, then of all things; empty if every light lights everything.
+    pub links: Vec<abi::LightLink>,
     /// Pieces of the ways of things that turn, or do not move on one straight line.
     pub motion: Vec<abi::MotionPiece>,
     /// Keys of a camera that moves.

@@ -24,6 +24,7 @@ pub fn with_sun(scene: &Scene) -> Option<Scene> {
         half_angle: day.half_angle,
         radiance: light.map(|c| c / (PI * sine * sine)),
         group: sky.group.clone(),
+        links: None,
     };
     let mut scene = scene.clone();
     scene.directional.push(sun);

@@ -69,6 +69,7 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
             || !lowered.camera_keys.is_empty(),
         keys: !lowered.motion.is_empty(),
         camera_keys: !lowered.camera_keys.is_empty(),
+        links: !lowered.links.is_empty(),
         layouts: [layout(lowered)].into(),
         stack_size: lowered.render.stack_need.max(1),
         windows: Windows {

@@ -59,6 +59,9 @@ impl Evaluator<'_> {
         if let (FieldType::Words(words), ExprKind::List(entries)) = (field.ty, &expr.kind) {
             return self.words(slot, words, entries, scope);
         }
+        if let (FieldType::Names(kind), ExprKind::List(entries)) = (field.ty, &expr.kind) {
+            return self.names(slot, kind, (entries, scope));
+        }
         if let (FieldType::Keyed(dim, unit), ExprKind::List(entries)) = (field.ty, &expr.kind) {
             let triple = |ev: &mut Evaluator<'_>, expr: &Expr| match ev.eval(expr, scope) {
                 Value::Poison => Value::Poison,
@@ -95,7 +98,7 @@ impl Evaluator<'_> {
             }
             ExprKind::Path(path) => {
                 let kind = match field.ty {
-                    FieldType::Name(kind) => Some(kind),
+                    FieldType::Name(kind) | FieldType::Names(kind) => Some(kind),
                     _ => None,
                 };
                 let value = self.path(path, scope, kind);
@@ -261,6 +264,10 @@ impl Evaluator<'_> {
             FieldType::Name(kind) => match value {
                 Value::Item(own, _) if own == kind => value,
                 other => self.wrong_kind(slot, &other, kind.with_article()),
+            },
+            FieldType::Names(kind) => match value {
+                Value::Item(own, _) if own == kind => Value::List([(value, slot.span())].into()),
+                other => self.wrong_kind(slot, &other, &format!("a list of {}s", kind.name())),
             },
             FieldType::Shape => self.fit_shape(slot, value),
             FieldType::Interval(bounds) => self.fit_interval(slot, value, bounds),

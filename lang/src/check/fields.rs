@@ -255,6 +255,16 @@ impl Fields {
         }
     }
 
+    /// Named declarations of a list, each with the place of its name.
+    pub(crate) fn items(&self, name: &str) -> Vec<(ItemId, Span)> {
+        let Some(Value::List(values)) = self.get(name) else { return Vec::new() };
+        let item = |(value, span): &(Value, Span)| match value {
+            Value::Item(_, id) => Some((*id, *span)),
+            _ => None,
+        };
+        values.iter().filter_map(item).collect()
+    }
+
     /// A text in quotes.
     pub(crate) fn text(&self, name: &str) -> Option<String> {
         match self.get(name) {

@@ -5,12 +5,14 @@ use std::rc::Rc;
 use super::fields::Fields;
 use super::given::Givens;
 use super::group::{self, Group};
+use super::linked;
 use super::object::{self, Objects, Thing};
 use super::transform::{self, Mixed, Pose, Way};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::value::{ShapeValue, Value};
 use crate::eval::{Evaluator, Scope};
 use crate::resolve::ItemId;
+use crate::scene::LightLinks;
 use crate::source::Span;
 use crate::syntax::Index;
 use crate::units::Dim;
@@ -32,6 +34,8 @@ pub(super) struct Placed {
     pub(super) shape_span: Span,
     pub(super) material: Option<(ItemId, Span)>,
     pub(super) group: Group,
+    /// What it lights, if it is a light that does not light everything.
+    pub(super) links: Option<LightLinks>,
     pub(super) pose: Pose,
 }
 
@@ -71,6 +75,7 @@ struct Place<'a> {
     name_span: Span,
     /// What the instance itself says, which replaces what all others say.
     over: Inherited,
+    links: Option<LightLinks>,
 }
 
 impl World {
@@ -170,7 +175,7 @@ impl World {
         let Some(pose) = transform::pose(fields) else { return };
         let over = Inherited { material, group: group::group(fields) };
         let (material, group) = (over.material, over.group.clone());
-        let place = Place { key, name_span, over };
+        let place = Place { key, name_span, over, links: linked::links(ev, fields) };
         let shape_span = fields.value_span("shape").or(base.map(|(_, at)| at)).unwrap_or(name_span);
         let thing = Thing { object: None, shape, shape_span, material, group, pose };
         if placed {
@@ -270,6 +275,7 @@ impl World {
             shape_span: thing.shape_span,
             material,
             group,
+            links: place.links.clone(),
             pose: world.clone(),
         });
     }

@@ -3,12 +3,15 @@
 use super::brightness::{self, Emitter};
 use super::exclusive::one_of;
 use super::fields::Fields;
+use super::linked;
 use super::transform::{self, Pose, Way};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::eval::Evaluator;
 use crate::material::{Color, Emissive, Scalar};
 use crate::resolve::ItemId;
-use crate::scene::{Beam, ColorSpace, Directional, Light, Name, Profile, Rgb, Shape, Tint};
+use crate::scene::{
+    Beam, ColorSpace, Directional, Light, LightLinks, Name, Profile, Rgb, Shape, Tint,
+};
 use crate::schema::Kind;
 use crate::schema::light::LightType;
 use std::f64::consts::PI;
@@ -34,6 +37,7 @@ pub(super) struct Panel {
     /// Only the largest disk in it is there.
     pub(super) round: bool,
     pub(super) group: Option<String>,
+    pub(super) links: Option<LightLinks>,
 }
 
 /// Whether these are the fields of a light that is placed in the world as instances are.
@@ -44,6 +48,7 @@ pub(super) fn is_thing(fields: &Fields) -> bool {
 /// Checks how the fields of a light go together.
 pub(super) fn check_light(ev: &mut Evaluator<'_>, id: ItemId, fields: &Fields) {
     brightness::check(ev, fields);
+    linked::check(ev, fields);
     match LightType::of(fields.schema) {
         LightType::Sphere => check_sphere(ev, id, fields),
         LightType::Point => check_point(ev, id, fields),
@@ -269,7 +274,9 @@ fn directional(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Option<Li
     let emitter = Emitter { irradiance: PI * sine * sine, ..Emitter::default() };
     let radiance = brightness::radiance(ev, &name, fields, emitter)?;
     let group = fields.text("group");
-    Some(Lit::Directional(Box::new(Directional { name, direction, half_angle, radiance, group })))
+    let links = linked::links(ev, fields);
+    let light = Directional { name, direction, half_angle, radiance, group, links };
+    Some(Lit::Directional(Box::new(light)))
 }
 
 fn ball(
@@ -298,6 +305,7 @@ fn ball(
         profile: None,
         visible,
         group,
+        links: linked::links(ev, fields),
     };
     Some(Lit::Ball(Box::new(light)))
 }
@@ -324,6 +332,7 @@ fn luminaire(
         profile: Some(Profile { texture: 0, direction, first }),
         visible: fields.word("visible")? == "on",
         group: fields.text("group"),
+        links: linked::links(ev, fields),
     })))
 }
 
@@ -359,8 +368,9 @@ fn panel(ev: &mut Evaluator<'_>, name: Name, fields: &Fields, form: &Form) -> Op
         way: Way::Still,
     };
     let material = glow(fields, radiance)?;
-    let group = fields.text("group");
-    Some(Panel { name, shape: Shape::Rectangle { size }, pose, material, round: false, group })
+    let (group, links) = (fields.text("group"), linked::links(ev, fields));
+    let shape = Shape::Rectangle { size };
+    Some(Panel { name, shape, pose, material, round: false, group, links })
 }
 
 /// The material of a thing of this radiance.

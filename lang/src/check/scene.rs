@@ -7,7 +7,9 @@ use super::instance::Placed;
 use super::light::{Lit, Panel};
 use super::render::name;
 use super::transform::Way;
-use super::{Checker, dark, ids_of, is_in_world, light, material, medium, mix, motion, sky};
+use super::{
+    Checker, dark, ids_of, is_in_world, light, link_sets, material, medium, mix, motion, sky,
+};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::eval::value::ShapeValue;
@@ -93,6 +95,7 @@ impl Checker {
         no_light(ev, &scene);
         nothing_in_the_air(ev, &scene);
         motion::check(ev, &scene);
+        link_sets::check(ev, &scene);
         Some(scene)
     }
 
@@ -193,6 +196,7 @@ fn add_panel(scene: &mut Scene, panel: Panel) {
         velocity: panel.pose.velocity,
         motion: None,
         group: panel.group,
+        links: panel.links,
     });
     let mut material = panel.material;
     if panel.round {
@@ -260,6 +264,7 @@ fn instances(
                     Way::Still | Way::Not(_) => None,
                 },
                 group: placed.group.map(|(name, _)| name.as_ref().to_owned()),
+                links: placed.links,
             })
         })
         .collect()

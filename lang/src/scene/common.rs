@@ -11,5 +11,15 @@ pub struct Name {
     pub span: Span,
 }
 
+impl Name {
+    /// Whether the instance of this name is the one that the scene names so, or a part of it: `a[3]` and `a.lid` are of
+    /// `a`.
+    #[must_use]
+    pub fn covers(&self, instance: &str) -> bool {
+        let rest = instance.strip_prefix(self.text.as_str());
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['[', '.']))
+    }
+}
+
 /// Linear Rec. 709 triple.
 pub type Rgb = [f64; 3];

@@ -1,6 +1,7 @@
 //! Things in the world.
 
 use super::common::Name;
+use super::links::LightLinks;
 use super::motion::Motion;
 use crate::shape::{MeshEdit, Shape};
 use crate::source::Span;
@@ -32,4 +33,6 @@ pub struct Instance {
     pub motion: Option<Motion>,
     /// Its light group, if it or an object around it names one.
     pub group: Option<String>,
+    /// Of a light: what it lights. `None`: everything.
+    pub links: Option<LightLinks>,
 }

@@ -1,6 +1,7 @@
 //! Where light comes from.
 
 use super::common::{Name, Rgb};
+use super::links::LightLinks;
 
 /// A sphere light.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +26,8 @@ pub struct Light {
     pub visible: bool,
     /// Its light group, if it names one.
     pub group: Option<String>,
+    /// What it lights; `None`: everything.
+    pub links: Option<LightLinks>,
 }
 
 /// A light at infinity.
@@ -40,6 +43,8 @@ pub struct Directional {
     pub radiance: Rgb,
     /// Its light group, if it names one.
     pub group: Option<String>,
+    /// What it lights; `None`: everything.
+    pub links: Option<LightLinks>,
 }
 
 impl Directional {

@@ -86,11 +86,10 @@ pub enum Side {
 }
 
 impl Fit {
-    /// Whether an instance of this name is what is framed, or a part of it: `a[3]` and `a.lid` are of `a`.
+    /// Whether an instance of this name is what is framed, or a part of it.
     #[must_use]
     pub fn frames(&self, instance: &str) -> bool {
-        let rest = instance.strip_prefix(self.instance.text.as_str());
-        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['[', '.']))
+        self.instance.covers(instance)
     }
 }
 

@@ -136,6 +136,26 @@ const AT: Field = Field::new(
     ("location", "Blender"),
 ]);
 
+/// Light linking.
+const ONLY: Field = Field::new(
+    "only",
+    FieldType::Names(Kind::Instance),
+    Default::Absent("all"),
+    "Light linking: it lights these instances and nothing else. Shadows are not linked: whatever is in the way casts one. \
+     Mirrors that are not among them do not show it; the camera sees it all the same.",
+)
+.typical("`[vase, plinth]`")
+.foreign(&[("light_linking", "Blender"), ("include", "common use"), ("links", "common use")]);
+
+/// Light linking, the other way round.
+const EXCEPT: Field = Field::new(
+    "except",
+    FieldType::Names(Kind::Instance),
+    Default::Absent("none"),
+    "Light linking: it lights everything but these instances. See `only`.",
+)
+.foreign(&[("exclude", "common use")]);
+
 const SPHERE: TypeSchema = TypeSchema {
     kind: Kind::Light,
     name: "sphere",
@@ -221,6 +241,8 @@ const SPHERE: TypeSchema = TypeSchema {
         VELOCITY,
         VISIBLE,
         GROUP,
+        ONLY,
+        EXCEPT,
     ],
     foreign: &[("spherical", "LuxCore")],
 };
@@ -260,6 +282,8 @@ const POINT: TypeSchema = TypeSchema {
         VELOCITY,
         VISIBLE,
         GROUP,
+        ONLY,
+        EXCEPT,
     ],
     foreign: &[("omni", "common use"), ("bulb", "common use")],
 };
@@ -351,6 +375,8 @@ const SPOT: TypeSchema = TypeSchema {
         VELOCITY,
         VISIBLE,
         GROUP,
+        ONLY,
+        EXCEPT,
     ],
     foreign: &[("spotlight", "common use")],
 };
@@ -413,6 +439,8 @@ const DIRECTIONAL: TypeSchema = TypeSchema {
             ..STRENGTH
         },
         GROUP,
+        ONLY,
+        EXCEPT,
     ],
     foreign: &[
         ("distant", "pbrt and USD"),
@@ -457,6 +485,8 @@ const RECTANGLE: TypeSchema = TypeSchema {
         VELOCITY,
         VISIBLE,
         GROUP,
+        ONLY,
+        EXCEPT,
     ],
     foreign: &[
         ("area", "Mitsuba and Blender"),
@@ -485,6 +515,8 @@ const DISK: TypeSchema = TypeSchema {
         VELOCITY,
         VISIBLE,
         GROUP,
+        ONLY,
+        EXCEPT,
     ],
     foreign: &[("disc", "common use"), ("round", "common use"), ("circle", "common use")],
 };
@@ -514,6 +546,8 @@ const MESH: TypeSchema = TypeSchema {
         VELOCITY,
         VISIBLE,
         GROUP,
+        ONLY,
+        EXCEPT,
     ],
     foreign: &[("trianglemesh", "pbrt"), ("geometry", "common use"), ("emitter", "common use")],
 };

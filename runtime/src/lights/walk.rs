@@ -54,7 +54,8 @@ macro_rules! precision {
                     return sample.take(lights.of_emitter(Emitter::Sky), emitted);
                 }
                 for i in 0..n {
-                    let found = path.throughput * kernel.directional_found(i, path.dir, path.pdf);
+                    let found = path.throughput
+                        * kernel.directional_found(i, path.dir, path.pdf, path.receiver);
                     sample.take(lights.of_emitter(Emitter::Light(i)), $double(found));
                 }
                 let sky = path.throughput * kernel.dispatch_sky_miss(path.dir, path.pdf);

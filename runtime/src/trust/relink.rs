@@ -20,6 +20,7 @@ pub(crate) const RENDER: &str = "render";
 pub(crate) const AOV: &str = "aov";
 
 /// What a kernel is wanted to do.
+#[expect(clippy::struct_excessive_bools, reason = "each is something that has no feature bit")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Wanted {
     /// Bits of `pack::features`.
@@ -30,6 +31,8 @@ pub(crate) struct Wanted {
     pub(crate) keys: bool,
     /// Whether the camera moves; likewise.
     pub(crate) camera_keys: bool,
+    /// Whether some light does not light everything; likewise.
+    pub(crate) links: bool,
 }
 
 impl Wanted {
@@ -41,6 +44,7 @@ impl Wanted {
             smooth: has("fn triangle_surface("),
             keys: has("fn pose_at("),
             camera_keys: has("fn keys_camera("),
+            links: has("load_frame_link_at()"),
         }
     }
 
@@ -145,6 +149,8 @@ const SMOOTH: [&str; 4] = ["triangle_surface(", "SmoothStart", "smooth_start_", 
 const KEYED: [&str; 2] = ["pose_", "dispatch_triangle_dir(i, ray.dir"];
 /// Words of the texts for cameras that move, likewise.
 const EYE: [&str; 1] = ["keys_camera("];
+/// Words of the texts for light linking, likewise.
+const LINKED: [&str; 4] = ["struct Receiver", "Receiver(", "receiver.", "load_frame_link_at()"];
 /// Words of the text for either.
 const TIME: [&str; 1] = ["load_frame_camera_key_at() == NONE"];
 
@@ -162,14 +168,19 @@ impl Choice<'_> {
             let own = self.own.get(STACK).filter(|text| stack_size(text).is_some());
             return Some((*own.unwrap_or(&"const STACK_SIZE: u32 = 0x1u;")).to_owned());
         }
-        let Wanted { features, smooth, keys, camera_keys } = self.wanted;
+        let Wanted { features, smooth, keys, camera_keys, links } = self.wanted;
         let rows = table().get(name).into_iter().flatten();
         let fitting: BTreeSet<&str> = rows
             .filter(|known| known.condition.holds(features, self.sections))
             .map(|known| known.text)
             .collect();
-        let kinds: [(&[&str], bool); 4] =
-            [(&SMOOTH, smooth), (&KEYED, keys), (&EYE, camera_keys), (&TIME, keys || camera_keys)];
+        let kinds: [(&[&str], bool); 5] = [
+            (&SMOOTH, smooth),
+            (&KEYED, keys),
+            (&EYE, camera_keys),
+            (&TIME, keys || camera_keys),
+            (&LINKED, links),
+        ];
         // What has no bit tells texts apart that fit the same features.
         let chosen = match fitting.len() {
             0 => None,

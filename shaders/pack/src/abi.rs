@@ -17,6 +17,7 @@ mod geometry;
 mod instance;
 mod light;
 mod light_node;
+mod link;
 mod material;
 mod medium;
 mod motion;
@@ -40,6 +41,7 @@ pub use geometry::{
 pub use instance::{Instance, OBJECT_OF_INSTANCE};
 pub use light::{Light, LightKind, LightSurface};
 pub use light_node::{LIGHT_LEAF, LightNode, MAX_LIGHT_DEPTH};
+pub use link::LightLink;
 pub use material::{Lobes, Material, MaterialKind, Number, Traits, material_flag};
 pub use medium::Medium;
 pub use motion::{CameraKey, MotionPiece};
@@ -77,6 +79,7 @@ pub fn records() -> Vec<Record> {
         Record::of::<TriShade>(),
         Record::of::<Sphere>(),
         Record::of::<Object>(),
+        Record::of::<LightLink>(),
         Record::of::<MotionPiece>(),
         Record::of::<CameraKey>(),
         Record::of::<Instance>(),

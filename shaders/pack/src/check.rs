@@ -95,6 +95,7 @@ fn records(contents: &Contents<'_>) -> Result<(), PackError> {
     each(contents.spheres, contents)?;
     each(contents.materials, contents)?;
     each(contents.objects, contents)?;
+    each(contents.links, contents)?;
     each(contents.motion, contents)?;
     each(contents.camera_keys, contents)?;
     each(contents.instances, contents)?;

@@ -4,8 +4,8 @@
 //! through this view, so both check and derive the same things. It judges nothing.
 
 use crate::abi::{
-    Camera, CameraKey, Instance, Light, LightNode, Material, Medium, MotionPiece, Node, Object,
-    RenderSettings, Sky, Sphere, Texture, TriShade, Triangle, WideNode,
+    Camera, CameraKey, Instance, Light, LightLink, LightNode, Material, Medium, MotionPiece, Node,
+    Object, RenderSettings, Sky, Sphere, Texture, TriShade, Triangle, WideNode,
 };
 use crate::error::PackError;
 use crate::kind::{Kind, PackRecord};
@@ -32,6 +32,7 @@ pub(crate) struct Contents<'a> {
     pub(crate) srgb: &'a [f32],
     pub(crate) sky_table: &'a [f32],
     pub(crate) albedo: &'a [f32],
+    pub(crate) links: &'a [LightLink],
     pub(crate) motion: &'a [MotionPiece],
     pub(crate) camera_keys: &'a [CameraKey],
     pub(crate) kernel: &'a [u8],
@@ -64,6 +65,7 @@ impl<'a> Contents<'a> {
             srgb: find(Kind::SRGBLUT).map_or(&[], bytemuck::cast_slice),
             sky_table: find(Kind::SKYTABLE).map_or(&[], bytemuck::cast_slice),
             albedo: find(Kind::ALBEDO).map_or(&[], bytemuck::cast_slice),
+            links: records(&find),
             motion: records(&find),
             camera_keys: records(&find),
             kernel: find(Kind::KERNEL).ok_or_else(|| first(Kind::KERNEL))?,

@@ -350,6 +350,9 @@ pub enum ElementFault {
         /// Of the element before.
         before: f32,
     },
+    /// A light in several sets.
+    #[error("is {0:#x}, expected one bit or none")]
+    SeveralSets(u32),
     /// A time that does not come after another.
     #[error("is {found}, not after the {before} before it")]
     NotAfter {

@@ -177,7 +177,7 @@ mod tests {
     #[test]
     fn the_listing_names_every_field_of_every_record() {
         let listing = layout_listing();
-        assert!(listing.starts_with("Frame 176\n  0 tile_origin vec2<u32>\n"));
+        assert!(listing.starts_with("Frame 192\n  0 tile_origin vec2<u32>\n"));
         assert!(listing.contains("\nRenderSettings 112\n  0 image_size vec2<u32>\n"));
     }
 }

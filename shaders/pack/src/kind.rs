@@ -52,6 +52,8 @@ impl Kind {
     /// Tables of directional albedo, `f32` values, four a word. Present exactly when a material reads one:
     /// [`abi::albedo_words`].
     pub const ALBEDO: Self = Self(*b"ALBEDO  ");
+    /// [`abi::LightLink`]s; absent when every light lights everything.
+    pub const LIGHTLINK: Self = Self(*b"LIGHTLNK");
     /// [`abi::MotionPiece`]s; absent when nothing turns and every way is one straight line.
     pub const MOTION: Self = Self(*b"MOTION  ");
     /// [`abi::CameraKey`]s; absent when the camera stands still.
@@ -158,7 +160,7 @@ const MAX_SKY_WORDS: u64 = (32 << 20) / 16 + (1 << 16);
 pub(crate) const SRGB_WORDS: u64 = 64;
 
 /// Every section of this format, in file order.
-pub const SECTIONS: [SectionSpec; 23] = [
+pub const SECTIONS: [SectionSpec; 24] = [
     one(Kind::RENDER, size_of::<abi::RenderSettings>(), true),
     // 2: kinds of cameras.
     SectionSpec { version: 2, ..one(Kind::CAMERA, size_of::<abi::Camera>(), true) },
@@ -183,6 +185,7 @@ pub const SECTIONS: [SectionSpec; 23] = [
     SectionSpec { min_count: SRGB_WORDS, ..table(Kind::SRGBLUT, 16, SRGB_WORDS) },
     table(Kind::SKYTABLE, 16, MAX_SKY_WORDS),
     table(Kind::ALBEDO, 16, 1 << 16),
+    table(Kind::LIGHTLINK, size_of::<abi::LightLink>(), 1 << 24),
     table(Kind::MOTION, size_of::<abi::MotionPiece>(), 1 << 20),
     // One key is no motion.
     SectionSpec { min_count: 2, ..table(Kind::CAMERAKEY, size_of::<abi::CameraKey>(), 1 << 16) },
@@ -209,5 +212,5 @@ pack_records! {
     TriShade => TRISHADE, Sphere => SPHERE, Material => MATERIAL, Object => OBJECT,
     Instance => INSTANCE,
     Medium => MEDIUM, Light => LIGHT, LightNode => LIGHTNODE, Texture => TEXTURE,
-    MotionPiece => MOTION, CameraKey => CAMERAKEY,
+    LightLink => LIGHTLINK, MotionPiece => MOTION, CameraKey => CAMERAKEY,
 }

@@ -36,12 +36,14 @@ use Mutation::{Parts, Raw, Table, Word};
 fn error(mutation: &Mutation) -> PackError {
     let wide = matches!(mutation, Word(Kind::WIDENODE, ..));
     let keyed = matches!(mutation, Word(Kind::MOTION | Kind::CAMERAKEY, ..));
-    let mut bytes = match (wide, keyed) {
-        (true, _) => Scene::wide(),
-        (false, true) => Scene::with_keys(),
-        (false, false) => Scene::full(),
-    }
-    .bytes();
+    let linked = matches!(mutation, Word(Kind::LIGHTLINK, ..));
+    let scene = match (wide, keyed, linked) {
+        (true, ..) => Scene::wide(),
+        (_, true, _) => Scene::with_keys(),
+        (.., true) => Scene::full().and_links(),
+        _ => Scene::full(),
+    };
+    let mut bytes = scene.bytes();
     match mutation {
         Raw(change) => change(&mut bytes),
         Table(change) => {

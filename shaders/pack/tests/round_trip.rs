@@ -30,7 +30,7 @@ fn assert_same(pack: &Pack, scene: &Scene) {
 
 #[test]
 fn everything_comes_back() {
-    for scene in [Scene::full(), Scene::with_keys(), Scene::empty()] {
+    for scene in [Scene::full(), Scene::with_keys(), Scene::full().and_links(), Scene::empty()] {
         let pack = Pack::from_bytes(scene.bytes()).unwrap();
         assert_same(&pack, &scene);
         assert_eq!(pack.recipe_id(), [7; 32]);
@@ -107,6 +107,7 @@ fn the_order_of_calls_and_the_number_of_threads_do_not_change_a_byte() {
     writer
         .records(&scene.media)
         .records(&scene.objects)
+        .records(&scene.links)
         .records(&scene.motion)
         .records(&scene.camera_keys)
         .records(&scene.nodes)
@@ -199,7 +200,7 @@ fn absent_kinds_bring_no_section() {
     };
     let keyed = |scene: Scene| {
         let Scene { objects, motion, camera_keys, .. } = Scene::with_keys();
-        Scene { objects, motion, camera_keys, ..scene }
+        Scene { objects, motion, camera_keys, ..scene }.and_links()
     };
     let all = keyed(Scene::with_light_tree().and_instances().and_albedo());
     assert_eq!(kinds(&all), but(Kind::WIDENODE));

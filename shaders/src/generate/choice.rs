@@ -46,9 +46,9 @@ fn chosen(features: &FeatureSet, text: &mut String) {
                    let sky = tree_sky();\n        \
                    if (u - far < sky.pmf) {\n            return LightChoice(sky.index, sky.pmf, light_choice_unit((u - far) / sky.pmf));\n        }\n        \
                    let rest = (1.0 - far) - sky.pmf;\n        \
-                   let choice = tree_choose(p, receiver, light_choice_unit(((u - far) - sky.pmf) / rest));\n        \
+                   let choice = tree_choose(p, receiver_facing(receiver), light_choice_unit(((u - far) - sky.pmf) / rest));\n        \
                    return LightChoice(choice.index, choice.pmf * rest, choice.rest);\n    }\n";
-        pmf += "((1.0 - dispatch_directional_share()) - tree_sky().pmf) * tree_pmf(index, p, receiver);\n    }\n";
+        pmf += "((1.0 - dispatch_directional_share()) - tree_sky().pmf) * tree_pmf(index, p, receiver_facing(receiver));\n    }\n";
     }
     choose += "    return choose_from_table(n_lights, u);\n";
     let table = "    return load_light_pmf(index);\n";

@@ -21,6 +21,7 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
         "scene/eye.wgsl",
         "scene/motion.wgsl",
         "scene/placed.wgsl",
+        "scene/receiver.wgsl",
         "scene/records.wgsl",
         "scene/sampler.wgsl",
         "shape/sphere.wgsl",
@@ -239,7 +240,7 @@ fn miss(features: &FeatureSet) -> String {
     let sky_is_sampled = features.geometry() && features.lights.contains(&LightKind::Sky);
     let plus = match (features.lights.contains(&LightKind::Directional), features.geometry()) {
         (false, _) => "",
-        (true, true) => " + directional_miss(dir, pdf)",
+        (true, true) => " + directional_miss(dir, pdf, receiver)",
         // Every ray is the camera's.
         (true, false) => " + directional_backdrop(dir)",
     };
@@ -261,8 +262,8 @@ fn miss(features: &FeatureSet) -> String {
         (alone, format!("    return {sky}{plus};\n"))
     };
     format!(
-        "{alone}\n// Radiance found by a direction that was sampled with density `pdf` and hits nothing.\n\
-         fn dispatch_miss(dir: vec3f, pdf: f32) -> vec3f {{\n{body}}}\n"
+        "{alone}\n// Radiance that a direction from a `receiver`, sampled with density `pdf`, finds where it hits nothing.\n\
+         fn dispatch_miss(dir: vec3f, pdf: f32, receiver: Receiver) -> vec3f {{\n{body}}}\n"
     )
 }
 

@@ -45,6 +45,7 @@ const TABLES: &[Table] = &[
     section("TriShade", "tri_shade", "shade_word", "abi/tri_shade.wgsl"),
     section("Sphere", "sphere", "sphere_word", "abi/sphere.wgsl"),
     heap("Object", "object", "abi/object.wgsl", "object_at"),
+    heap("LightLink", "light_link", "abi/light_link.wgsl", "link_at"),
     heap("MotionPiece", "motion_piece", "abi/motion_piece.wgsl", "path_at"),
     heap("CameraKey", "camera_key", "abi/camera_key.wgsl", "camera_key_at"),
     heap("Instance", "instance", "abi/instance.wgsl", "instance_at"),

@@ -93,6 +93,7 @@ const OTHERS: &[Other] = &[
         f.motion = true;
         f.camera_keys = true;
     }),
+    ("light linking", |f| f.links = true),
     ("wide nodes", |f| f.layouts = [NodeLayout::Wide].into()),
 ];
 

@@ -70,7 +70,8 @@ fn aov_advance(path: ptr<function, Path>, found: ptr<function, AovSample>, hit: 
         (*path).open = false;
     } else if (hit.prim == NONE) {
         if ((*found).alpha == 0.0) {
-            (*found).backdrop = (*path).radiance + (*path).throughput * dispatch_miss((*path).dir, (*path).pdf);
+            let sky = dispatch_miss((*path).dir, (*path).pdf, (*path).receiver);
+            (*found).backdrop = (*path).radiance + (*path).throughput * sky;
         }
         (*path).open = false;
     } else {

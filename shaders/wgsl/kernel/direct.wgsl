@@ -15,6 +15,7 @@
 #import "scene/dispatch_bsdf.wgsl"
 #import "scene/dispatch_choice.wgsl"
 #import "scene/dispatch_radiance.wgsl"
+#import "scene/links.wgsl"
 #import "scene/receiver.wgsl"
 #import "scene/records.wgsl"
 #import "scene/sampler.wgsl"
@@ -38,6 +39,9 @@ fn direct_sample(
     let point = sample_2d(key, PURPOSE_LIGHT_POINT);
     let choice = dispatch_choose(n_lights, p, receiver, point.x);
     if (choice.pmf <= 0.0) {
+        return;
+    }
+    if (!links_joined(choice.index, receiver_links(receiver))) {
         return;
     }
     let light = load_light(choice.index);

@@ -5,25 +5,30 @@
 #import "light/directional.wgsl"
 #import "math/vector.wgsl"
 #import "scene/dispatch_choice.wgsl"
+#import "scene/links.wgsl"
+#import "scene/receiver.wgsl"
 #import "scene/records.wgsl"
 
-// Radiance of all directional lights along `dir`, which was sampled with density `pb` per steradian, 0 for the camera
-// and delta lobes.
-fn directional_miss(dir: vec3f, pb: f32) -> vec3f {
+// Radiance of all directional lights along `dir` from a `receiver`, which sampled it with density `pb` per steradian,
+// 0 for the camera and delta lobes.
+fn directional_miss(dir: vec3f, pb: f32, receiver: Receiver) -> vec3f {
     let n = directional_count();
     var radiance = vec3f(0.0);
     for (var i = 0u; i < n; i += 1u) {
-        radiance += directional_found(i, dir, pb);
+        radiance += directional_found(i, dir, pb, receiver);
     }
     return radiance;
 }
 
 // The same of light `index` alone.
-fn directional_found(index: u32, dir: vec3f, pb: f32) -> vec3f {
+fn directional_found(index: u32, dir: vec3f, pb: f32, receiver: Receiver) -> vec3f {
     let light = load_light(index);
     let radiance = directional_light_radiance(light, dir);
     if (vector_max(radiance) <= 0.0) {
         return radiance;
+    }
+    if (!links_joined(index, receiver_links(receiver))) {
+        return vec3f(0.0);
     }
     return radiance * directional_weight(index, light, pb);
 }

@@ -61,7 +61,7 @@ fn path_advance(path: ptr<function, Path>, hit: Hit) {
             return;
         }
     } else if (hit.prim == NONE) {
-        (*path).radiance += (*path).throughput * dispatch_miss((*path).dir, (*path).pdf);
+        (*path).radiance += (*path).throughput * dispatch_miss((*path).dir, (*path).pdf, (*path).receiver);
         (*path).open = false;
         return;
     } else if (!vertex_surface(path, hit, &v)) {

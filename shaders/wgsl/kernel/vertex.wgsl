@@ -15,6 +15,7 @@
 #import "scene/dispatch_mix.wgsl"
 #import "scene/dispatch_pattern.wgsl"
 #import "scene/dispatch_tint.wgsl"
+#import "scene/links.wgsl"
 #import "scene/receiver.wgsl"
 #import "scene/records.wgsl"
 #import "scene/probe.wgsl"
@@ -28,7 +29,7 @@
 // Where light is scattered: a surface, or a point in a medium.
 struct Vertex {
     scatter: Scatter,
-    // In a medium it has the point and no extent.
+    // In a medium it has the point, no extent and no object.
     s: Surface,
     // Flags of its `Material`; 0 in a medium.
     flags: u32,
@@ -70,7 +71,8 @@ fn vertex_medium(path: ptr<function, Path>, p: vec3f, i: u32, v: ptr<function, V
         (*path).open = false;
         return;
     }
-    let s = surface_new(p, -(*path).dir, (*path).dir, 0.0);
+    var s = surface_new(p, -(*path).dir, (*path).dir, 0.0);
+    s.object = NONE;
     *v = Vertex(phase_scatter(i, (*path).key), s, 0u, vec2u(NONE));
 }
 
@@ -85,7 +87,7 @@ fn vertex_scatter(path: ptr<function, Path>, v: Vertex) {
     let wo = -(*path).dir;
     let key = (*path).key;
     let ray_offset = v.s.ng * v.s.ray_offset;
-    let receiver = receiver_at(v.scatter);
+    let receiver = receiver_at(v.scatter, v.s.object);
     if (!vertex_is_last(path)) {
         dispatch_direct(path, v.s.p, ray_offset, receiver, v.scatter, wo);
     }
@@ -119,7 +121,7 @@ fn vertex_leave(path: ptr<function, Path>, next: Scattered, pdf: f32) {
 // to sample it as a light.
 fn vertex_emit(path: ptr<function, Path>, s: Surface, m: Material) {
     let radiance = emission_radiance(m.emission, m.flags, m.emission_texture, s.uv, s.front);
-    if (vector_max(radiance) > 0.0) {
+    if (vector_max(radiance) > 0.0 && links_glow(s.object, receiver_links((*path).receiver))) {
         let seen = dispatch_tint(radiance, s.material, m.flags, s.light, (*path).dir);
         let from_point = dispatch_vertex(path);
         let receiver = (*path).receiver;

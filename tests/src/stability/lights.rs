@@ -184,10 +184,10 @@ instance ceiling {{ shape = tiles, material = lamp }}
     let bench = Bench::new().lights(&equal.lowered.lights).light_tree(&equal.lowered.light_nodes);
     let (mut single, mut double) = (bench.single(), bench.double());
     let p = DVec3::new(0.02, -0.3, 0.05);
-    let one: f64 = (0..lights)
-        .map(|i| f64::from(single.dispatch_choose_pmf(i, p.as_vec3(), glam::Vec4::ZERO)))
-        .sum();
-    let two: f64 = (0..lights).map(|i| double.dispatch_choose_pmf(i, p, glam::DVec4::ZERO)).sum();
+    let (nobody, nowhere) = (single.receiver_none(), double.receiver_none());
+    let one: f64 =
+        (0..lights).map(|i| f64::from(single.dispatch_choose_pmf(i, p.as_vec3(), nobody))).sum();
+    let two: f64 = (0..lights).map(|i| double.dispatch_choose_pmf(i, p, nowhere)).sum();
     let films_equal = films_of(&scene::bytes(&equal), sized(16, 64));
     let sun = "light sun: sphere { center = (0, 0.5, 0)m, radius = 5cm, strength = 100 }\n";
     let dark = films_of(&scene::bytes(&compile("0", sun)), sized(16, 64));

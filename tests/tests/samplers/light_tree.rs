@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use glam::{DVec3, DVec4};
 use pack::abi::{Light, LightNode};
-use runtime::kernel::f32 as single;
+use runtime::kernel::{f32 as single, f64 as double};
 use tests::kernel::Bench;
 use tests::scene;
 use tests::statistics::Counts;
@@ -66,10 +66,12 @@ fn lights_are_chosen_by_the_tree_with_the_probability_it_says() {
     for (set, (triangles, sides, receiver)) in SETS.into_iter().enumerate() {
         let (lights, nodes) = scattered(triangles, sides);
         let bench = Bench::new().lights(&lights).light_tree(&nodes);
-        let (mut single, mut double) = (bench.single(), bench.double());
+        let (mut f32s, mut f64s) = (bench.single(), bench.double());
+        let near = single::Receiver { facing: receiver.as_vec4(), ..f32s.receiver_none() };
+        let exact = double::Receiver { facing: receiver, ..f64s.receiver_none() };
         let n = u32::try_from(lights.len()).expect("few");
         for (i, p) in POINTS.into_iter().enumerate() {
-            let pmf = |index| double.dispatch_choose_pmf(index, p, receiver);
+            let pmf = |index| f64s.dispatch_choose_pmf(index, p, exact);
             let shares: Vec<f64> = (0..n).map(pmf).collect();
             let sum: f64 = shares.iter().sum();
             assert!(
@@ -80,13 +82,12 @@ fn lights_are_chosen_by_the_tree_with_the_probability_it_says() {
             let mut counts = Counts::new(outcomes.map(|share| share * N as f64).collect());
             for k in 0..N {
                 let test = 1500 + POINTS.len() * set + i;
-                let u = single.sample_1d(key(test, k), single::PURPOSE_LIGHT_CHOICE);
-                let choice = single.dispatch_choose(n, p.as_vec3(), receiver.as_vec4(), u);
+                let u = f32s.sample_1d(key(test, k), single::PURPOSE_LIGHT_CHOICE);
+                let choice = f32s.dispatch_choose(n, p.as_vec3(), near, u);
                 let none = choice.pmf == 0.0;
                 counts.add(if none { lights.len() } else { choice.index as usize });
                 if k < 10_000 && !none {
-                    let back =
-                        single.dispatch_choose_pmf(choice.index, p.as_vec3(), receiver.as_vec4());
+                    let back = f32s.dispatch_choose_pmf(choice.index, p.as_vec3(), near);
                     assert_eq!(choice.pmf, back, "light {}", choice.index);
                     let truth = shares[choice.index as usize];
                     assert!((f64::from(choice.pmf) / truth - 1.0).abs() < 1e-3, "{p} {truth}");
@@ -103,12 +104,13 @@ fn lights_that_face_the_point_have_a_probability() {
     let (lights, nodes) = scattered(200, "front");
     let bench = Bench::new().lights(&lights).light_tree(&nodes);
     let mut kernel = bench.double();
+    let nobody = kernel.receiver_none();
     let mut stream = Stream::new(12, 0);
     let mut averted = 0;
     for _ in 0..200 {
         let p = stream.direction() * 3.0 * stream.unit();
         for (index, light) in (0..).zip(&lights) {
-            let pmf = kernel.dispatch_choose_pmf(index, p, glam::DVec4::ZERO);
+            let pmf = kernel.dispatch_choose_pmf(index, p, nobody);
             let v = |x: [f32; 3]| DVec3::from(x.map(f64::from));
             let normal = v(light.edge1).cross(v(light.edge2));
             let sphere = light.area == 0.0;

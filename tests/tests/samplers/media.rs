@@ -109,7 +109,7 @@ fn grey(sigma_t: f32, albedo: f32) -> single::Medium {
         sigma_s: Vec3::splat(sigma_s),
         reach: 1e20,
         color: Vec3::ZERO,
-        _pad0: 0,
+        receives: 0,
     }
 }
 

@@ -77,5 +77,13 @@ abi_struct! {
         pub _pad0: u32,
         /// Unused.
         pub _pad1: u32,
+        /// First heap word of the `LightLink` table; `NONE`: every light lights everything.
+        pub link_at: u32,
+        /// Unused.
+        pub _pad2: u32,
+        /// Unused.
+        pub _pad3: u32,
+        /// Unused.
+        pub _pad4: u32,
     }
 }

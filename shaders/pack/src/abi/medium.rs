@@ -16,7 +16,7 @@ abi_struct! {
         /// Radiance that takes the place of what a segment loses: of every segment in fog, of those
         /// that leave the scene in other media.
         pub color: [f32; 3],
-        /// Unused.
-        pub _pad0: u32,
+        /// As `LightLink::receives`, of everything that it fills.
+        pub receives: u32,
     }
 }

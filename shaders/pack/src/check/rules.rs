@@ -4,10 +4,10 @@
 //! field that is not in it may hold any value, and the comment there says why.
 
 use crate::abi::{
-    Camera, CameraKey, CameraKind, FilterKind, Instance, Light, LightKind, LightNode, LightSurface,
-    MOVES, Material, MaterialKind, Medium, MotionPiece, Node, OBJECT_OF_INSTANCE, Object,
-    RenderSettings, SamplerKind, Sky, SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, ToneMap,
-    TriShade, Triangle, UNLIMITED_DEPTH, WideNode, Wrap, material_flag,
+    Camera, CameraKey, CameraKind, FilterKind, Instance, Light, LightKind, LightLink, LightNode,
+    LightSurface, MOVES, Material, MaterialKind, Medium, MotionPiece, Node, OBJECT_OF_INSTANCE,
+    Object, RenderSettings, SamplerKind, Sky, SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat,
+    ToneMap, TriShade, Triangle, UNLIMITED_DEPTH, WideNode, Wrap, material_flag,
 };
 use crate::contents::Contents;
 use crate::fault::ElementFault;
@@ -154,6 +154,12 @@ rules! { pack;
         pivot: finite(),
         path: way(table(pack, Kind::MOTION)),
     }
+    // `receives` is any number.
+    LightLink {
+        own_set: set_of_lights(),
+        _pad0: unused(),
+        _pad1: unused(),
+    }
     // That pieces follow each other is checked with the ways.
     MotionPiece {
         shift: finite(),
@@ -188,13 +194,13 @@ rules! { pack;
         col_z: finite(),
         _pad2: unused(),
     }
+    // `receives` is any number.
     Medium {
         sigma_a: not_negative(),
         g: cosine(),
         sigma_s: not_negative(),
         reach: not_negative(),
         color: not_negative(),
-        _pad0: unused(),
     }
     // `priority` is any number.
     Material and material {
@@ -286,6 +292,11 @@ fn id(found: u32, pack: &Contents<'_>) -> Option<ElementFault> {
 #[inline]
 fn object(found: u32, pack: &Contents<'_>) -> Option<ElementFault> {
     let count = if pack.objects.is_empty() { MAX_OBJECTS } else { pack.objects.len() };
+    // Those of lights come first.
+    let links = pack.links.len().saturating_sub(pack.lights.len());
+    if !pack.links.is_empty() && links < count {
+        return index(found & !(TRI_SMOOTH | MOVES), (Kind::LIGHTLINK, links));
+    }
     // Bit 31 says something else of triangles than of spheres.
     index(found & !(TRI_SMOOTH | MOVES), (Kind::OBJECT, count))
 }
@@ -314,6 +325,11 @@ fn at_least_one(value: u32) -> Option<ElementFault> {
 
 fn at_most(value: u32, max: u32) -> Option<ElementFault> {
     count([value], 0, max)
+}
+
+/// One bit or none.
+fn set_of_lights(found: u32) -> Option<ElementFault> {
+    (found.count_ones() > 1).then_some(ElementFault::SeveralSets(found))
 }
 
 /// 1 + an index into the pieces of ways, or 0.

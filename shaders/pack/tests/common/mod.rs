@@ -8,9 +8,9 @@
 pub(crate) mod sound;
 
 use pack::abi::{
-    AlbedoTable, Camera, CameraKey, ChildRef, Instance, LIGHT_LEAF, Light, LightKind, LightNode,
-    MOVES, Material, MaterialKind, Medium, MotionPiece, NONE, Node, OBJECT_OF_INSTANCE, Object,
-    RenderSettings, Sky, SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, TextureOp,
+    AlbedoTable, Camera, CameraKey, ChildRef, Instance, LIGHT_LEAF, Light, LightKind, LightLink,
+    LightNode, MOVES, Material, MaterialKind, Medium, MotionPiece, NONE, Node, OBJECT_OF_INSTANCE,
+    Object, RenderSettings, Sky, SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, TextureOp,
     TextureOpKind, ToneMap, TriShade, Triangle, WideNode, Wrap, f64_bits, material_flag,
 };
 use pack::manifest::Named;
@@ -28,6 +28,7 @@ pub(crate) struct Scene {
     pub(crate) spheres: Vec<Sphere>,
     pub(crate) materials: Vec<Material>,
     pub(crate) objects: Vec<Object>,
+    pub(crate) links: Vec<LightLink>,
     pub(crate) motion: Vec<MotionPiece>,
     pub(crate) camera_keys: Vec<CameraKey>,
     pub(crate) instances: Vec<Instance>,
@@ -327,6 +328,7 @@ impl Scene {
                 Object::default(),
                 Object { motion: [0.0, 0.25, 0.0], ..Object::default() },
             ],
+            links: Vec::new(),
             motion: Vec::new(),
             camera_keys: Vec::new(),
             instances: Vec::new(),
@@ -355,6 +357,14 @@ impl Scene {
         scene.motion = vec![piece([0.0, 0.5]), piece([0.5, 1.0])];
         scene.camera_keys = [0.0, 1.0].map(camera_key).to_vec();
         scene
+    }
+
+    /// The same, with lights that light only some things.
+    pub(crate) fn and_links(mut self) -> Self {
+        let link = |receives, own_set| LightLink { receives, own_set, ..LightLink::default() };
+        self.links = self.lights.iter().map(|_| link(0, 2)).collect();
+        self.links.extend(self.objects.iter().map(|_| link(3, 0)));
+        self
     }
 
     /// The same, with materials that read the first and the last table of directional albedo.
@@ -486,6 +496,7 @@ impl Scene {
             spheres: Vec::new(),
             materials: Vec::new(),
             objects: Vec::new(),
+            links: Vec::new(),
             motion: Vec::new(),
             camera_keys: Vec::new(),
             instances: Vec::new(),
@@ -511,6 +522,7 @@ impl Scene {
             .records(&self.spheres)
             .records(&self.materials)
             .records(&self.objects)
+            .records(&self.links)
             .records(&self.motion)
             .records(&self.camera_keys)
             .records(&self.instances)
