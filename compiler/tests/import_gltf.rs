@@ -242,6 +242,68 @@ fn layers_of_a_material_are_read_from_their_extensions() {
 }
 
 #[test]
+fn sheen_is_read_with_its_images() {
+    let mut document = triangle();
+    let image = document.view(&tiny_png());
+    document.json["images"] = json!([{"bufferView": image, "mimeType": "image/png"}]);
+    document.json["textures"] = json!([{"source": 0}]);
+    document.json["extensionsRequired"] = json!(["KHR_materials_sheen"]);
+    let sheen = json!({"sheenColorFactor": [0.5, 0.25, 2], "sheenRoughnessFactor": 0.75,
+        "sheenColorTexture": {"index": 0}, "sheenRoughnessTexture": {"index": 0}});
+    document.json["materials"] = json!([{"extensions": {"KHR_materials_sheen": sheen}}]);
+    document.json["meshes"][0]["primitives"][0]["material"] = json!(0);
+    let mesh = load(&document);
+    let velvet = &mesh.materials[0];
+    assert_eq!((velvet.sheen, velvet.sheen_roughness), ([0.5, 0.25, 1.0], 0.75));
+    let spaces = [velvet.sheen_map, velvet.sheen_roughness_map].map(|map| map.map(|map| map.space));
+    assert_eq!(spaces, [Some(ColorSpace::Srgb), Some(ColorSpace::Data)]);
+    assert_eq!(mesh.report.warnings, []);
+    document.json["materials"][0]["extensions"]["KHR_materials_sheen"] =
+        json!({"sheenColorFactor": [1, 2]});
+    let error = load_bytes(&document.glb(), &[]).expect_err("two numbers");
+    assert!(error.to_string().contains("the colour of its sheen is not three numbers"), "{error}");
+}
+
+#[test]
+fn brushed_materials_keep_their_wider_width() {
+    let load_with = |material: Value| {
+        let mut document = triangle();
+        let image = document.view(&tiny_png());
+        document.json["images"] = json!([{"bufferView": image, "mimeType": "image/png"}]);
+        document.json["textures"] = json!([{"source": 0}]);
+        document.json["extensionsRequired"] = json!(["KHR_materials_anisotropy"]);
+        document.json["materials"] = json!([material]);
+        document.json["meshes"][0]["primitives"][0]["material"] = json!(0);
+        load(&document)
+    };
+    let brushed = |extension: Value, roughness: f64| {
+        load_with(json!({"extensions": {"KHR_materials_anisotropy": extension},
+            "pbrMetallicRoughness": {"roughnessFactor": roughness}}))
+    };
+    let mesh = brushed(json!({"anisotropyStrength": 0.5, "anisotropyRotation": 1.5}), 0.5);
+    let steel = &mesh.materials[0];
+    // alpha 1/4 across, 1/4 + 3/4 * 1/4 along.
+    let aspect = (1.0 - 0.9 * steel.anisotropy).sqrt();
+    let alpha = steel.roughness.powi(2);
+    assert!(close(alpha * aspect, 0.25) && close(alpha / aspect, 0.4375), "{steel:?}");
+    assert_eq!((steel.anisotropy_rotation, steel.anisotropy_map), (1.5, None));
+    assert_eq!(mesh.report.warnings, []);
+    let mesh = brushed(json!({"anisotropyStrength": 1, "anisotropyTexture": {"index": 0}}), 0.1);
+    let steel = &mesh.materials[0];
+    assert!(close(steel.anisotropy, 1.0) && close(steel.roughness.powi(4), 0.1), "{steel:?}");
+    assert_eq!(steel.anisotropy_map.map(|map| map.space), Some(ColorSpace::Data));
+    assert_eq!(mesh.report.warnings.len(), 2, "{:?}", mesh.report.warnings);
+    let sheen = json!({"sheenColorFactor": [1, 1, 1], "sheenColorTexture": {"index": 0}});
+    let mesh = load_with(json!({"pbrMetallicRoughness": {"roughnessFactor": 0.5}, "extensions":
+        {"KHR_materials_sheen": sheen, "KHR_materials_anisotropy": {"anisotropyStrength": 0.5}}}));
+    assert_eq!((mesh.materials[0].sheen, mesh.materials[0].sheen_map), ([0.0; 3], None));
+    let message = "1 materials have sheen and are coated or brushed; their sheen is left out";
+    assert_eq!(mesh.report.warnings[0].message, message);
+    let plain = brushed(json!({"anisotropyRotation": 1}), 0.5);
+    assert_eq!((plain.materials[0].anisotropy, plain.materials[0].roughness), (0.0, 0.5));
+}
+
+#[test]
 fn a_thin_pane_is_no_glass() {
     let mut document = triangle();
     document.json["materials"] = json!([{"extensions": {

@@ -395,10 +395,18 @@ materials! {
             specular: Scalar = [principled::SPECULAR],
             /// Colour of that reflectance at normal incidence, any non-negative value.
             specular_color: Color = [principled::SPECULAR_COLOR],
+            /// 0 round ..= 1 brushed.
+            anisotropy: f64 = [principled::ANISOTROPY],
+            /// From the tangent to the direction of brushing, radians.
+            anisotropy_rotation: f64 = [principled::ANISOTROPY_ROTATION],
             /// Share under a clear coat, 0 ..= 1.
             coat: Scalar = [principled::COAT_WEIGHT],
             /// Perceptual roughness of the coat, 0 ..= 1.
             coat_roughness: Scalar = [principled::COAT_ROUGHNESS],
+            /// Colour of the sheen, 0 ..= 1.
+            sheen: Color = [principled::SHEEN],
+            /// Perceptual roughness of the sheen, 0 ..= 1.
+            sheen_roughness: Scalar = [principled::SHEEN_ROUGHNESS],
             /// Share of the light entering that goes through the sheet, 0 ..= 1.
             transmission: Scalar = [principled::TRANSMISSION],
             /// Gives back what single scattering loses.

@@ -107,13 +107,29 @@ fn asked() -> Family {
 
 /// Layers of principled surfaces.
 fn layers() -> Family {
-    let bits = [bit::PRINCIPLED_SPECULAR, bit::PRINCIPLED_COAT, bit::PRINCIPLED_TRANSMISSION];
+    let bits = [
+        bit::PRINCIPLED_SPECULAR,
+        bit::PRINCIPLED_COAT,
+        bit::PRINCIPLED_TRANSMISSION,
+        bit::PRINCIPLED_SHEEN,
+        bit::PRINCIPLED_ANISOTROPY,
+    ];
     let member = |rows: BTreeSet<u64>| {
-        let [principled_specular, principled_coat, principled_transmission] =
-            bits.map(|bit| rows.contains(&bit));
-        let full = FeatureSet::full();
-        let features =
-            FeatureSet { principled_specular, principled_coat, principled_transmission, ..full };
+        let [
+            principled_specular,
+            principled_coat,
+            principled_transmission,
+            principled_sheen,
+            principled_anisotropy,
+        ] = bits.map(|bit| rows.contains(&bit));
+        let features = FeatureSet {
+            principled_specular,
+            principled_coat,
+            principled_transmission,
+            principled_sheen,
+            principled_anisotropy,
+            ..FeatureSet::full()
+        };
         (rows.iter().sum(), features)
     };
     Family { mask: bits.iter().sum(), members: subsets(&bits).into_iter().map(member).collect() }

@@ -66,9 +66,9 @@ impl Scene {
     }
 
     /// First heap words of the tables of directional albedo, which begin at word `first`.
-    fn albedo_at(&self, first: u32) -> [u32; 4] {
+    fn albedo_at(&self, first: u32) -> ([u32; 4], [u32; 2]) {
         let at = |word: usize| u32::try_from(word).expect("tables are small") + first;
-        albedo_tables(self.pack().records()).map(|word| word.map_or(NONE, at))
+        Frame::albedo_places(albedo_tables(self.pack().records()).map(|word| word.map_or(NONE, at)))
     }
 
     /// First heap word of a table, `at` if it is there; otherwise `NONE`.
@@ -119,11 +119,13 @@ impl Scene {
         // A camera of somebody else's stands still.
         let still = job.camera.is_some();
         let camera_key_at = if still { NONE } else { self.table(Kind::CAMERAKEY, camera_key_at) };
+        let (albedo_at, albedo_more_at) = self.albedo_at(albedo_first);
         let frame = Frame {
             link_at: self.table(Kind::LIGHTLINK, link_at),
             path_at,
             camera_key_at,
-            albedo_at: self.albedo_at(albedo_first),
+            albedo_at,
+            albedo_more_at,
             image_size: job.image_size,
             seed: job.seed,
             max_depth: settings.max_depth,

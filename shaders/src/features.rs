@@ -81,6 +81,10 @@ pub struct FeatureSet {
     pub principled_coat: bool,
     /// Some principled material lets light through.
     pub principled_transmission: bool,
+    /// Some principled material has sheen.
+    pub principled_sheen: bool,
+    /// Some principled material is brushed.
+    pub principled_anisotropy: bool,
     /// Something moves while the shutter is open.
     pub motion: bool,
     /// Some object turns, or its way is not one straight line; only with `motion`.
@@ -178,6 +182,8 @@ impl FeatureSet {
             principled_specular: false,
             principled_coat: false,
             principled_transmission: false,
+            principled_sheen: false,
+            principled_anisotropy: false,
             motion: false,
             keys: false,
             camera_keys: false,
@@ -225,6 +231,8 @@ impl FeatureSet {
             principled_specular: true,
             principled_coat: true,
             principled_transmission: true,
+            principled_sheen: true,
+            principled_anisotropy: true,
             motion: true,
             keys: true,
             camera_keys: true,

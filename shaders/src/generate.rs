@@ -63,6 +63,7 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/eye.wgsl", motion::eye(features)),
         ("scene/nodes.wgsl", traversal::nodes(features)),
         ("scene/place.wgsl", path::place(features)),
+        ("scene/plain.wgsl", principled::plain(features)),
         ("scene/placed.wgsl", traversal::placed(features)),
         ("scene/probe.wgsl", start::probe(features)),
         ("scene/principled.wgsl", principled::outer(features)),

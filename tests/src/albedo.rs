@@ -6,5 +6,6 @@
 pub mod facets;
 mod forward;
 mod nodes;
+mod sheen;
 
 pub use nodes::{table, tables};

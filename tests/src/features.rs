@@ -230,6 +230,9 @@ pub const CASES: &[Case] = &[
     // Layers of principled surfaces, smooth and rough, with and without textures.
     case("coat", &[GRADIENT, SPHERE_LIGHT, COATED, BALL, TENT, FLOOR]),
     case("smooth coat", &[GRADIENT, SPHERE_LIGHT, VARNISH, BALL, FLOOR]),
+    case("sheen", &[GRADIENT, SPHERE_LIGHT, VELVETY, BALL, TENT, FLOOR]),
+    case("woven sheen", &[GRADIENT, SPHERE_LIGHT, PAINT, WEAR, SHOT_SILK, BALL, TENT, FLOOR]),
+    case("brushed plastic", &[GRADIENT, SPHERE_LIGHT, BRUSHED_PLASTIC, BALL, TENT, FLOOR]),
     case("specular colour", &[GRADIENT, SPHERE_LIGHT, SILK, BALL, FLOOR]),
     case("pane", &[GRADIENT, SPHERE_LIGHT, PANE, BALL, TENT, FLOOR]),
     case("frosted pane", &[GRADIENT, SPHERE_LIGHT, FROSTED_PANE, BALL, TENT, FLOOR]),
@@ -507,6 +510,9 @@ instance spread { shape = quilt, material = m, rotate = (70, 0, 0)deg, at = (-1.
 const COATED: &str = "material m: principled { color = linear(0.5, 0.05, 0.02), roughness = 0.6, coat.weight = 0.9, coat.roughness = 0.2 }\n";
 const VARNISH: &str =
     "material m: principled { color = linear(0.4, 0.2, 0.1), metallic = 0.3, coat.weight = 1 }\n";
+const VELVETY: &str = "material m: principled { color = linear(0.3, 0.02, 0.05), roughness = 0.8, sheen = linear(0.8, 0.5, 0.6), sheen.roughness = 0.4 }\n";
+const SHOT_SILK: &str = "material m: principled { color = linear(0.2), roughness = wear.g, sheen = paint.rgb, sheen.roughness = wear.r, transmission = 0.2 }\n";
+const BRUSHED_PLASTIC: &str = "material m: principled { color = linear(0.1, 0.3, 0.8), roughness = 0.4, anisotropy = 0.8, anisotropy.rotation = 30deg }\n";
 const SILK: &str = "material m: principled { color = linear(0.3), specular = 0.8, specular.color = linear(4, 2, 0.5), roughness = 0.4 }\n";
 const PANE: &str =
     "material m: principled { color = linear(0.9, 1, 0.8), roughness = 0, transmission = 1 }\n";
@@ -520,6 +526,8 @@ const LAYERED: &str = "material m: principled {
   coat.weight = wear.b
   coat.roughness = wear.g
   transmission = wear.a
+  anisotropy = 0.7
+  anisotropy.rotation = -100deg
   normal = bumps.rgb
 }\n";
 
@@ -649,6 +657,7 @@ const MANY: &str = "material m: principled {
   coat.weight = 0.3
   coat.roughness = wear.g
   transmission = 0.2
+  anisotropy = 0.5
   emission.color = glow.rgb
   emission.strength = 0.1
   alpha = wear.a
@@ -662,7 +671,7 @@ material frosted: dielectric { roughness = 0.4 }
 material lacquer: clearcoat { color = linear(0.7, 0.1, 0.1) }
 material maple: leaf { color = linear(0.5, 0.2, 0.1) }
 material sakura: petal { color = linear(0.9, 0.6, 0.7) }
-material gauze: principled { color = linear(0.7, 0.2, 0.3), alpha = 0.6 }
+material gauze: principled { color = linear(0.7, 0.2, 0.3), sheen = linear(0.2, 0.3, 0.4), alpha = 0.6 }
 material rusty: mix { a = steel, b = clay, amount = checker(6) * 0.8 }
 asset tent = obj(\"tent.obj\", unit: m, up: +y)
 instance a { shape = sphere(radius: 60cm), material = glass, at = (-1.5, 0.6, 1)m, velocity = (20, 0, 0)m/s }

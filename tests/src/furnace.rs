@@ -71,6 +71,8 @@ const ROUGHNESS: [f32; 7] = [0.03, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0];
 pub fn surfaces() -> Vec<Surface> {
     let mut all = conductors();
     all.extend(principled());
+    all.extend(brushed());
+    all.extend(sheens());
     all.extend(dielectrics());
     all.extend(coats());
     all.extend(sheets());
@@ -90,7 +92,7 @@ fn conductors() -> Vec<Surface> {
 
 /// A principled surface with layers, and its family.
 fn layered(family: &'static str, lobe: Lobe, layers: Layers) -> Surface {
-    let Layers { coat, coat_roughness, transmission, .. } = layers;
+    let Layers { coat, coat_roughness, transmission, anisotropy, sheen, .. } = layers;
     let mut name =
         format!("roughness {}, metallic {}, index {}", lobe.roughness, lobe.metallic, lobe.ior);
     if coat > 0.0 {
@@ -99,7 +101,60 @@ fn layered(family: &'static str, lobe: Lobe, layers: Layers) -> Surface {
     if transmission > 0.0 {
         let _ = write!(name, ", transmission {transmission}");
     }
-    Surface::new(family, name, lobe, Material::from(layers))
+    if sheen > 0.0 {
+        let _ = write!(name, ", sheen {sheen} of roughness {}", layers.sheen_roughness);
+    }
+    if anisotropy > 0.0 {
+        let _ = write!(name, ", anisotropy {anisotropy}");
+    }
+    Surface::new(family, name, Lobe { anisotropy, ..lobe }, Material::from(layers))
+}
+
+/// Principled surfaces under sheen.
+fn sheens() -> Vec<Surface> {
+    let mut all = Vec::new();
+    for roughness in ROUGHNESS {
+        for (sheen, sheen_roughness) in
+            [(1.0, 0.0), (1.0, 0.1), (1.0, 0.2), (1.0, 0.3), (1.0, 0.5), (0.5, 0.7), (1.0, 1.0)]
+        {
+            let plain = Layers { sheen, sheen_roughness, ..Layers::PLAIN };
+            for ior in [1.05, 1.5, 3.0] {
+                let lobe = Lobe { ior, ..Lobe::principled(roughness, 0.0) };
+                all.push(layered("principled, sheen", lobe, plain));
+                let layers = Layers { transmission: 0.5, ..plain };
+                all.push(layered("principled, sheen on a sheet", lobe, layers));
+            }
+            let metal = Lobe::principled(roughness, 1.0);
+            all.push(layered("principled, sheen on metal", metal, plain));
+        }
+    }
+    all
+}
+
+/// Principled surfaces that are brushed.
+fn brushed() -> Vec<Surface> {
+    let mut all = Vec::new();
+    for roughness in ROUGHNESS {
+        for anisotropy in [0.2, 0.5, 0.8, 1.0] {
+            let plain = Layers { anisotropy, ..Layers::PLAIN };
+            for ior in [1.05, 1.5, 2.0, 3.0] {
+                let lobe = Lobe { ior, ..Lobe::principled(roughness, 0.0) };
+                all.push(layered("principled, brushed", lobe, plain));
+                let layers = Layers { transmission: 0.5, ..plain };
+                all.push(layered("principled, brushed", lobe, layers));
+            }
+            for metallic in [0.5, 1.0] {
+                let lobe = Lobe::principled(roughness, metallic);
+                all.push(layered("principled, brushed", lobe, plain));
+            }
+            for (metallic, coat_roughness) in [(0.0, 0.0), (1.0, 0.0), (0.0, 0.3), (1.0, 0.3)] {
+                let layers = Layers { coat: 1.0, coat_roughness, ..plain };
+                let lobe = Lobe::principled(roughness, metallic);
+                all.push(layered("principled, brushed under a coat", lobe, layers));
+            }
+        }
+    }
+    all
 }
 
 fn principled() -> Vec<Surface> {

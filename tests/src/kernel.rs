@@ -119,11 +119,12 @@ impl Bench {
 
     /// With every table of directional albedo.
     fn albedo(mut self) -> Self {
-        self.frame.albedo_at = AlbedoTable::ALL.map(|of| {
+        let tables = AlbedoTable::ALL.map(|of| {
             let at = self.heap_end();
             self.heap.extend(words(&compiler::lower::albedo::table(of)));
             at
         });
+        (self.frame.albedo_at, self.frame.albedo_more_at) = Frame::albedo_places(tables);
         self.framed()
     }
 

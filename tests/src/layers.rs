@@ -15,12 +15,29 @@ pub struct Layers {
     pub coat_roughness: f32,
     /// Share of the light entering that goes through.
     pub transmission: f32,
+    /// Grey colour of the sheen.
+    pub sheen: f32,
+    /// Perceptual roughness of that.
+    pub sheen_roughness: f32,
+    /// How far the lobe is brushed.
+    pub anisotropy: f32,
+    /// From the tangent to the direction of that, as a share of a turn.
+    pub anisotropy_turn: f32,
 }
 
 impl Layers {
     /// None.
-    pub const PLAIN: Self =
-        Self { specular: 1.0, tint: 1.0, coat: 0.0, coat_roughness: 0.0, transmission: 0.0 };
+    pub const PLAIN: Self = Self {
+        specular: 1.0,
+        tint: 1.0,
+        coat: 0.0,
+        coat_roughness: 0.0,
+        transmission: 0.0,
+        sheen: 0.0,
+        sheen_roughness: 0.0,
+        anisotropy: 0.0,
+        anisotropy_turn: 0.0,
+    };
 }
 
 impl From<Layers> for Material {
@@ -43,10 +60,16 @@ impl From<Layers> for Material {
             coat: layers.coat,
             coat_roughness: layers.coat_roughness,
             transmission: layers.transmission,
+            sheen: [layers.sheen; 3],
+            sheen_roughness: layers.sheen_roughness,
+            anisotropy: layers.anisotropy,
+            anisotropy_turn: layers.anisotropy_turn,
             specular_texture: NONE,
             compensation: 1.0,
             coat_texture: NONE,
             transmission_texture: NONE,
+            anisotropy_texture: NONE,
+            sheen_texture: NONE,
             ..Self::default()
         }
     }

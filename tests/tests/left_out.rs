@@ -147,6 +147,22 @@ const CASES: &[Case] = &[
         words: &["// ---- bsdf/coat.wgsl"],
     },
     Case {
+        name: "black sheen",
+        idle: "MATERIAL sheen = linear(0), sheen.roughness = 0.5\n",
+        without: "",
+        busy: "MATERIAL sheen = linear(0.5), sheen.roughness = 0.5\n",
+        bits: bit::PRINCIPLED_SHEEN,
+        words: &["// ---- bsdf/sheen.wgsl", "under_sheen_"],
+    },
+    Case {
+        name: "anisotropy of 0",
+        idle: "MATERIAL anisotropy = 0, anisotropy.rotation = 30deg\n",
+        without: "",
+        busy: "MATERIAL anisotropy = 0.5, anisotropy.rotation = 30deg\n",
+        bits: bit::PRINCIPLED_ANISOTROPY | bit::TANGENTS,
+        words: &["// ---- bsdf/brushed_gloss.wgsl", "ggx_anisotropic_"],
+    },
+    Case {
         name: "transmission of 0",
         idle: "MATERIAL transmission = 0\n",
         without: "",

@@ -46,7 +46,7 @@ use lang::scene::GltfChoice;
 use std::path::Path;
 
 /// Extensions that are understood.
-const SUPPORTED: [&str; 17] = [
+const SUPPORTED: [&str; 19] = [
     draco::NAME,
     instancing::NAME,
     meshopt::NAME,
@@ -54,6 +54,8 @@ const SUPPORTED: [&str; 17] = [
     maps::WEBP,
     variant::NAME,
     "KHR_lights_punctual",
+    layers::ANISOTROPY,
+    layers::SHEEN,
     "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",

@@ -108,6 +108,20 @@ pub struct ImportedMaterial {
     pub coat_roughness: f64,
     /// Green of this image is a factor on `coat_roughness`.
     pub coat_roughness_map: Option<MapUse>,
+    /// Colour of the sheen, linear Rec. 709, 0 ..= 1.
+    pub sheen: Rgb,
+    /// Red, green and blue of this image are factors on `sheen`.
+    pub sheen_map: Option<MapUse>,
+    /// Perceptual roughness of the sheen, 0 ..= 1.
+    pub sheen_roughness: f64,
+    /// The fourth channel of this image is a factor on `sheen_roughness`.
+    pub sheen_roughness_map: Option<MapUse>,
+    /// How much narrower the highlight is across the direction of brushing than along it, 0 ..= 1.
+    pub anisotropy: f64,
+    /// From the tangent to that direction, radians.
+    pub anisotropy_rotation: f64,
+    /// Red and green of this image turn that direction, blue is a factor on `anisotropy`.
+    pub anisotropy_map: Option<MapUse>,
     /// Refractive index of the dielectric part, >= 1.
     pub ior: f64,
     /// Emitted radiance, linear Rec. 709, any strength already multiplied in; >= 0.
@@ -152,6 +166,13 @@ impl ImportedMaterial {
             coat_map: None,
             coat_roughness: 0.0,
             coat_roughness_map: None,
+            sheen: [0.0; 3],
+            sheen_map: None,
+            sheen_roughness: 0.0,
+            sheen_roughness_map: None,
+            anisotropy: 0.0,
+            anisotropy_rotation: 0.0,
+            anisotropy_map: None,
             ior: 1.5,
             emission: [0.0; 3],
             emission_map: None,
@@ -175,6 +196,9 @@ impl ImportedMaterial {
             self.specular_color_map,
             self.coat_map,
             self.coat_roughness_map,
+            self.sheen_map,
+            self.sheen_roughness_map,
+            self.anisotropy_map,
             self.emission_map,
             self.normal_map,
             self.alpha_map,

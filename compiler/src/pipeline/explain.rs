@@ -174,6 +174,8 @@ impl Explain<'_> {
         let specular = self.materials("has a factor or a colour", Material::has_specular);
         let coat = self.materials("has one", Material::has_coat);
         let transmission = self.materials("lets light through", Material::has_transmission);
+        let sheen = self.materials("has some", Material::has_sheen);
+        let brushed = self.materials("is brushed", Material::is_brushed);
         let through = flag(material_flag::THROUGH);
         let through = self.materials("shadow rays go on behind it", through);
         let sheets = self.materials("light goes straight through it", Material::is_sheet);
@@ -186,6 +188,8 @@ impl Explain<'_> {
             row(bit::PRINCIPLED_SPECULAR, features.principled_specular, specular, None),
             row(bit::PRINCIPLED_COAT, features.principled_coat, coat, None),
             row(bit::PRINCIPLED_TRANSMISSION, features.principled_transmission, transmission, None),
+            row(bit::PRINCIPLED_SHEEN, features.principled_sheen, sheen, None),
+            row(bit::PRINCIPLED_ANISOTROPY, features.principled_anisotropy, brushed, None),
             row(bit::THROUGH, features.through, through, None),
             row(bit::SHEETS, features.sheets, sheets, None),
         ]

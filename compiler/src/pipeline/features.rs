@@ -56,6 +56,8 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
         principled_specular: materials.iter().any(Material::has_specular),
         principled_coat: materials.iter().any(Material::has_coat),
         principled_transmission: materials.iter().any(Material::has_transmission),
+        principled_sheen: materials.iter().any(Material::has_sheen),
+        principled_anisotropy: materials.iter().any(Material::is_brushed),
         normal_maps: materials.iter().any(|m| m.normal_texture != NONE),
         objects: materials.iter().any(|m| m.flags & material_flag::OBJECT != 0),
         media: lowered.render.air != NONE

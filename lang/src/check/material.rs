@@ -22,6 +22,7 @@ pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
     pattern::check(ev, fields);
     whiteness(ev, fields);
     invisible_coat(ev, fields);
+    bare_sheen(ev, fields);
     if let (Some(id), Some(span)) = (fields.item("interior"), fields.value_span("interior")) {
         medium::refuse_fog(ev, id, span);
     }
@@ -33,6 +34,7 @@ pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
 /// Fields that do nothing because of what another field says, and why.
 const NO_EFFECT: &[(&str, &str, f64, &str)] = &[
     ("coat.roughness", "coat.weight", 0.0, "there is no coat"),
+    ("anisotropy.rotation", "anisotropy", 0.0, "nothing is brushed"),
     ("transmission", "metallic", 1.0, "metal lets nothing through"),
     ("specular", "metallic", 1.0, "what a metal reflects is its `color`"),
     ("specular.color", "metallic", 1.0, "what a metal reflects is its `color`"),
@@ -56,6 +58,9 @@ fn no_effect(ev: &mut Evaluator<'_>, fields: &Fields) {
             warn(name, label, fields.span(other));
         }
     }
+    if fields.get("sheen") == Some(Value::Color([0.0; 3])) {
+        warn("sheen.roughness", "there is no sheen", fields.span("sheen"));
+    }
     if !fields.has("normal") {
         warn("normal.strength", "there is no normal map", None);
     }
@@ -72,6 +77,22 @@ fn invisible_coat(ev: &mut Evaluator<'_>, fields: &Fields) {
             .at(span, "reflects under 0.0001% of the light")
             .with_help("write 1.5 for lacquer, or make the material `diffuse`");
         ev.tell(warning);
+    }
+}
+
+/// Fibres stand on a surface that is neither coated nor brushed: what such ones lose under them is not known.
+fn bare_sheen(ev: &mut Evaluator<'_>, fields: &Fields) {
+    let black = fields.get("sheen") == Some(Value::Color([0.0; 3]));
+    let Some(span) = fields.span("sheen").filter(|_| fields.has("sheen") && !black) else { return };
+    for (other, does) in [("coat.weight", "coats"), ("anisotropy", "brushes")] {
+        if let Some(because) = fields.span(other).filter(|_| fields.number(other) != Some(0.0)) {
+            let text = format!("`sheen` cannot go with `{other}`");
+            let error = Diagnostic::error(Code("E0703"), text)
+                .at(span, "fibres over the bare surface")
+                .because(because, format!("this {does} it"))
+                .with_help("leave one of them out, or `mix` two materials, each with one of them");
+            ev.fault(error);
+        }
     }
 }
 

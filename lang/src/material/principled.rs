@@ -1,7 +1,9 @@
 //! Fields of `principled` alone.
 
 use super::fields::{ROUGHNESS_NAMES, UNIT};
+use super::specular::CONDUCTOR_ANISOTROPY;
 use crate::schema::{ANY, Bounds, Default, Field, FieldType, WHITE};
+use crate::units::Dim;
 
 pub(super) const METALLIC: Field = Field::new(
     "metallic",
@@ -48,6 +50,26 @@ pub(super) const SPECULAR_COLOR: Field = Field::new(
     ("spec_tint", "Mitsuba"),
 ]);
 
+pub(super) const ANISOTROPY: Field = Field {
+    doc: "How much wider the highlight is along the direction of brushing than across it: at 1 ten times.",
+    ..CONDUCTOR_ANISOTROPY
+};
+
+pub(super) const ANISOTROPY_ROTATION: Field = Field::new(
+    "anisotropy.rotation",
+    FieldType::Number(Bounds {
+        dim: Dim::ANGLE,
+        unit: "deg",
+        min: -std::f64::consts::TAU,
+        above_min: false,
+        max: std::f64::consts::TAU,
+    }),
+    Default::Number(0.0),
+    "From the direction in which u grows to that of brushing, towards v.",
+)
+.typical("0deg, or 90deg to brush along v")
+.foreign(&[("anisotropyRotation", "glTF"), ("Anisotropic Rotation", "Blender")]);
+
 pub(super) const COAT_WEIGHT: Field = Field::new(
     "coat.weight",
     FieldType::ScalarSlot(UNIT),
@@ -74,6 +96,33 @@ pub(super) const COAT_ROUGHNESS: Field = Field::new(
     ("clearcoatRoughnessTexture", "glTF"),
     ("clearcoat_gloss", "Mitsuba"),
     ("Pcr", "OBJ/MTL"),
+]);
+
+pub(super) const SHEEN: Field = Field::new(
+    "sheen",
+    FieldType::ColorSlot(1.0),
+    Default::Color([0.0; 3]),
+    "Colour of upright fibres over the surface, which reflect most where light grazes them. Not with a coat or anisotropy.",
+)
+.typical("white for dust and peach fuzz; the colour of the thread for velvet")
+.foreign(&[
+    ("sheenColorFactor", "glTF"),
+    ("sheenColorTexture", "glTF"),
+    ("Sheen Tint", "Blender"),
+    ("Ps", "OBJ/MTL"),
+]);
+
+pub(super) const SHEEN_ROUGHNESS: Field = Field::new(
+    "sheen.roughness",
+    FieldType::ScalarSlot(UNIT),
+    Default::Number(0.3),
+    "Perceptual roughness of the sheen: how far from the rim it reaches. Below 0.15 it is that.",
+)
+.typical("velvet 0.3, felt 0.8")
+.foreign(&[
+    ("sheenRoughnessFactor", "glTF"),
+    ("sheenRoughnessTexture", "glTF"),
+    ("Sheen Roughness", "Blender"),
 ]);
 
 pub(super) const TRANSMISSION: Field = Field::new(

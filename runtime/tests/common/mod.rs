@@ -31,6 +31,8 @@ fn material(kind: MaterialKind, color: [f32; 3]) -> Material {
         specular_texture: NONE,
         coat_texture: NONE,
         transmission_texture: NONE,
+        anisotropy_texture: NONE,
+        sheen_texture: NONE,
         medium: NONE,
         ..Material::default()
     }

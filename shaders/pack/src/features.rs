@@ -55,6 +55,10 @@ features! {
     PRINCIPLED_COAT = 29 "principled coat",
     /// Has a principled material that lets light through.
     PRINCIPLED_TRANSMISSION = 30 "principled transmission",
+    /// Has a principled material with sheen.
+    PRINCIPLED_SHEEN = 51 "principled sheen",
+    /// Has a principled material that is brushed.
+    PRINCIPLED_ANISOTROPY = 20 "principled anisotropy",
     /// Something moves while the shutter is open. Ways of several pieces and cameras with keys have no bits of their
     /// own: sections say that they are there.
     MOTION = 31 "motion",
@@ -204,6 +208,8 @@ pub(crate) fn of(contents: &Contents<'_>) -> u64 {
         set(PRINCIPLED_SPECULAR, material.has_specular());
         set(PRINCIPLED_COAT, material.has_coat());
         set(PRINCIPLED_TRANSMISSION, material.has_transmission());
+        set(PRINCIPLED_SHEEN, material.has_sheen());
+        set(PRINCIPLED_ANISOTROPY, material.is_brushed());
     }
     set(MEDIA, contents.render.air != NONE);
     set(FOG, contents.render.fog != NONE);

@@ -19,8 +19,8 @@ fn tables_are_those_that_materials_read() {
     let found = pack.section_bytes(Kind::ALBEDO).map_or(0, <[u8]>::len);
     assert_eq!(found, 16 * albedo_words(&scene.materials));
     let gloss = AlbedoTable::Gloss.words();
-    assert_eq!(albedo_tables(&scene.materials), [Some(0), None, None, Some(gloss)]);
-    assert_eq!(albedo_tables(&Scene::full().materials), [None; 4]);
+    assert_eq!(albedo_tables(&scene.materials), [Some(0), None, None, Some(gloss), None, None]);
+    assert_eq!(albedo_tables(&Scene::full().materials), [None; 6]);
 }
 
 #[test]

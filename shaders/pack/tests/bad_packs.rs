@@ -101,8 +101,8 @@ fn header_cases() -> Vec<Case> {
              rtc X -o X.pack",
         ),
         (
-            Raw(|b| b[54] = 8),
-            "header: unknown features 0x0008000000000000: the pack needs a newer program",
+            Raw(|b| b[54] = 4),
+            "header: unknown features 0x0004000000000000: the pack needs a newer program",
         ),
         (Raw(|b| put32(b, 16, 129)), "header: header_len is 129, expected 128"),
         (Raw(|b| put32(b, 20, 65)), "header: entry_len is 65, expected 64"),
@@ -138,11 +138,11 @@ fn header_cases() -> Vec<Case> {
         (Raw(|b| b[entry(NODE) + 48] ^= 1), "header: render_id does not match the section table"),
         (
             Table(|b| b[48] ^= 1),
-            "header: features are 0x0200ffe0ff2fffde, but the contents have 0x0200ffe0ff2fffdf",
+            "header: features are 0x0200ffe0ff3fffde, but the contents have 0x0200ffe0ff3fffdf",
         ),
         (
             Parts(|d| put64(&mut d.header, 48, 0)),
-            "header: features are 0x0000000000000000, but the contents have 0x0200ffe0ff2fffdf",
+            "header: features are 0x0000000000000000, but the contents have 0x0200ffe0ff3fffdf",
         ),
     ]
 }

@@ -147,7 +147,7 @@ fn the_render_id_names_the_picture_and_not_its_history() {
 fn features_are_those_of_the_contents() {
     let pack = Pack::from_bytes(Scene::full().bytes()).unwrap();
     // A pack has one sky, and this one is no light; few lights need no tree; none is tinted. The nodes are
-    // binary, and no mesh is stored once.
+    // binary, and no mesh is stored once. There is no table of what sheen reflects.
     let absent = SkyKind::Constant.feature()
         | SkyKind::Image.feature()
         | LightKind::Sky.feature()
@@ -163,6 +163,7 @@ fn features_are_those_of_the_contents() {
         | features::SAMPLER_PCG
         | features::BLADES
         | features::UNLIMITED
+        | features::PRINCIPLED_SHEEN
         | CameraKind::Orthographic.feature()
         | CameraKind::Panoramic.feature()
         | FilterKind::ALL.into_iter().map(FilterKind::feature).sum::<u64>();

@@ -1,5 +1,5 @@
-//! `scene/layers.wgsl`, `scene/bare.wgsl`, `scene/principled.wgsl`: which layers the principled materials of
-//! a scene have.
+//! `scene/layers.wgsl`, `scene/bare.wgsl`, `scene/plain.wgsl`, `scene/principled.wgsl`: which layers the principled
+//! materials of a scene have.
 
 use super::wgsl::imports;
 use crate::FeatureSet;
@@ -9,10 +9,14 @@ use std::fmt::Write as _;
 pub(crate) fn layers(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: which layers the principled surfaces have.\n\n");
     text += &imports([
+        "bsdf/brushed_coat.wgsl",
+        "bsdf/brushed_gloss.wgsl",
+        "bsdf/gloss.wgsl",
         "bsdf/gloss_albedo.wgsl",
         "bsdf/layers.wgsl",
         "bsdf/scatter.wgsl",
         "bsdf/under_coat.wgsl",
+        "bsdf/under_sheen.wgsl",
     ]);
     let choose = |present: bool, value: &'static str, absent| if present { value } else { absent };
     let specular = choose(features.principled_specular, "layers_specular(s)", "vec4f(1.0)");
@@ -20,9 +24,18 @@ pub(crate) fn layers(features: &FeatureSet) -> String {
     let coated = features.principled_coat;
     let coat = choose(coated, "layers_coat(s)", "vec2f(0.0, 1.0)");
     let under = choose(coated, "under_coat_through(coat, on, c)", "1.0");
-    let kept = choose(coated, "under_coat_kept(coat, g, roughness, entry)", "0.0");
-    let missing = choose(coated, "under_coat_missing(coat, g, roughness)", "g.mean_missing");
-    let flattened = choose(coated, "under_coat_flattened(coat, g, c)", "0.0");
+    let kept =
+        choose(coated, "under_coat_kept(coat, g, dispatch_gloss_mean_flattened(s), entry)", "0.0");
+    let missing = choose(
+        coated,
+        "under_coat_missing(coat, g, s.roughness, dispatch_gloss_mean_flattened(s))",
+        "g.mean_missing",
+    );
+    let flattened = match (coated, features.principled_anisotropy) {
+        (true, true) => "brushed_coat_flattened(s, coat, g, w, c)",
+        (true, false) => "under_coat_flattened(coat, g, c)",
+        (false, _) => "0.0",
+    };
     let _ = write!(
         text,
         "\n// Colour and factor of the reflectance of the dielectric part.\n\
@@ -34,13 +47,97 @@ pub(crate) fn layers(features: &FeatureSet) -> String {
          \n// What a coat lets through at cosine `c`.\n\
          fn dispatch_under_coat(coat: vec2f, on: bool, c: f32) -> f32 {{\n    return {under};\n}}\n\
          \n// How much it takes off the mean of what enters the lobe `g`.\n\
-         fn dispatch_coat_keeps(coat: vec2f, g: GlossAlbedo, roughness: f32, entry: vec2f) -> f32 {{\n    return {kept};\n}}\n\
-         \n// What the lobe `g` loses under it at cosine `c`.\n\
-         fn dispatch_coat_flattened(coat: vec2f, g: GlossAlbedo, c: f32) -> f32 {{\n    return {flattened};\n}}\n\
+         fn dispatch_coat_keeps(s: Scatter, coat: vec2f, g: GlossAlbedo, entry: vec2f) -> f32 {{\n    return {kept};\n}}\n\
+         \n// What the lobe `g` as it is towards `w` loses under it at cosine `c`.\n\
+         fn dispatch_coat_flattened(s: Scatter, coat: vec2f, g: GlossAlbedo, w: vec3f, c: f32) -> f32 {{\n    return {flattened};\n}}\n\
          \n// The mean of what the lobe `g` does not give back.\n\
-         fn dispatch_coat_missing(coat: vec2f, g: GlossAlbedo, roughness: f32) -> f32 {{\n    return {missing};\n}}\n"
+         fn dispatch_coat_missing(s: Scatter, coat: vec2f, g: GlossAlbedo) -> f32 {{\n    return {missing};\n}}\n"
     );
-    text
+    text + &sheen(features) + &gloss(features)
+}
+
+/// A function of `scene/layers.wgsl`: what it does, its head and its value.
+type Row = (&'static str, &'static str, &'static str);
+
+fn functions(rows: &[Row]) -> String {
+    let function = |(comment, head, value): &Row| {
+        format!("\n// {comment}\nfn dispatch_{head} {{\n    return {value};\n}}\n")
+    };
+    rows.iter().map(function).collect()
+}
+
+/// Sheen over the surface.
+fn sheen(features: &FeatureSet) -> String {
+    let choose = |present: &'static str, absent| {
+        if features.principled_sheen { present } else { absent }
+    };
+    functions(&[
+        (
+            "Colour of the sheen, and its perceptual roughness.",
+            "sheen(s: Scatter) -> vec4f",
+            choose("layers_sheen(s)", "vec4f(0.0)"),
+        ),
+        (
+            "What sheen lets through at cosine `c`.",
+            "under_sheen(sheen: vec4f, c: f32) -> f32",
+            choose("under_sheen_through(sheen, c)", "1.0"),
+        ),
+        (
+            "How much it takes off the mean of what enters the lobe `g`.",
+            "sheen_keeps(sheen: vec4f, g: GlossAlbedo, entry: vec2f) -> f32",
+            choose("under_sheen_kept_mean(sheen, g, entry)", "0.0"),
+        ),
+        (
+            "What the lobe `g` loses under it at cosine `c`.",
+            "sheen_flattened(sheen: vec4f, g: GlossAlbedo, c: f32) -> f32",
+            choose("under_sheen_flattened(sheen, g, c)", "0.0"),
+        ),
+        (
+            "What it adds to the mean of what the lobe `g` does not give back.",
+            "sheen_missing(sheen: vec4f, g: GlossAlbedo) -> f32",
+            choose("under_sheen_missing(sheen, g)", "0.0"),
+        ),
+    ])
+}
+
+/// The lobe: round, or brushed in a direction.
+fn gloss(features: &FeatureSet) -> String {
+    let choose = |brushed: &'static str, round| {
+        if features.principled_anisotropy { brushed } else { round }
+    };
+    let round = "gloss_albedo_at(s.roughness, gloss_alpha(s.roughness), on)";
+    functions(&[
+        (
+            "The lobe's albedo; `on`: several reflections count.",
+            "gloss_albedo(s: Scatter, on: bool) -> GlossAlbedo",
+            choose("brushed_gloss_albedo(s, on)", round),
+        ),
+        (
+            "The mean of what it loses under a smooth coat.",
+            "gloss_mean_flattened(s: Scatter) -> f32",
+            choose("brushed_coat_mean_flattened(s)", "gloss_albedo_mean_flattened(s.roughness)"),
+        ),
+        (
+            "The lobe `g` as it is towards `w`, at cosine `c`.",
+            "gloss_along(s: Scatter, g: GlossAlbedo, w: vec3f, c: f32) -> GlossAlbedo",
+            choose("brushed_gloss_along(s, g, w, c)", "g"),
+        ),
+        (
+            "What `w`, at cosine `c`, does not get back of the lobe `g` towards it.",
+            "gloss_shares(s: Scatter, g: GlossAlbedo, w: vec3f, c: f32) -> GlossShares",
+            choose("brushed_gloss_shares(s, g, w, c)", "gloss_albedo_shares(g, c)"),
+        ),
+        (
+            "A direction reflected at a visible normal.",
+            "gloss_sample(s: Scatter, alpha: f32, wo: vec3f, u: vec2f) -> vec3f",
+            choose("brushed_gloss_sample(s, alpha, wo, u)", "gloss_sample(s.ns, wo, alpha, u)"),
+        ),
+        (
+            "The lobe without Fresnel, times the cosine of `wi`, and its density.",
+            "gloss_eval(s: Scatter, alpha: f32, wo: vec3f, wi: vec3f) -> vec2f",
+            choose("brushed_gloss_eval(s, alpha, wo, wi)", "gloss_eval(s.ns, wo, wi, alpha)"),
+        ),
+    ])
 }
 
 /// The functions of a layer and of all that is under it, without their prefix.
@@ -60,8 +157,17 @@ fn call(stem: &str, function: &str, arguments: &str) -> String {
 
 /// The model under a coat.
 pub(crate) fn bare(features: &FeatureSet) -> String {
-    let stem = bare_stem(features);
-    let mut text = String::from("// Generated: the principled surface under a coat.\n\n");
+    under(bare_stem(features), "bare", "under a coat")
+}
+
+/// The model under sheen.
+pub(crate) fn plain(features: &FeatureSet) -> String {
+    under(plain_stem(features), "plain", "under sheen")
+}
+
+/// The functions of the layer `stem` as those of `name`, what is `place`.
+fn under(stem: &str, name: &str, place: &str) -> String {
+    let mut text = format!("// Generated: the principled surface {place}.\n\n");
     let module = format!("bsdf/{stem}.wgsl");
     text += &imports(["bsdf/principled.wgsl", "bsdf/scatter.wgsl", &module]);
     for (function, parameters, arguments, result, comment) in FUNCTIONS {
@@ -69,15 +175,19 @@ pub(crate) fn bare(features: &FeatureSet) -> String {
         let _ = write!(
             text,
             "\n// {comment}\n\
-             fn dispatch_bare_{function}(s: Scatter, p: Principled, wo: vec3f{parameters}) -> {result} {{\n    \
+             fn dispatch_{name}_{function}(s: Scatter, p: Principled, wo: vec3f{parameters}) -> {result} {{\n    \
              return {called};\n}}\n"
         );
     }
     text
 }
 
-fn bare_stem(features: &FeatureSet) -> &'static str {
+fn plain_stem(features: &FeatureSet) -> &'static str {
     if features.principled_transmission { "thin" } else { "principled" }
+}
+
+fn bare_stem(features: &FeatureSet) -> &'static str {
+    if features.principled_sheen { "sheen" } else { plain_stem(features) }
 }
 
 /// The whole model. What the surface is made of is worked out once in each function, and each layer is

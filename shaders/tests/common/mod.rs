@@ -84,6 +84,8 @@ const OTHERS: &[Other] = &[
     ("specular", |f| principled(f).principled_specular = true),
     ("coat", |f| principled(f).principled_coat = true),
     ("transmission", |f| principled(f).principled_transmission = true),
+    ("sheen", |f| principled(f).principled_sheen = true),
+    ("brushed", |f| principled(f).principled_anisotropy = true),
     ("motion", |f| f.motion = true),
     ("keys", |f| {
         f.motion = true;

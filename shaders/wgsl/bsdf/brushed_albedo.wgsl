@@ -34,10 +34,14 @@ fn brushed_albedo_at(roughness: f32, anisotropy: f32, alpha: vec2f) -> BrushedAl
     let ratio = exp_log_log2(alpha.x / alpha.y);
     // log10 of 2 is 0.30103.
     let columns = albedo_table_cell(-0.30103 * exp_log_log2(1.0 - 0.9 * anisotropy), 6u);
-    let means = load_frame_albedo_at().y + 12u * 6u * 16u * 2u;
-    let mean = fit.mean + albedo_table_corners(means, 5u, rows, columns);
+    let mean = fit.mean + brushed_albedo_mean(load_frame_albedo_at().y, rows, columns);
     let narrow = 1.0 / (alpha.y * alpha.y);
     return BrushedAlbedo(fit, false, rows, columns, narrow, 0.5 / max(ratio, 1e-6), max(mean, 1e-6));
+}
+
+// The mean over the hemisphere that the table at heap word `table` holds for a roughness and an anisotropy.
+fn brushed_albedo_mean(table: u32, roughness: AlbedoCell, anisotropy: AlbedoCell) -> f32 {
+    return albedo_table_corners(table + 12u * 6u * 16u * 2u, 5u, roughness, anisotropy);
 }
 
 // M for the direction whose `x`, `y` are scaled by the widths already: (alpha_x x, alpha_y y, cosine > 0).
@@ -46,22 +50,26 @@ fn brushed_albedo_missing(b: BrushedAlbedo, w: vec3f) -> f32 {
     if (b.round) {
         return missing;
     }
+    return clamp(brushed_albedo_added(b, load_frame_albedo_at().y, w, missing), 0.0, 1.0);
+}
+
+// `sum` and what the table at heap word `table` holds for that direction, where the widths differ.
+fn brushed_albedo_added(b: BrushedAlbedo, table: u32, w: vec3f, sum: f32) -> f32 {
     let cosine = min(w.z, 1.0);
     // At the normal all widths are the same.
     let sine2 = max((1.0 - cosine) * (1.0 + cosine), 1e-6);
     let width = exp_log_log2(max(dot(w.xy, w.xy) / sine2 * b.narrow, 1.0)) * b.spread;
     let place = albedo_table_cell(width, 7u);
     let upper = place.node >= 3u;
-    let found = brushed_albedo_between(b, albedo_table_cell(sqrt(cosine), 16u), select(0u, 1u, upper));
+    let found = brushed_albedo_between(b, table + select(0u, 1u, upper), albedo_table_cell(sqrt(cosine), 16u));
     let node = place.node - select(0u, 3u, upper);
     let low = select(select(found.x, found.y, node == 1u), found.z, node == 2u);
     let high = select(select(found.y, found.z, node == 1u), found.w, node == 2u);
-    return clamp(missing + low + (high - low) * place.part, 0.0, 1.0);
+    return sum + low + (high - low) * place.part;
 }
 
-// The word between the nodes of three axes; `half`: 0 or 1.
-fn brushed_albedo_between(b: BrushedAlbedo, cosine: AlbedoCell, half: u32) -> vec4f {
-    let row = load_frame_albedo_at().y + half;
+// The word between the nodes of three axes; `row`: the first word of the table, or the second.
+fn brushed_albedo_between(b: BrushedAlbedo, row: u32, cosine: AlbedoCell) -> vec4f {
     let at = ((b.roughness.node * 6u + b.anisotropy.node) * 16u + cosine.node) * 2u;
     let near = albedo_table_mix(row, at, 2u, cosine.part);
     let brushed = albedo_table_mix(row, at + 32u, 2u, cosine.part);

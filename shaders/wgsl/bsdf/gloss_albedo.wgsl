@@ -56,8 +56,12 @@ fn gloss_albedo_shares(g: GlossAlbedo, c: f32) -> GlossShares {
     }
     let sine = sqrt(m * (1.0 + c));
     let missing = ggx_albedo_missing(g.fit, vec3f(g.alpha * sine, 0.0, max(c, 1e-6)));
-    let d = albedo_table_corners(load_frame_albedo_at().x, 15u, g.row, albedo_table_cell(sqrt(c), 16u));
-    return GlossShares(missing, max((1.0 - missing) * (smooth_schlick + d), 0.0));
+    return GlossShares(missing, max((1.0 - missing) * (smooth_schlick + gloss_albedo_rise(g.row, c)), 0.0));
+}
+
+// D in the row of a roughness, at cosine `c`.
+fn gloss_albedo_rise(row: AlbedoCell, c: f32) -> f32 {
+    return albedo_table_corners(load_frame_albedo_at().x, 15u, row, albedo_table_cell(sqrt(c), 16u));
 }
 
 // E at shares `x`, for a Fresnel term from `f0` to `f90`.

@@ -17,6 +17,12 @@ fn layers_transmission(s: Scatter) -> f32 {
     return load_material_transmission(s.material) * texel.x;
 }
 
+// Colour of the sheen, and the perceptual roughness of its fibres.
+fn layers_sheen(s: Scatter) -> vec4f {
+    let texel = texture_fetch(load_material_sheen_texture(s.material), s.uv);
+    return vec4f(load_material_sheen(s.material), load_material_sheen_roughness(s.material)) * texel;
+}
+
 // Share under a clear coat, and the perceptual roughness of that coat.
 fn layers_coat(s: Scatter) -> vec2f {
     let share = load_material_coat(s.material);

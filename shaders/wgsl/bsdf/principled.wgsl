@@ -1,4 +1,4 @@
-// Metallic-roughness: a GGX lobe over a Lambert base, both under what coat there is.
+// Metallic-roughness: a GGX lobe, with two widths if it is brushed, over a Lambert base, both under what coat there is.
 //   f = min(T_o, T_i) F(wo.h) D G2 / (4 cos_o cos_i)
 //     + (1 - t) (1 - metallic) color e_o e_i / (pi mean e)            e = T (1 - E)
 //     + metallic K n_o n_i / (pi mean n)                              n = T - (what white facets give back)
@@ -42,6 +42,8 @@ struct Principled {
     several: f32,
     // Share under a clear coat, and its perceptual roughness.
     coat: vec2f,
+    // Colour of the sheen, and its perceptual roughness.
+    sheen: vec4f,
     // Several reflections count.
     on: bool,
     // T, e and n at `wo`.
@@ -70,21 +72,25 @@ fn principled_at(s: Scatter, wo: vec3f) -> Principled {
     let through = dispatch_transmission(s);
     let inside = s.color * dielectric;
     let coat = dispatch_coat(s);
-    let gloss = gloss_albedo_at(s.roughness, gloss_alpha(s.roughness), on);
+    let sheen = dispatch_sheen(s);
+    let gloss = dispatch_gloss_albedo(s, on);
     let cos_o = clamp(dot(s.ns, wo), 0.0, 1.0);
-    let shares = gloss_albedo_shares(gloss, cos_o);
-    let flattened = dispatch_coat_flattened(coat, gloss, cos_o);
-    let o = principled_shares(shares, entry, dispatch_under_coat(coat, on, cos_o), flattened);
+    let along = dispatch_gloss_along(s, gloss, wo, cos_o);
+    let shares = dispatch_gloss_shares(s, along, wo, cos_o);
+    let flattened = dispatch_coat_flattened(s, coat, along, wo, cos_o) + dispatch_sheen_flattened(sheen, along, cos_o);
+    let open = dispatch_under_coat(coat, on, cos_o) * dispatch_under_sheen(sheen, cos_o);
+    let o = principled_shares(shares, entry, open, flattened);
     var entering = 1.0;
     var several = 0.0;
     var tint = vec3f(0.0);
     if (on) {
-        let kept = dispatch_coat_keeps(coat, gloss, s.roughness, entry);
+        let kept = dispatch_coat_keeps(s, coat, gloss, entry);
+        let under = dispatch_sheen_keeps(sheen, gloss, entry);
         // Where nothing enters, e is 0 everywhere.
-        entering = max(1.0 - gloss_albedo_mean(gloss, entry.x, entry.y) - kept, 1e-3);
+        entering = max(1.0 - gloss_albedo_mean(gloss, entry.x, entry.y) - kept - under, 1e-3);
     }
     if (gloss.rough) {
-        several = INV_PI / dispatch_coat_missing(coat, gloss, s.roughness);
+        several = INV_PI / (dispatch_coat_missing(s, coat, gloss) + dispatch_sheen_missing(sheen, gloss));
         // The mean of Schlick's term: the integral of 2 c (1 - c)^5 is 1/21.
         let mean = s.color + (vec3f(1.0) - s.color) * 0.047619048;
         tint = mean * mean * ((1.0 - gloss.mean_missing) * s.metallic) / (vec3f(1.0) - mean * gloss.mean_missing);
@@ -98,7 +104,7 @@ fn principled_at(s: Scatter, wo: vec3f) -> Principled {
         vector_max(clear) * o.enters,
     );
     return Principled(
-        f0, f90, entry, gloss, base * (INV_PI / entering), clear, tint * several, several, coat, on, o, albedo,
+        f0, f90, entry, gloss, base * (INV_PI / entering), clear, tint * several, several, coat, sheen, on, o, albedo,
     );
 }
 
@@ -110,12 +116,14 @@ fn principled_shares(shares: GlossShares, entry: vec2f, through: f32, flattened:
     return PrincipledSide(through, enters, through * shares.missing + flattened);
 }
 
-// T, e and n at cosine `c` > 0 to the normal.
-fn principled_side(p: Principled, c: f32) -> PrincipledSide {
-    let cosine = min(c, 1.0);
-    let through = dispatch_under_coat(p.coat, p.on, cosine);
-    let flattened = dispatch_coat_flattened(p.coat, p.gloss, cosine);
-    return principled_shares(gloss_albedo_shares(p.gloss, cosine), p.entry, through, flattened);
+// T, e and n at `w`, above the surface.
+fn principled_side(s: Scatter, p: Principled, w: vec3f) -> PrincipledSide {
+    let cosine = min(dot(s.ns, w), 1.0);
+    let along = dispatch_gloss_along(s, p.gloss, w, cosine);
+    let through = dispatch_under_coat(p.coat, p.on, cosine) * dispatch_under_sheen(p.sheen, cosine);
+    let coat_flattened = dispatch_coat_flattened(s, p.coat, along, w, cosine);
+    let flattened = coat_flattened + dispatch_sheen_flattened(p.sheen, along, cosine);
+    return principled_shares(dispatch_gloss_shares(s, along, w, cosine), p.entry, through, flattened);
 }
 
 // Share of light that the interface reflects at cosine `c`.
@@ -146,7 +154,7 @@ fn principled_direction(s: Scatter, p: Principled, wo: vec3f, u: vec2f, v: f32) 
     } else if (p.gloss.alpha < GLOSS_SMOOTH) {
         return Scattered(scatter_mirror(s, wo), 0.0, principled_fresnel(p, cos_o) * (p.o.through / share), 1.0);
     } else {
-        wi = gloss_sample(s.ns, wo, p.gloss.alpha, u);
+        wi = dispatch_gloss_sample(s, p.gloss.alpha, wo, u);
     }
     if (!scatter_above(s, wi)) {
         return scatter_absorb();
@@ -161,14 +169,14 @@ fn principled_eval(s: Scatter, p: Principled, wo: vec3f, wi: vec3f) -> Evaluated
         return scatter_nothing();
     }
     let above = scatter_above(s, wi);
-    let i = principled_side(p, cos_i);
+    let i = principled_side(s, p, wi);
     let diffuse = (p.base * (p.o.enters * i.enters) + p.metal * (p.o.missing * i.missing)) * cos_i;
     let share = principled_lobe_share(p);
     let base = (1.0 - share) * (cos_i * INV_PI);
     if (p.gloss.alpha < GLOSS_SMOOTH) {
         return scatter_only(Evaluated(diffuse, base), above);
     }
-    let lobe = gloss_eval(s.ns, wo, wi, p.gloss.alpha);
+    let lobe = dispatch_gloss_eval(s, p.gloss.alpha, wo, wi);
     let value = diffuse + principled_fresnel(p, gloss_cosine(wo, wi)) * (lobe.x * min(p.o.through, i.through));
     return scatter_only(Evaluated(value, base + share * lobe.y), above);
 }

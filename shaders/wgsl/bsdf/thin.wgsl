@@ -13,6 +13,7 @@
 #import "bsdf/principled.wgsl"
 #import "bsdf/scatter.wgsl"
 #import "math/vector.wgsl"
+#import "scene/layers.wgsl"
 
 // Share of light that goes through at cosine `c` to the normal that it meets.
 fn thin_clear(p: Principled, c: f32) -> vec3f {
@@ -58,7 +59,7 @@ fn thin_direction(s: Scatter, p: Principled, wo: vec3f, u: vec2f, v: f32) -> Sca
     if (v < far * thin_even(p)) {
         wi = diffuse_direction(-s.ns, u);
     } else {
-        wi = thin_mirrored(s, gloss_sample(s.ns, wo, p.gloss.alpha, u));
+        wi = thin_mirrored(s, dispatch_gloss_sample(s, p.gloss.alpha, wo, u));
     }
     if (!scatter_below(s, wi)) {
         return scatter_absorb();
@@ -87,8 +88,8 @@ fn thin_eval(s: Scatter, p: Principled, wo: vec3f, wi: vec3f) -> Evaluated {
     }
     let j = thin_mirrored(s, wi);
     let cos_j = dot(s.ns, j);
-    let side = principled_side(p, cos_j);
-    let gloss = gloss_eval(s.ns, wo, j, p.gloss.alpha);
+    let side = principled_side(s, p, j);
+    let gloss = dispatch_gloss_eval(s, p.gloss.alpha, wo, j);
     let lobe = gloss.x * min(p.o.through, side.through);
     let several = p.several * (p.o.missing * side.missing) * cos_j;
     let value = thin_clear(p, gloss_cosine(wo, j)) * lobe + p.clear * several;

@@ -28,7 +28,8 @@ fn under_coat_through(coat: vec2f, on: bool, c: f32) -> f32 {
 // How much the coat takes off the mean of what enters a lobe `g` with Fresnel's term from `entry.x` to `entry.y`:
 // the mean of T (1 - E) is that of 1 - E, less this. The mean of B B' of two lobes is k k', k the root of the mean
 // of B^2: k = B (1.69 + 18.8 B) with the mean B, within 2e-4; all else is uncorrelated within 0.013 `entry.x`.
-fn under_coat_kept(coat: vec2f, g: GlossAlbedo, roughness: f32, entry: vec2f) -> f32 {
+// `flattened`: mean of what the lobe loses under a smooth coat.
+fn under_coat_kept(coat: vec2f, g: GlossAlbedo, flattened: f32, entry: vec2f) -> f32 {
     if (coat.x <= 0.0) {
         return 0.0;
     }
@@ -38,7 +39,7 @@ fn under_coat_kept(coat: vec2f, g: GlossAlbedo, roughness: f32, entry: vec2f) ->
     let own = gloss_albedo_mean(over, UNDER_COAT_F0, 1.0);
     // Of what the lobe loses, that is what Fresnel's term has of it where it counts.
     let lost = under_coat_steepness(coat) * (entry.x + 0.2 * (entry.y - entry.x));
-    return coat.x * (own * (1.0 - f0) - both) - lost * gloss_albedo_mean_flattened(roughness);
+    return coat.x * (own * (1.0 - f0) - both) - lost * flattened;
 }
 
 // What the lobe `g` under the coat loses at cosine `c` because it sends light out flatter than it came in, where the
@@ -52,7 +53,7 @@ fn under_coat_flattened(coat: vec2f, g: GlossAlbedo, c: f32) -> f32 {
 
 // The mean over the hemisphere, weighted by the cosine, of T M and of what is flattened, for a lobe `g` of perceptual
 // `roughness`. Where M counts, its correlation with B of the coat depends on that roughness alone, within 0.01.
-fn under_coat_missing(coat: vec2f, g: GlossAlbedo, roughness: f32) -> f32 {
+fn under_coat_missing(coat: vec2f, g: GlossAlbedo, roughness: f32, flattened: f32) -> f32 {
     if (coat.x <= 0.0) {
         return g.mean_missing;
     }
@@ -61,7 +62,7 @@ fn under_coat_missing(coat: vec2f, g: GlossAlbedo, roughness: f32) -> f32 {
     // 1 - `UNDER_COAT_F0` times 0.6 and 2.3.
     let schlick = over.mean_schlick * (0.576 + 2.208 * smooth_part * smooth_part);
     let held = coat.x * (UNDER_COAT_F0 * (1.0 - over.mean_missing) + schlick);
-    return g.mean_missing * (1.0 - held) + under_coat_steepness(coat) * gloss_albedo_mean_flattened(roughness);
+    return g.mean_missing * (1.0 - held) + under_coat_steepness(coat) * flattened;
 }
 
 // How much steeper the coat's albedo rises to grazing than a flat one's, over that of a smooth coat: fitted to

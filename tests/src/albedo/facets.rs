@@ -63,11 +63,17 @@ pub fn reflected(o: DVec3, alpha: DVec2, points: Points) -> DVec2 {
 /// of what comes back than of `o`, where that is more.
 #[must_use]
 pub fn flattened(o: DVec3, alpha: DVec2, points: Points) -> f64 {
-    let coat = |c: f64| 0.96 * (1.0 - c).max(0.0).powi(5);
+    flattened_under(|c| 0.96 * (1.0 - c).max(0.0).powi(5), o, alpha, points)
+}
+
+/// What a layer that reflects `layer` of a cosine keeps so.
+#[must_use]
+pub fn flattened_under(layer: impl Fn(f64) -> f64, o: DVec3, alpha: DVec2, points: Points) -> f64 {
+    let own = layer(o.z);
     let lost = over_normals(o, alpha, points, |h| {
         let i = 2.0 * o.dot(h).min(1.0) * h - o;
-        let more = (coat(i.z) - coat(o.z)).max(0.0);
-        DVec2::new(if i.z > 0.0 { seen(o, i, alpha) * more } else { 0.0 }, 0.0)
+        let lost = if i.z > 0.0 { seen(o, i, alpha) * (layer(i.z) - own).max(0.0) } else { 0.0 };
+        DVec2::new(lost, 0.0)
     });
     lost.x
 }

@@ -31,7 +31,7 @@ const PRINCIPLED: [(f32, f32, f64); 8] = [
     (1.0, 0.3, 0.1),
 ];
 /// Roughness, metallic, layers, cosine.
-const LAYERED: [(f32, f32, Layers, f64); 8] = [
+const LAYERED: [(f32, f32, Layers, f64); 14] = [
     (0.3, 0.0, Layers { transmission: 1.0, ..Layers::PLAIN }, 0.6),
     (0.6, 0.3, Layers { transmission: 0.5, ..Layers::PLAIN }, 0.2),
     (1.0, 0.0, Layers { transmission: 1.0, ..Layers::PLAIN }, 0.9),
@@ -40,6 +40,28 @@ const LAYERED: [(f32, f32, Layers, f64); 8] = [
     (0.2, 1.0, Layers { coat: 0.5, coat_roughness: 0.7, ..Layers::PLAIN }, 0.8),
     (0.4, 0.0, Layers { coat: 0.8, coat_roughness: 1.0, transmission: 0.7, ..Layers::PLAIN }, 0.1),
     (0.4, 0.2, Layers { specular: 0.3, tint: 20.0, ..Layers::PLAIN }, 0.5),
+    (0.5, 0.0, Layers { sheen: 1.0, sheen_roughness: 0.3, ..Layers::PLAIN }, 0.15),
+    (0.8, 1.0, Layers { sheen: 0.5, sheen_roughness: 1.0, ..Layers::PLAIN }, 0.7),
+    (
+        0.6,
+        0.2,
+        Layers { sheen: 1.0, sheen_roughness: 0.6, transmission: 0.5, ..Layers::PLAIN },
+        0.5,
+    ),
+    (0.4, 0.0, Layers { anisotropy: 0.8, anisotropy_turn: 0.1, ..Layers::PLAIN }, 0.6),
+    (0.8, 1.0, Layers { anisotropy: 1.0, anisotropy_turn: 0.8, ..Layers::PLAIN }, 0.2),
+    (
+        0.5,
+        0.3,
+        Layers {
+            anisotropy: 0.5,
+            coat: 0.7,
+            coat_roughness: 0.4,
+            transmission: 0.4,
+            ..Layers::PLAIN
+        },
+        0.4,
+    ),
 ];
 /// Cosines of the incident direction for Lambert's model.
 const DIFFUSE_MU: [f64; 2] = [1.0, 0.05];
@@ -229,7 +251,7 @@ fn layered_directions_have_their_density() {
         let (scatter, truth) = (lobe.single(), lobe.double());
         let widths = [roughness, if layers.coat > 0.0 { layers.coat_roughness } else { 1.0 }];
         let narrow = widths.map(|r| f64::from(r * r)).into_iter().filter(|a| *a >= 1e-3);
-        let alpha = narrow.fold(1.0, f64::min);
+        let alpha = narrow.fold(1.0, f64::min) * (1.0 - 0.69 * f64::from(layers.anisotropy));
         let grid = lobe_grid(lobe.mirror(wo), lobe.normal, alpha, mu);
         let across = |d: DVec3| (d - lobe.normal * (2.0 * d.dot(lobe.normal))).normalize();
         let mut shares =

@@ -47,7 +47,9 @@ impl Case {
     fn narrowest(&self) -> f64 {
         let coat = if self.layers.coat > 0.0 { self.layers.coat_roughness } else { 1.0 };
         let alphas = [self.lobe.roughness, coat].map(|r| f64::from(r * r));
-        alphas.into_iter().filter(|alpha| *alpha >= double::GLOSS_SMOOTH).fold(1.0, f64::min)
+        let least = alphas.into_iter().filter(|alpha| *alpha >= double::GLOSS_SMOOTH);
+        // At 1 the lobe is narrower by the root of ten.
+        least.fold(1.0, f64::min) * (1.0 - 0.69 * f64::from(self.layers.anisotropy))
     }
 
     /// Cells that resolve the lobes on the side of `wo`.
@@ -109,6 +111,51 @@ fn cases() -> Vec<Case> {
     for layers in layers() {
         for roughness in [0.0, 0.1, 0.3, 0.6, 1.0] {
             for metallic in [0.0, 0.4, 1.0] {
+                cases.push(Case::new(roughness, metallic, layers));
+            }
+        }
+    }
+    cases.extend(brushed());
+    cases.extend(sheens());
+    cases
+}
+
+/// Surfaces under sheen.
+fn sheens() -> Vec<Case> {
+    let mut cases = Vec::new();
+    for (sheen, sheen_roughness) in [(1.0, 0.0), (1.0, 0.15), (1.0, 0.3), (0.5, 0.6), (1.0, 1.0)] {
+        for roughness in [0.0, 0.3, 1.0] {
+            for (metallic, transmission) in [(0.0, 0.0), (1.0, 0.0), (0.4, 0.5)] {
+                let layers = Layers { sheen, sheen_roughness, transmission, ..Layers::PLAIN };
+                cases.push(Case::new(roughness, metallic, layers));
+            }
+        }
+    }
+    cases
+}
+
+/// Surfaces that are brushed, seen along that, across it and between.
+fn brushed() -> Vec<Case> {
+    let mut cases = Vec::new();
+    for (anisotropy, anisotropy_turn) in
+        [(0.3, 0.0), (0.7, 0.25), (1.0, 0.0), (1.0, 0.1), (1.0, 0.75)]
+    {
+        for roughness in [0.25, 0.5, 1.0] {
+            for (metallic, coat, transmission) in [
+                (0.0, 0.0, 0.0),
+                (1.0, 0.0, 0.0),
+                (0.4, 0.0, 0.5),
+                (0.0, 1.0, 0.0),
+                (1.0, 1.0, 0.0),
+            ] {
+                let layers = Layers {
+                    anisotropy,
+                    anisotropy_turn,
+                    coat,
+                    coat_roughness: 0.3,
+                    transmission,
+                    ..Layers::PLAIN
+                };
                 cases.push(Case::new(roughness, metallic, layers));
             }
         }
@@ -262,4 +309,39 @@ fn a_weight_is_value_over_density_through_layers() {
             }
         }
     }
+}
+
+/// A white surface that is brushed or under sheen gives everything back, whatever it is made of.
+#[test]
+fn a_surface_brushed_or_under_sheen_returns_everything() {
+    let mut most = (0.0, String::new());
+    for mut case in brushed().into_iter().chain(sheens()) {
+        for ior in [1.05, 3.0] {
+            case.lobe.ior = ior;
+            for mu in [1.0, 0.5, 0.1] {
+                let [near, far] = case.shares(case.lobe.at_cosine(mu), 8);
+                let off = (near + far - 1.0).abs();
+                if off > most.0 {
+                    most = (off, format!("{case:?} at {mu}: {near} + {far}"));
+                }
+            }
+        }
+    }
+    assert!(most.0 < 0.015, "{most:?}");
+}
+
+/// Turned by half a turn it is the same, by a quarter another.
+#[test]
+fn the_direction_of_brushing_is_a_line() {
+    let value = |anisotropy_turn: f32| {
+        let layers = Layers { anisotropy: 0.9, anisotropy_turn, ..Layers::PLAIN };
+        let case = Case::new(0.4, 1.0, layers);
+        let bench = case.bench();
+        let wo = case.lobe.at_cosine(0.5);
+        let wi = (case.lobe.mirror(wo) + case.lobe.tangent() * 0.2).normalize();
+        bench.double().dispatch_eval(case.lobe.double(), wo, wi).f.x
+    };
+    let (along, half, across) = (value(0.0), value(0.5), value(0.25));
+    assert!((along - half).abs() < 1e-9 * along, "{along} {half}");
+    assert!(along > 1.2 * across, "{along} {across}");
 }

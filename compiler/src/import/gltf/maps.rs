@@ -48,6 +48,9 @@ pub(super) struct Notes {
     pub(super) absorbing: u64,
     pub(super) tinted_glass: u64,
     pub(super) uv_sets: u64,
+    pub(super) brushed_by_maps: u64,
+    pub(super) too_brushed: u64,
+    pub(super) sheen_over_others: u64,
 }
 
 impl Notes {
@@ -62,6 +65,18 @@ impl Notes {
             (
                 self.absorbing,
                 "absorb light inside and are mostly opaque; their absorption is left out",
+            ),
+            (
+                self.brushed_by_maps,
+                "are brushed by textures; what is between round and brushed, or smooth and rough, is approximate",
+            ),
+            (
+                self.too_brushed,
+                "have highlights more than ten times as long as wide; here ten times is the most",
+            ),
+            (
+                self.sheen_over_others,
+                "have sheen and are coated or brushed; their sheen is left out",
             ),
             (
                 self.uv_sets,

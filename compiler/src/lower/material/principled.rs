@@ -31,6 +31,8 @@ impl MaterialTable<'_> {
         };
         self.specular(&mut record, from);
         self.coat(&mut record, from);
+        self.sheen(&mut record, from);
+        brush(&mut record, from.anisotropy, from.anisotropy_rotation);
         let transmission = factor(from.transmission);
         if transmission > 0.0 {
             record.transmission = transmission;
@@ -58,30 +60,46 @@ impl MaterialTable<'_> {
 
     fn specular(&mut self, record: &mut abi::Material, from: &Principled) {
         record.specular = factor(from.specular);
-        record.specular_texture = match from.specular_color {
-            Color::Constant(rgb) => {
-                record.tint = rgb.map(|c| c as f32);
-                self.scalars([ONE, ONE, ONE, from.specular])
-            }
+        if let Color::Constant(rgb) = from.specular_color {
+            record.tint = rgb.map(|c| c as f32);
+        }
+        record.specular_texture = self.color_and_number(from.specular_color, from.specular);
+    }
+
+    fn sheen(&mut self, record: &mut abi::Material, from: &Principled) {
+        record.sheen = match from.sheen {
+            Color::Constant(rgb) => rgb.map(|c| c as f32),
+            Color::Texture(_) | Color::Expression(_) => [1.0; 3],
+        };
+        if record.has_sheen() {
+            record.sheen_roughness = factor(from.sheen_roughness);
+            record.sheen_texture = self.color_and_number(from.sheen, from.sheen_roughness);
+        }
+    }
+
+    /// The texture of a colour, and of a number in its alpha; what is constant is 1.
+    fn color_and_number(&mut self, color: Color, number: Scalar) -> u32 {
+        match color {
+            Color::Constant(_) => self.scalars([ONE, ONE, ONE, number]),
             Color::Texture(texture) => {
                 let found = &self.scene.textures[texture];
-                let alpha = channel(from.specular);
-                let is_constant = matches!(from.specular, Scalar::Constant(_));
+                let alpha = channel(number);
+                let is_constant = matches!(number, Scalar::Constant(_));
                 if found.placement == Placement::NONE && (alpha.is_some() || is_constant) {
                     self.tinted(ImageRef::Scene(texture), found.space, alpha, found.wrap)
                 } else {
-                    self.computed_specular(&TextureExpression::Image(texture), from.specular)
+                    self.computed(&TextureExpression::Image(texture), number)
                 }
             }
             Color::Expression(index) => {
                 let scene = self.scene;
-                self.computed_specular(&scene.expressions[index], from.specular)
+                self.computed(&scene.expressions[index], number)
             }
-        };
+        }
     }
 
     /// A colour, and a number in alpha.
-    fn computed_specular(&mut self, color: &TextureExpression<usize>, alpha: Scalar) -> u32 {
+    fn computed(&mut self, color: &TextureExpression<usize>, alpha: Scalar) -> u32 {
         let mut ops = self.operations(color);
         ops.extend(self.number(alpha).unwrap_or_else(|| vec![expression::constant([1.0; 4])]));
         ops.push(expression::insert(3));
@@ -119,6 +137,20 @@ impl MaterialTable<'_> {
         self.textures.gathered(channels, ColorSpace::Data, wrap)
     }
 
+    /// A texture of the colours of one image and the alpha of another.
+    fn color_and_alpha(&mut self, color: Used, alpha: Used) -> u32 {
+        match (color, alpha) {
+            (Some((image, map)), alpha) => {
+                let alpha = alpha.map(|(image, _)| (image, 3));
+                self.tinted(image, map.space, alpha, map.wrap)
+            }
+            (None, Some((image, map))) => {
+                self.channels([None, None, None, Some((image, 3))], map.wrap)
+            }
+            (None, None) => NONE,
+        }
+    }
+
     /// The principled material of a mesh file.
     pub(super) fn imported_principled(
         &mut self,
@@ -141,16 +173,13 @@ impl MaterialTable<'_> {
             ..with_ior(blank(MaterialKind::Principled), from.ior)
         };
         let used = |map: Option<MapUse>| map.map(|map| (image_of(asset, map), map));
-        match (used(from.specular_color_map), used(from.specular_map)) {
-            (Some((image, map)), alpha) => {
-                let alpha = alpha.map(|(image, _)| (image, 3));
-                record.specular_texture = self.tinted(image, map.space, alpha, map.wrap);
-            }
-            (None, Some((image, map))) => {
-                let channels = [None, None, None, Some((image, 3))];
-                record.specular_texture = self.channels(channels, map.wrap);
-            }
-            (None, None) => {}
+        record.specular_texture =
+            self.color_and_alpha(used(from.specular_color_map), used(from.specular_map));
+        record.sheen = from.sheen.map(|c| c as f32);
+        if record.has_sheen() {
+            record.sheen_roughness = from.sheen_roughness as f32;
+            record.sheen_texture =
+                self.color_and_alpha(used(from.sheen_map), used(from.sheen_roughness_map));
         }
         if from.coat > 0.0 {
             record.coat = from.coat as f32;
@@ -162,6 +191,9 @@ impl MaterialTable<'_> {
                 [share.map(|image| (image, 0)), rough.map(|image| (image, 1)), None, None];
             record.coat_texture = self.channels(channels, wrap);
         }
+        if brush(&mut record, from.anisotropy, from.anisotropy_rotation) {
+            record.anisotropy_texture = self.map(asset, from.anisotropy_map);
+        }
         if from.transmission > 0.0 {
             record.transmission = from.transmission as f32;
             record.transmission_texture = self.map(asset, from.transmission_map);
@@ -169,6 +201,21 @@ impl MaterialTable<'_> {
         }
         record
     }
+}
+
+/// An image, and how it is used.
+type Used = Option<(ImageRef, MapUse)>;
+
+/// Brushes the surface, `rotation` radians from its tangent, if there is any anisotropy.
+fn brush(record: &mut abi::Material, anisotropy: f64, rotation: f64) -> bool {
+    let brushed = anisotropy > 0.0;
+    if brushed {
+        record.anisotropy = anisotropy as f32;
+        let turns = rotation / std::f64::consts::TAU;
+        record.anisotropy_turn = (turns - libm::floor(turns)) as f32;
+        record.flags |= material_flag::TANGENT;
+    }
+    brushed
 }
 
 /// Lets shadow rays through where a sheet may be so smooth that light goes straight through it; the limit of the

@@ -346,6 +346,8 @@ pub(in crate::lower) fn blank(kind: MaterialKind) -> abi::Material {
         specular_texture: NONE,
         coat_texture: NONE,
         transmission_texture: NONE,
+        anisotropy_texture: NONE,
+        sheen_texture: NONE,
         ..Default::default()
     };
     with_ior(base, 1.5)

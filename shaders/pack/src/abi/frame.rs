@@ -1,5 +1,6 @@
 //! What changes from dispatch to dispatch: the kernel's only uniform, written by the runtime.
 
+use super::AlbedoTable;
 use super::field::abi_struct;
 
 abi_struct! {
@@ -67,23 +68,30 @@ abi_struct! {
         pub pixel_filter: u32,
         /// Side of the square outside of which the filter is 0, pixels.
         pub filter_width: f32,
-        /// First heap word of each `AlbedoTable`; `NONE` for those that no material reads.
+        /// First heap word of the first four `AlbedoTable`s; `NONE` for those that no material reads.
         pub albedo_at: [u32; 4],
         /// First heap word of the `MotionPiece` table; `NONE`: what moves does so on straight lines.
         pub path_at: u32,
         /// First heap word of the `CameraKey` table; `NONE`: the camera stands still.
         pub camera_key_at: u32,
+        /// First heap word of the other `AlbedoTable`s; likewise.
+        pub albedo_more_at: [u32; 2],
+        /// First heap word of the `LightLink` table; `NONE`: every light lights everything.
+        pub link_at: u32,
         /// Unused.
         pub _pad0: u32,
         /// Unused.
         pub _pad1: u32,
-        /// First heap word of the `LightLink` table; `NONE`: every light lights everything.
-        pub link_at: u32,
         /// Unused.
         pub _pad2: u32,
-        /// Unused.
-        pub _pad3: u32,
-        /// Unused.
-        pub _pad4: u32,
+    }
+}
+
+impl Frame {
+    /// `albedo_at` and `albedo_more_at`, of the first heap word of each table.
+    #[must_use]
+    pub fn albedo_places(tables: [u32; AlbedoTable::ALL.len()]) -> ([u32; 4], [u32; 2]) {
+        let [gloss, brushed, glass, leaf, more @ ..] = tables;
+        ([gloss, brushed, glass, leaf], more)
     }
 }

@@ -184,7 +184,7 @@ pub mod material_flag {
 }
 
 abi_struct! {
-    /// A material, 192 bytes: one record for all kinds; a field that a kind does not name is not
+    /// A material, 224 bytes: one record for all kinds; a field that a kind does not name is not
     /// read by it. Colours are linear Rec. 709, lengths and coefficients in normalised units.
     pub struct Material {
         /// Reflectance (diffuse, metal), reflectance at normal incidence (conductor), base colour (principled,
@@ -211,7 +211,7 @@ abi_struct! {
         /// Factor on the alpha texture.
         pub alpha: f32,
         /// How much narrower the lobe is along the tangent than across it, 0 ..= 1. Wood: across the
-        /// grain than along it.
+        /// grain than along it. Principled: across the direction of brushing than along it.
         pub anisotropy: f32,
         /// `Texture` id or `NONE`.
         pub color_texture: u32,
@@ -272,13 +272,26 @@ abi_struct! {
         pub transmission_texture: u32,
         /// Conductor, rough dielectric, principled: 1 with the light of several reflections, 0 without.
         pub compensation: f32,
+        /// Principled: from the tangent to the direction of brushing, as a share of a turn, 0 ..= 1.
+        pub anisotropy_turn: f32,
+        /// `Texture` id or `NONE`; the direction of brushing in red and green, 0 ..= 1 for -1 ..= 1,
+        /// anisotropy in blue.
+        pub anisotropy_texture: u32,
+        /// `Texture` id or `NONE`; colour of the sheen in red, green, blue, its roughness in alpha.
+        pub sheen_texture: u32,
+        /// Principled: perceptual roughness of the sheen, 0 ..= 1.
+        pub sheen_roughness: f32,
+        /// Principled: colour of the sheen, 0 ..= 1.
+        pub sheen: [f32; 3],
+        /// Zero.
+        pub _pad0: u32,
     }
 }
 
 impl Material {
     /// Every texture that it may read, each an index or `NONE`.
     #[must_use]
-    pub fn textures(&self) -> [u32; 8] {
+    pub fn textures(&self) -> [u32; 10] {
         [
             self.color_texture,
             self.emission_texture,
@@ -288,6 +301,8 @@ impl Material {
             self.specular_texture,
             self.coat_texture,
             self.transmission_texture,
+            self.anisotropy_texture,
+            self.sheen_texture,
         ]
     }
 
@@ -313,6 +328,18 @@ impl Material {
     #[must_use]
     pub fn has_coat(&self) -> bool {
         self.kind == MaterialKind::Principled as u32 && self.coat > 0.0
+    }
+
+    /// A principled surface with sheen.
+    #[must_use]
+    pub fn has_sheen(&self) -> bool {
+        self.kind == MaterialKind::Principled as u32 && self.sheen.iter().any(|c| *c > 0.0)
+    }
+
+    /// A principled surface that is brushed.
+    #[must_use]
+    pub fn is_brushed(&self) -> bool {
+        self.kind == MaterialKind::Principled as u32 && self.anisotropy > 0.0
     }
 
     /// A thin sheet that lets shadow rays through.

@@ -214,6 +214,8 @@ rules! { pack;
         specular_texture: index_or_none(table(pack, Kind::TEXTURE)),
         coat_texture: index_or_none(table(pack, Kind::TEXTURE)),
         transmission_texture: index_or_none(table(pack, Kind::TEXTURE)),
+        anisotropy_texture: index_or_none(table(pack, Kind::TEXTURE)),
+        sheen_texture: index_or_none(table(pack, Kind::TEXTURE)),
         medium: index_or_none(table(pack, Kind::MEDIUM)),
         color: not_negative(),
         emission: not_negative(),
@@ -243,6 +245,10 @@ rules! { pack;
         coat_roughness: unit_range(),
         transmission: unit_range(),
         compensation: unit_range(),
+        anisotropy_turn: unit_range(),
+        sheen_roughness: unit_range(),
+        sheen: unit_range(),
+        _pad0: unused(),
     }
     // `child` is `light_tree`'s; so is `trail` of lights.
     LightNode {

@@ -124,6 +124,8 @@ fn material(kind: MaterialKind) -> Material {
         specular_texture: NONE,
         coat_texture: NONE,
         transmission_texture: NONE,
+        anisotropy_texture: NONE,
+        sheen_texture: NONE,
         ..Material::default()
     }
 }
@@ -230,6 +232,7 @@ fn materials() -> Vec<Material> {
     materials[4].specular = 0.5;
     materials[4].coat = 0.5;
     materials[4].transmission = 0.5;
+    materials[4].anisotropy = 0.5;
     materials
 }
 
@@ -371,7 +374,9 @@ impl Scene {
     pub(crate) fn and_albedo(mut self) -> Self {
         for material in &mut self.materials {
             match MaterialKind::from_tag(material.kind) {
-                Some(MaterialKind::Principled) => material.compensation = 1.0,
+                Some(MaterialKind::Principled) => {
+                    (material.compensation, material.anisotropy) = (1.0, 0.0);
+                }
                 Some(MaterialKind::Leaf) => (material.weight, material.forward) = (0.5, 0.5),
                 _ => {}
             }
