@@ -267,6 +267,7 @@ impl Evaluator<'_> {
             },
             FieldType::Names(kind) => match value {
                 Value::Item(own, _) if own == kind => Value::List([(value, slot.span())].into()),
+                Value::List(values) => self.fit_names(slot, kind, values),
                 other => self.wrong_kind(slot, &other, &format!("a list of {}s", kind.name())),
             },
             FieldType::Shape => self.fit_shape(slot, value),
@@ -453,6 +454,17 @@ impl Evaluator<'_> {
     }
 
     pub(super) fn wrong_kind(&mut self, slot: Slot<'_>, value: &Value, wanted: &str) -> Value {
+        self.wrong_kind_at(slot, slot.span(), value, wanted)
+    }
+
+    /// The same of a part of the value, at `span`.
+    pub(super) fn wrong_kind_at(
+        &mut self,
+        slot: Slot<'_>,
+        span: Span,
+        value: &Value,
+        wanted: &str,
+    ) -> Value {
         let text = format!("{} needs {wanted}, found {}", slot.name(), value.described());
         let item = match value {
             Value::Item(_, id) | Value::TextureColor(id) | Value::TextureChannel(id, _) => {
@@ -461,7 +473,7 @@ impl Evaluator<'_> {
             _ => None,
         };
         let code = if item.is_some() { "E0203" } else { "E0305" };
-        let error = Diagnostic::error(Code(code), text).at(slot.span(), value.described());
+        let error = Diagnostic::error(Code(code), text).at(span, value.described());
         let error = match item {
             Some(id) => error.because(self.program.name_span(id), "declared here"),
             None => error,

@@ -1,5 +1,7 @@
 //! Light linking: `only = [vase, plinth]` and `except = floor` become the instances that a light lights.
 
+use std::rc::Rc;
+
 use super::exclusive::one_of;
 use super::field::Slot;
 use super::fields::Fields;
@@ -8,6 +10,7 @@ use crate::eval::value::Value;
 use crate::eval::{Evaluator, Scope};
 use crate::scene::{LightLinks, Name};
 use crate::schema::Kind;
+use crate::source::Span;
 use crate::syntax::{Entry, ExprKind};
 
 /// The fields, at most one of which a light has.
@@ -21,14 +24,8 @@ impl Evaluator<'_> {
         kind: Kind,
         (entries, scope): (&[Entry], Scope<'_>),
     ) -> Value {
-        if entries.is_empty() {
-            let text = format!("{} is empty", slot.name());
-            let error = Diagnostic::error(Code("E0306"), text).at(slot.span(), "names nothing");
-            return self.fault(error.with_help("name something, or leave the field out"));
-        }
         let mut values = Vec::new();
         for entry in entries {
-            let slot = Slot { expr: &entry.value, ..slot };
             if let Some(key) = &entry.key {
                 let text = format!("the names of {} have no keys", slot.name());
                 self.fault(Diagnostic::error(Code("E0305"), text).at(key.span, "leave this out"));
@@ -38,17 +35,33 @@ impl Evaluator<'_> {
                 ExprKind::Path(path) => self.path(path, scope, Some(kind)),
                 _ => self.eval(&entry.value, scope),
             };
-            let value = match value {
-                Value::Item(own, _) if own == kind => value,
-                Value::Poison => value,
-                other => self.wrong_kind(slot, &other, kind.with_article()),
-            };
             values.push((value, entry.value.span));
         }
-        if values.iter().any(|(value, _)| *value == Value::Poison) {
-            return Value::Poison;
+        self.fit_names(slot, kind, values.into())
+    }
+
+    /// Names of a list that is known, each with its place.
+    pub(super) fn fit_names(
+        &mut self,
+        slot: Slot<'_>,
+        kind: Kind,
+        values: Rc<[(Value, Span)]>,
+    ) -> Value {
+        if values.is_empty() {
+            let text = format!("{} is empty", slot.name());
+            let error = Diagnostic::error(Code("E0306"), text).at(slot.span(), "names nothing");
+            return self.fault(error.with_help("name something, or leave the field out"));
         }
-        Value::List(values.into())
+        let mut sound = true;
+        for (value, span) in values.iter() {
+            match value {
+                Value::Item(own, _) if *own == kind => continue,
+                Value::Poison => {}
+                other => drop(self.wrong_kind_at(slot, *span, other, kind.with_article())),
+            }
+            sound = false;
+        }
+        if sound { Value::List(values) } else { Value::Poison }
     }
 }
 

@@ -10,8 +10,9 @@ pub(super) const AT: Field = Field::new(
     "at",
     FieldType::Keyed(Dim::LENGTH, "m"),
     Default::Vector([0.0; 3]),
-    "Where its origin is; or keys of when it is where, `[0ms: (0, 0, 0)m, 20ms: (1, 0, 0)m]`, between which it goes \
-     straight and evenly. Times are those of the camera's `shutter`; before the first and after the last key it rests.",
+    "Where its origin is, or keys: `[0ms: (0, 0, 0)m, 20ms: (1, 0, 0)m]`. Between keys it moves in a straight line at \
+     constant speed; before the first and after the last it stands still. Times are relative to the frame, as those of the \
+     camera's `shutter`.",
 )
 .foreign(&[
     ("translate", "pbrt and Mitsuba"),

@@ -141,8 +141,8 @@ const ONLY: Field = Field::new(
     "only",
     FieldType::Names(Kind::Instance),
     Default::Absent("all"),
-    "Light linking: it lights these instances and nothing else. Shadows are not linked: whatever is in the way casts one. \
-     Mirrors that are not among them do not show it; the camera sees it all the same.",
+    "Light linking: it lights these instances and nothing else. Everything still casts a shadow, and the camera still sees \
+     the light; a mirror that is not listed does not show it.",
 )
 .typical("`[vase, plinth]`")
 .foreign(&[("light_linking", "Blender"), ("include", "common use"), ("links", "common use")]);
