@@ -36,6 +36,7 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/bare.wgsl", principled::bare(features)),
         ("scene/bindings.wgsl", bindings::text(&features.bindings()?)),
         ("scene/after.wgsl", traversal::after(features)),
+        ("scene/brushing.wgsl", path::brushing(features)),
         ("scene/candidate.wgsl", traversal::candidate(features)),
         ("scene/constants.wgsl", constants::text(features)),
         ("scene/crossing.wgsl", media::crossing(features)),

@@ -235,6 +235,25 @@ pub(crate) fn place(features: &FeatureSet) -> String {
     text
 }
 
+/// Whether any principled material is brushed.
+pub(crate) fn brushing(features: &FeatureSet) -> String {
+    let mut text =
+        String::from("// Generated: whether this scene has brushed principled surfaces.\n\n");
+    text += &imports(["abi/material.wgsl", "surface/brushing.wgsl", "surface/surface.wgsl"]);
+    let body = if features.principled_anisotropy {
+        "    if (kind == MATERIAL_PRINCIPLED) {\n        return brushing_at(s);\n    }\n"
+    } else {
+        ""
+    };
+    let _ = write!(
+        text,
+        "\n// `Scatter::tangent` and `Scatter::anisotropy` of the surface `s`, whose material is of this `kind`.\n\
+         fn dispatch_brushing(s: Surface, kind: u32) -> vec4f {{\n{body}    \
+         return vec4f(s.tangent, 0.0);\n}}\n"
+    );
+    text
+}
+
 /// What a ray sees that hits nothing; weighted where the sky is sampled, too.
 fn miss(features: &FeatureSet) -> String {
     let sky_is_sampled = features.geometry() && features.lights.contains(&LightKind::Sky);

@@ -35,17 +35,13 @@ pub(crate) fn texture(features: &FeatureSet) -> String {
 /// An image or an expression.
 pub(crate) fn lookup(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: whether textures of this scene are computed.\n\n");
-    text += &imports(["texture/bilinear.wgsl"]);
-    let mut body = String::new();
-    if features.textures.contains(&TextureFormat::Expression) {
-        text += &imports(["scene/constants.wgsl", "scene/records.wgsl", "texture/expression.wgsl"]);
-        body += "    if (load_texture_format(i) == TEXTURE_EXPRESSION) {\n        \
-                 return expression_fetch(load_texture(i), uv);\n    }\n";
-    }
+    let computed = features.textures.contains(&TextureFormat::Expression);
+    let module = if computed { "expression" } else { "bilinear" };
+    text += &imports([format!("texture/{module}.wgsl").as_str()]);
     let _ = write!(
         text,
         "\n// Texture `i` at `uv`, linear.\n\
-         fn texture_lookup(i: u32, uv: vec2f) -> vec4f {{\n{body}    return bilinear_fetch(i, uv);\n}}\n"
+         fn texture_lookup(i: u32, uv: vec2f) -> vec4f {{\n    return {module}_fetch(i, uv);\n}}\n"
     );
     text
 }

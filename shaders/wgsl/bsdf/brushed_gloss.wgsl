@@ -11,11 +11,8 @@
 #import "bsdf/gloss_albedo.wgsl"
 #import "bsdf/scatter.wgsl"
 #import "math/basis.wgsl"
-#import "math/sincos.wgsl"
 #import "math/vector.wgsl"
-#import "scene/constants.wgsl"
 #import "scene/records.wgsl"
-#import "scene/texture.wgsl"
 
 // How a surface is brushed.
 struct BrushedGloss {
@@ -26,27 +23,14 @@ struct BrushedGloss {
     anisotropy: f32,
 }
 
-// Nothing of the material is brushed.
+// The surface at `s` is not brushed.
 fn brushed_gloss_none(s: Scatter) -> bool {
-    return load_material_anisotropy(s.material) <= 0.0;
+    return s.anisotropy <= 0.0;
 }
 
-// How the surface at `s` is brushed. A texture has the direction in red, along u, and green, along v, both from -1 to
-// 1, and a factor on the anisotropy in blue.
+// How the surface at `s` is brushed.
 fn brushed_gloss_at(s: Scatter) -> BrushedGloss {
-    var anisotropy = load_material_anisotropy(s.material);
-    let turn = sincos_2pi(load_material_anisotropy_turn(s.material));
-    var along = vec2f(turn.y, turn.x);
-    let texture = load_material_anisotropy_texture(s.material);
-    if (texture != NONE) {
-        let texel = texture_fetch(texture, s.uv);
-        let d = texel.xy * 2.0 - vec2f(1.0);
-        along = vec2f(d.x * turn.y - d.y * turn.x, d.x * turn.x + d.y * turn.y);
-        anisotropy *= clamp(texel.z, 0.0, 1.0);
-    }
-    let plane = basis_along(s.ns, s.tangent);
-    let basis = basis_along(s.ns, plane.t * along.x + plane.b * (along.y * s.handed));
-    return BrushedGloss(basis, ggx_anisotropic_alpha(s.roughness, anisotropy), anisotropy);
+    return BrushedGloss(basis_along(s.ns, s.tangent), ggx_anisotropic_alpha(s.roughness, s.anisotropy), s.anisotropy);
 }
 
 // As `gloss_sample`.

@@ -3,6 +3,7 @@
 #import "abi/material.wgsl"
 #import "math/vector.wgsl"
 #import "sampler/key.wgsl"
+#import "scene/brushing.wgsl"
 #import "scene/place.wgsl"
 #import "scene/texture.wgsl"
 #import "surface/place.wgsl"
@@ -19,10 +20,11 @@ struct Scatter {
     kind: u32,
     // Index of the `Material`, for what only one model reads.
     material: u32,
-    // Unit, along which u grows, and the sign of v, as in `Surface`; only for materials that ask. Wood: its grain,
-    // projected on the surface, as long as the sine between grain and normal.
+    // Along which u grows, as in `Surface`; only for materials that ask. Wood: its grain, projected on the surface, as
+    // long as the sine between grain and normal. Brushed principled surfaces: the direction of brushing.
     tangent: vec3f,
-    handed: f32,
+    // How far a principled surface is brushed, texture applied.
+    anisotropy: f32,
     uv: vec2f,
     // The point in its object, and the object's key; only for materials that ask.
     place: Place,
@@ -62,9 +64,10 @@ struct Evaluated {
 fn scatter_at(m: Material, s: Surface, key: SampleKey) -> Scatter {
     let color = m.color * texture_fetch(m.color_texture, s.uv).xyz;
     let mr = texture_fetch(m.metallic_roughness_texture, s.uv);
+    let brushing = dispatch_brushing(s, m.kind);
     return Scatter(
         s.horizon, s.ns, color, m.kind, s.material,
-        s.tangent, s.handed, s.uv, dispatch_place(s.object, m.flags, s.rest), m.fuzz,
+        brushing.xyz, brushing.w, s.uv, dispatch_place(s.object, m.flags, s.rest), m.fuzz,
         m.roughness * mr.y, m.metallic * mr.z,
         m.ior, m.ior_minus_1, s.front, key,
     );

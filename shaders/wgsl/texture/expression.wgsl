@@ -1,4 +1,5 @@
-// Texture expressions: runs of operations in reverse Polish notation, see `TextureOp`.
+// Texture expressions: runs of operations in reverse Polish notation, see `TextureOp`. An image is an expression of
+// one operation, because compilers for GPUs copy what is called: so its lookup is there once.
 
 #import "abi/texture.wgsl"
 #import "abi/texture_op.wgsl"
@@ -8,8 +9,11 @@
 #import "scene/records.wgsl"
 #import "texture/bilinear.wgsl"
 
-// The value of `expression` at `uv`.
-fn expression_fetch(expression: Texture, uv: vec2f) -> vec4f {
+// The value of texture `i`, an expression or an image, at `uv`.
+fn expression_fetch(i: u32, uv: vec2f) -> vec4f {
+    let expression = load_texture(i);
+    let is_image = expression.format != TEXTURE_EXPRESSION;
+    let count = select(expression.width, 1u, is_image);
     // The stack, its top first. No more than six values ever wait: the check of packs proves it.
     var a = vec4f(0.0);
     var b = vec4f(0.0);
@@ -20,8 +24,11 @@ fn expression_fetch(expression: Texture, uv: vec2f) -> vec4f {
     let first = expression.offset / 3u;
     var k = 0u;
     loop {
-        if (k == expression.width) { break; }
-        let op = load_texture_op(first + k);
+        if (k == count) { break; }
+        var op = expression_image(i);
+        if (!is_image) {
+            op = load_texture_op(first + k);
+        }
         k += 1u;
         switch (op.kind) {
             case TEXTURE_OP_CHANNEL: { a = vec4f(expression_lane(a, op.arg)); }
@@ -50,6 +57,11 @@ fn expression_fetch(expression: Texture, uv: vec2f) -> vec4f {
         }
     }
     return a;
+}
+
+// The operation that looks up image `i` as it is.
+fn expression_image(i: u32) -> TextureOp {
+    return TextureOp(TEXTURE_OP_IMAGE, i, 0u, 0u, vec4f(1.0, 0.0, 0.0, 1.0), vec4f(0.0));
 }
 
 // An operation without operands.

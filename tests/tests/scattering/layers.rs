@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use pack::abi::Material;
-use runtime::kernel::f64 as double;
+use runtime::kernel::{f32 as single, f64 as double};
 use tests::kernel::{Bench, Lobe};
 use tests::layers::Layers;
 use tests::statistics::Mean;
@@ -30,6 +30,25 @@ impl Case {
 
     fn bench(&self) -> Bench {
         Bench::new().materials(&[Material::from(self.layers)])
+    }
+
+    /// The surface in double precision, as the kernel brushes it.
+    fn double(&self) -> double::Scatter {
+        let bench = self.bench();
+        let (mut kernel, s) = (bench.double(), self.lobe.double());
+        let at = kernel.surface_new(DVec3::ZERO, self.lobe.normal, -self.lobe.normal, 1.0);
+        let handed = if self.lobe.front { 1.0 } else { -1.0 };
+        let at = double::Surface { tangent: s.tangent, handed, ..at };
+        let brushing = kernel.dispatch_brushing(at, s.kind);
+        double::Scatter { tangent: brushing.truncate(), anisotropy: brushing.w, ..s }
+    }
+
+    /// The same in single precision.
+    #[expect(clippy::cast_possible_truncation, reason = "rounded to the kernel's precision")]
+    fn single(&self) -> single::Scatter {
+        let s = self.double();
+        let (tangent, anisotropy) = (s.tangent.as_vec3(), s.anisotropy as f32);
+        single::Scatter { tangent, anisotropy, ..self.lobe.single() }
     }
 
     /// Seen from the other side.
@@ -67,7 +86,7 @@ impl Case {
     fn shares(&self, wo: DVec3, fine: usize) -> [f64; 2] {
         let bench = self.bench();
         let mut kernel = bench.double();
-        let (s, up, mu) = (self.lobe.double(), self.lobe.normal, self.lobe.normal.dot(wo));
+        let (s, up, mu) = (self.double(), self.lobe.normal, self.lobe.normal.dot(wo));
         let cells = self.grid(wo);
         let mut rough = |far: bool| -> f64 {
             let to = |d| if far { self.across(d) } else { d };
@@ -243,9 +262,10 @@ fn light_goes_both_ways_through_layers() {
         let bench = case.bench();
         let mut kernel = bench.double();
         let mut stream = Stream::new(47, i as u64);
+        let (front, back) = (case.double(), case.behind().double());
         let mut value = |a: DVec3, b: DVec3| {
-            let seen = if a.dot(case.lobe.normal) > 0.0 { case } else { case.behind() };
-            let f = kernel.dispatch_eval(seen.lobe.double(), a, b).f.x;
+            let seen = if a.dot(case.lobe.normal) > 0.0 { front } else { back };
+            let f = kernel.dispatch_eval(seen, a, b).f.x;
             f / b.dot(case.lobe.normal).abs()
         };
         for _ in 0..300 {
@@ -265,14 +285,14 @@ fn light_goes_both_ways_through_layers() {
 fn mean_weights_are_the_shares_of_both_sides() {
     for (i, case) in cases().into_iter().enumerate().step_by(7) {
         let bench = case.bench();
-        let mut kernel = bench.single();
+        let (mut kernel, scatter) = (bench.single(), case.single());
         for (j, mu) in [0.9, 0.15].into_iter().enumerate() {
             let wo = case.lobe.at_cosine(mu);
             let truth = case.shares(wo, 6);
             let mut means = [Mean::default(); 2];
             for k in 0..60_000 {
                 let key = crate::weight::key(30_000 + 2 * i + j, k);
-                let out = kernel.dispatch_sample(case.lobe.single(), wo.as_vec3(), key);
+                let out = kernel.dispatch_sample(scatter, wo.as_vec3(), key);
                 let far = out.wi.as_dvec3().dot(case.lobe.normal) < 0.0;
                 let weight = f64::from(out.weight.x);
                 means[0].add(if far { 0.0 } else { weight });
@@ -292,16 +312,16 @@ fn mean_weights_are_the_shares_of_both_sides() {
 fn a_weight_is_value_over_density_through_layers() {
     for (i, case) in cases().into_iter().enumerate() {
         let bench = case.bench();
-        let mut kernel = bench.single();
+        let (mut kernel, scatter) = (bench.single(), case.single());
         for mu in [1.0, 0.3, 0.01] {
             let wo = case.lobe.at_cosine(mu).as_vec3();
             for k in 0..300 {
                 let key = crate::weight::key(40_000 + i, k);
-                let out = kernel.dispatch_sample(case.lobe.single(), wo, key);
+                let out = kernel.dispatch_sample(scatter, wo, key);
                 assert!(out.weight.is_finite() && out.weight.min_element() >= 0.0, "{case:?}");
                 if out.pdf > 0.0 && out.weight.x > 0.0 {
-                    let f = kernel.dispatch_eval(case.lobe.single(), wo, out.wi).f.x;
-                    let pdf = kernel.dispatch_eval(case.lobe.single(), wo, out.wi).pdf;
+                    let found = kernel.dispatch_eval(scatter, wo, out.wi);
+                    let (f, pdf) = (found.f.x, found.pdf);
                     assert!((pdf / out.pdf - 1.0).abs() < 1e-4, "{case:?} {mu}: {out:?}, {pdf}");
                     let off = (out.weight.x * out.pdf - f).abs();
                     assert!(off <= 1e-4 * f, "{case:?} at {mu}: {out:?}, f {f}");
@@ -339,7 +359,7 @@ fn the_direction_of_brushing_is_a_line() {
         let bench = case.bench();
         let wo = case.lobe.at_cosine(0.5);
         let wi = (case.lobe.mirror(wo) + case.lobe.tangent() * 0.2).normalize();
-        bench.double().dispatch_eval(case.lobe.double(), wo, wi).f.x
+        bench.double().dispatch_eval(case.double(), wo, wi).f.x
     };
     let (along, half, across) = (value(0.0), value(0.5), value(0.25));
     assert!((along - half).abs() < 1e-9 * along, "{along} {half}");
