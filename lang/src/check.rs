@@ -26,6 +26,7 @@ mod field;
 pub(crate) mod fields;
 pub(crate) mod file;
 mod film;
+mod followers;
 pub(crate) mod given;
 mod group;
 mod index;
@@ -174,6 +175,7 @@ impl Checker {
         }
         check_asserts(ev);
         let scene = self.build(ev);
+        followers::leave_out(ev);
         if !ev.has_errors() {
             unused::check(ev);
         }

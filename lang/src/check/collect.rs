@@ -27,6 +27,13 @@ impl<'p> Evaluator<'p> {
         givens
     }
 
+    /// Whether a declaration, or one that it is like, has fields that are not known.
+    pub(super) fn is_unsure(&mut self, id: ItemId) -> bool {
+        let models = self.models;
+        let chain = models.get(&id).map_or(&[][..], |model| &model.chain);
+        chain.iter().any(|member| self.own_fields(*member).unsure)
+    }
+
     fn own_fields(&mut self, id: ItemId) -> Rc<OwnFields<'p>> {
         if let Some(known) = self.own_fields.get(&id) {
             return Rc::clone(known);
@@ -204,18 +211,12 @@ impl<'p> Evaluator<'p> {
 
     /// Reports all required fields that are missing, in one message.
     pub(crate) fn check_missing(&mut self, id: ItemId, fields: &mut Fields) {
-        let models = self.models;
-        let (Some(model), Some(decl)) = (models.get(&id), self.program.decl(id)) else {
-            return;
-        };
+        let Some(decl) = self.program.decl(id) else { return };
         let missing: Vec<&Field> = fields.missing();
         if missing.is_empty() {
             return;
         }
         fields.ok = false;
-        if model.chain.iter().any(|member| self.own_fields(*member).unsure) {
-            return;
-        }
         let names: Vec<String> = missing.iter().map(|field| field.name.to_owned()).collect();
         let name = &decl.name;
         let text = format!("`{}` is missing {}", name.text, quoted_list(&names));

@@ -306,8 +306,7 @@ fn first(groups: [&Group; 3]) -> Group {
 /// Reports a missing shape once, before any index is tried.
 fn has_required(ev: &mut Evaluator<'_>, id: ItemId, givens: &Givens<'_>) -> bool {
     let Some(model) = ev.models.get(&id) else { return false };
-    let partial = model.chain.iter().filter_map(|m| ev.program.decl(*m)).any(|decl| decl.partial);
-    partial || givens.contains_key("shape") || model.object.is_some() || {
+    givens.contains_key("shape") || model.object.is_some() || {
         let text = format!("`{}` is missing `shape`", ev.program.name(id));
         let span = ev.program.name_span(id);
         let error = Diagnostic::error(Code("E0207"), text)
