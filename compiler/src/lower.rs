@@ -43,6 +43,7 @@ mod sheet;
 mod shutter;
 mod sky;
 mod sky_table;
+mod spread;
 mod stored;
 mod sun;
 mod survey;
@@ -102,6 +103,7 @@ pub fn lower(
     let sky = sky::sky(scene.sky.as_ref(), (files, stages), &mut materials.textures)?;
     let (textures, has_textures) = materials.textures.made()?;
 
+    spread::powers(scene, &bodies, stages, &mut materials, diagnostics)?;
     motion::check(scene, &bodies, &materials, diagnostics);
 
     // Where they are.

@@ -5,16 +5,20 @@
 //! and in the kernel stands under the same name in `pack::abi::MaterialKind`; the compiler turns one into the
 //! other. This does not know the pack.
 
+mod brightness;
 mod fields;
 mod param;
 mod pattern;
 mod principled;
+mod projection;
 mod sheet;
 mod specular;
 
+pub use brightness::Brightness;
 pub(crate) use fields::VISIBLE;
 pub use param::{Color, Filling, Grain, Ingredient, Inside, NormalMap, Pattern, Scalar, Waves};
 pub(crate) use param::{Param, Reader, Shown};
+pub use projection::TextureProjection;
 
 use crate::scene::{Name, Rgb};
 use crate::schema::{Default, Field, Kind, TypeSchema};
@@ -28,6 +32,8 @@ pub struct Material {
     pub model: MaterialModel,
     /// Tilts the shading normal.
     pub normal: Option<NormalMap>,
+    /// Where its textures lie.
+    pub projection: TextureProjection,
 }
 
 /// What compilation asks of a material beside its numbers. As it is here: opaque, without light of its own, the
@@ -229,7 +235,7 @@ materials! {
             /// Reflectance, 0 ..= 1.
             color: Color = [fields::reflectance(Default::Required)],
         }
-        also: [fields::NORMAL, fields::NORMAL_STRENGTH],
+        also: [fields::NORMAL, fields::NORMAL_STRENGTH, projection::PROJECTION],
         traits: {}
     }
     /// Mirror blurred by a ball of radius `fuzz`.
@@ -244,7 +250,7 @@ materials! {
             /// 0 ..= 1.
             fuzz: f64 = [fields::METAL_FUZZ],
         }
-        also: [fields::NORMAL, fields::NORMAL_STRENGTH],
+        also: [fields::NORMAL, fields::NORMAL_STRENGTH, projection::PROJECTION],
         traits: {}
     }
     /// Rough metal.
@@ -268,7 +274,7 @@ materials! {
             /// Gives back what single reflection loses.
             compensation: bool = [specular::COMPENSATION],
         }
-        also: [fields::NORMAL, fields::NORMAL_STRENGTH],
+        also: [fields::NORMAL, fields::NORMAL_STRENGTH, projection::PROJECTION],
         traits: {}
     }
     /// Glass, smooth where the roughness is 0.
@@ -293,7 +299,7 @@ materials! {
             /// What it is inside.
             inside: Inside = [fields::INTERIOR, fields::PRIORITY],
         }
-        also: [fields::NORMAL, fields::NORMAL_STRENGTH],
+        also: [fields::NORMAL, fields::NORMAL_STRENGTH, projection::PROJECTION],
         traits: {
             fn unmixable(&self) -> Option<&'static str> {
                 Some(HAS_INSIDE)
@@ -328,7 +334,7 @@ materials! {
             /// Factor on what the coat reflects.
             coat_tint: Rgb = [specular::CLEARCOAT_COAT_TINT],
         }
-        also: [fields::NORMAL, fields::NORMAL_STRENGTH],
+        also: [fields::NORMAL, fields::NORMAL_STRENGTH, projection::PROJECTION],
         traits: {}
     }
     /// Light source without scattering.
@@ -346,8 +352,8 @@ materials! {
         fields: {
             /// Colour, any non-negative value.
             color: Color = [fields::EMISSIVE_COLOR],
-            /// Factor on `color`: radiance in W/(m2 sr) up to the scene's own scale.
-            strength: f64 = [fields::EMISSIVE_STRENGTH],
+            /// Factor on `color`.
+            brightness: Brightness = [fields::EMISSIVE_STRENGTH, fields::EMISSIVE_POWER],
             /// Emits from the back side too.
             both_sides: bool = [fields::EMISSIVE_SIDES],
             /// The camera sees it.
@@ -363,7 +369,7 @@ materials! {
             }
 
             fn emission(&self) -> Option<(Color, f64)> {
-                Some((self.color, self.strength))
+                Some((self.color, self.brightness.value()))
             }
 
             fn scatters(&self) -> bool {
@@ -420,7 +426,7 @@ materials! {
             /// Alpha below this is not there; `None`: alpha is the share that is there.
             alpha_clip: Option<f64> = [fields::ALPHA_CLIP],
         }
-        also: [fields::NORMAL, fields::NORMAL_STRENGTH],
+        also: [fields::NORMAL, fields::NORMAL_STRENGTH, projection::PROJECTION],
         traits: {
             fn unmixable(&self) -> Option<&'static str> {
                 let dark = matches!(self.emission, Color::Constant(rgb) if rgb.iter().all(|c| *c <= 0.0));
@@ -509,6 +515,7 @@ materials! {
             /// Share of the rest that goes through, 0 ..= 1.
             translucency: f64 = [pattern::FABRIC_TRANSLUCENCY],
         }
+        also: [projection::PROJECTION],
         traits: {}
     }
     /// Thin sheet that lets light through.

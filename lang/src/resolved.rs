@@ -75,6 +75,7 @@ fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
             fields.push(("normal", format!("{}.rgb", texture_name(scene, map.texture))));
             fields.push(("normal.strength", number(map.strength)));
         }
+        fields.extend(material.projection.shown());
         block(out, &format!("material {}: {kind}", material.name.text), &fields)?;
     }
     for instance in &scene.instances {

@@ -28,6 +28,7 @@ pub use view::{
 
 pub use crate::material::{
     Color, Inside, Material, MaterialModel, NormalMap, Pattern, Principled, Scalar,
+    TextureProjection,
 };
 pub use crate::medium::{Medium, MediumModel};
 pub use crate::shape::{EditOf, MeshEdit, Parts, Shape, fourth};

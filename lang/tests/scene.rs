@@ -323,7 +323,7 @@ fn a_rectangle_light_is_an_instance_that_faces_its_target() {
     let material = &scene.materials[instance.material.expect("it has one")];
     let MaterialModel::Emissive(glow) = &material.model else { panic!("{material:?}") };
     let Color::Constant(radiance) = glow.color else { panic!("{glow:?}") };
-    assert!((radiance[0] * glow.strength - 60.0 / std::f64::consts::PI).abs() < 1e-12);
+    assert!((radiance[0] * glow.brightness.value() - 60.0 / std::f64::consts::PI).abs() < 1e-12);
 }
 
 #[test]

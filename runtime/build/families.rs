@@ -100,9 +100,16 @@ fn alone(mask: u64, with: fn(bool) -> FeatureSet) -> Family {
     Family { mask, members: vec![(0, with(false)), (mask, with(true))] }
 }
 
-/// What materials ask of a surface point. Tangents depend on the shapes too.
+/// What materials ask of a surface point. Tangents depend on the shapes too. Projected textures have no bit: their code
+/// asks whether there are any.
 fn asked() -> Family {
-    alone(bit::OBJECTS, |objects| FeatureSet { objects, ..FeatureSet::full() })
+    let set = |objects, projection| FeatureSet { objects, projection, ..FeatureSet::full() };
+    let members = vec![
+        (0, set(false, false)),
+        (bit::OBJECTS, set(true, false)),
+        (bit::OBJECTS, set(true, true)),
+    ];
+    Family { mask: bit::OBJECTS, members }
 }
 
 /// Layers of principled surfaces.

@@ -63,6 +63,8 @@ pub struct FeatureSet {
     pub tangents: bool,
     /// Some material has the flag `OBJECT`.
     pub objects: bool,
+    /// Textures of some material are projected; only with `objects`.
+    pub projection: bool,
     /// Some material has a normal map.
     pub normal_maps: bool,
     /// Things have an inside, or there is an atmosphere.
@@ -173,6 +175,7 @@ impl FeatureSet {
             alpha_blend: false,
             tangents: false,
             objects: false,
+            projection: false,
             normal_maps: false,
             media: false,
             scattering: false,
@@ -222,6 +225,7 @@ impl FeatureSet {
             alpha_blend: true,
             tangents: true,
             objects: true,
+            projection: true,
             normal_maps: true,
             media: true,
             scattering: true,

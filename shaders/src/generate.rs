@@ -68,6 +68,7 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/placed.wgsl", traversal::placed(features)),
         ("scene/probe.wgsl", start::probe(features)),
         ("scene/principled.wgsl", principled::outer(features)),
+        ("scene/projection.wgsl", path::projection(features)),
         ("scene/links.wgsl", receiver::links(features)),
         ("scene/receiver.wgsl", receiver::text(features)),
         ("scene/records.wgsl", records::text()),

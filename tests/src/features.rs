@@ -184,6 +184,19 @@ pub const CASES: &[Case] = &[
     case("computed holes", &[SKY, WEAR, GRATE, TENT, FLOOR]),
     case("computed glow", &[PAINT, GLOWING_TILES, PANEL, CLAY, BALL, FLOOR]),
     case("placed textures", &[GRADIENT, SPHERE_LIGHT, PLACED, BALL, TENT, QUILT]),
+    // Projected: without texture coordinates, on what is stretched, mirrored, stored once and turns; through a sheet.
+    case(
+        "projected textures",
+        &[GRADIENT, SPHERE_LIGHT, PAINT, BUMPS, WRAPPED, BALL, BOX, MIRRORED, FLOOR],
+    ),
+    case("textures projected on instances", &[SKY, PAINT, BUMPS, WRAPPED, BEADS, FLOOR]),
+    Case {
+        camera: SHUTTER,
+        ..case(
+            "a projected pane that turns",
+            &[GRADIENT, SPHERE_LIGHT, PAINT, WEAR, STAINED, CLAY_FLOOR],
+        )
+    },
     // Cut out, mirrored, interpolated.
     case("alpha on spheres", &[SKY, WEAR, LACE, BALL, FLOOR]),
     case("alpha on triangles", &[GRADIENT, SPHERE_LIGHT, WEAR, LACE, TENT, FLOOR]),
@@ -633,6 +646,11 @@ material m: principled {
   roughness = wear.g
   specular.color = paint.rgb
 }\n";
+const WRAPPED: &str = "material m: principled { color = mix(paint.rgb, linear(0.8), checker(3)), roughness = 0.4, normal = bumps.rgb, projection = box }\n";
+const STAINED: &str = "material m: principled { transmission = wear.g, color = paint.rgb, roughness = 0, projection = z }
+instance pane { shape = rectangle(size: (2, 2)m), material = m, at = (0, 1.2, 0)m, rotate = [0ms: (80, 0, 0)deg, 20ms: (80, 60, 0)deg] }\n";
+const CLAY_FLOOR: &str = "material clay: diffuse { color = linear(0.7, 0.4, 0.2) }
+instance ground { shape = rectangle(size: (6, 6)m), material = clay }\n";
 const WORN: &str = "material m: principled { roughness = wear.g, metallic = wear.b }\n";
 const NEON: &str = "material m: emissive { color = glow.rgb, strength = 2 }\n";
 const LACE: &str =

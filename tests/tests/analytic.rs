@@ -12,6 +12,8 @@ mod coverage;
 mod links;
 #[path = "analytic/media.rs"]
 mod media;
+#[path = "analytic/power.rs"]
+mod power;
 #[path = "analytic/unlimited.rs"]
 mod unlimited;
 

@@ -18,6 +18,8 @@ mod lights;
 mod meshes;
 #[path = "metamorphic/mixes.rs"]
 mod mixes;
+#[path = "metamorphic/projections.rs"]
+mod projections;
 #[path = "metamorphic/tiles.rs"]
 mod tiles;
 

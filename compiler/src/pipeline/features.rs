@@ -1,7 +1,5 @@
 //! What a scene needs of the kernel: read off the records, so that it cannot be wrong.
 
-use std::collections::BTreeSet;
-
 use pack::abi::{
     CameraKind, FilterKind, LightKind, Material, MaterialKind, NONE, SamplerKind, SkyKind,
     TRI_SMOOTH, TextureFormat, UNLIMITED_DEPTH, material_flag,
@@ -13,6 +11,8 @@ use crate::lower::Lowered;
 /// The features that the records use.
 pub(super) fn of(lowered: &Lowered) -> FeatureSet {
     let materials = &lowered.materials;
+    let some = |is: fn(&Material) -> bool| materials.iter().any(is);
+    let flagged = |flag: u32| materials.iter().any(|material| material.flags & flag != 0);
     let words = |bytes: usize| {
         let windows = (bytes / 16).div_ceil(WINDOW_WORDS as usize).max(1);
         u32::try_from(windows).expect("sections hold at most 2^33 words")
@@ -31,15 +31,11 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
             .collect(),
         light_choice: lowered.lights.len() > 1,
         light_tree: !lowered.light_nodes.is_empty(),
-        tint: materials.iter().any(|m| m.flags & material_flag::EMIT_TINT != 0),
-        spot: materials.iter().any(|m| m.flags & material_flag::EMIT_SPOT != 0),
-        profile: materials.iter().any(|m| m.flags & material_flag::EMIT_PROFILE != 0),
-        unseen: materials.iter().any(|m| m.flags & material_flag::UNSEEN != 0),
-        skies: lowered
-            .sky
-            .iter()
-            .filter_map(|sky| SkyKind::from_tag(sky.kind))
-            .collect::<BTreeSet<_>>(),
+        tint: flagged(material_flag::EMIT_TINT),
+        spot: flagged(material_flag::EMIT_SPOT),
+        profile: flagged(material_flag::EMIT_PROFILE),
+        unseen: flagged(material_flag::UNSEEN),
+        skies: lowered.sky.iter().filter_map(|sky| SkyKind::from_tag(sky.kind)).collect(),
         filters: FilterKind::from_tag(lowered.render.filter).into_iter().collect(),
         cameras: CameraKind::from_tag(lowered.camera.kind).into_iter().collect(),
         blades: lowered.camera.lens_radius > 0.0 && lowered.camera.blades > 0,
@@ -50,22 +46,22 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
             .into_iter()
             .filter(|format| lowered.textures.iter().any(|t| t.format == *format as u32))
             .collect(),
-        alpha_clip: materials.iter().any(|m| m.flags & material_flag::ALPHA_CLIP != 0),
-        alpha_blend: materials.iter().any(Material::is_partial),
-        tangents: materials.iter().any(|m| m.flags & material_flag::TANGENT != 0),
-        principled_specular: materials.iter().any(Material::has_specular),
-        principled_coat: materials.iter().any(Material::has_coat),
-        principled_transmission: materials.iter().any(Material::has_transmission),
-        principled_sheen: materials.iter().any(Material::has_sheen),
-        principled_anisotropy: materials.iter().any(Material::is_brushed),
+        alpha_clip: flagged(material_flag::ALPHA_CLIP),
+        alpha_blend: some(Material::is_partial),
+        tangents: flagged(material_flag::TANGENT),
+        principled_specular: some(Material::has_specular),
+        principled_coat: some(Material::has_coat),
+        principled_transmission: some(Material::has_transmission),
+        principled_sheen: some(Material::has_sheen),
+        principled_anisotropy: some(Material::is_brushed),
         normal_maps: materials.iter().any(|m| m.normal_texture != NONE),
-        objects: materials.iter().any(|m| m.flags & material_flag::OBJECT != 0),
-        media: lowered.render.air != NONE
-            || materials.iter().any(|m| m.flags & material_flag::INTERIOR != 0),
+        objects: flagged(material_flag::OBJECT),
+        projection: flagged(material_flag::PROJECT),
+        media: lowered.render.air != NONE || flagged(material_flag::INTERIOR),
         scattering: lowered.media.iter().any(|m| m.sigma_s.iter().any(|sigma| *sigma > 0.0)),
         fog: lowered.render.fog != NONE,
-        through: materials.iter().any(|m| m.flags & material_flag::THROUGH != 0),
-        sheets: materials.iter().any(Material::is_sheet),
+        through: flagged(material_flag::THROUGH),
+        sheets: some(Material::is_sheet),
         instances: !lowered.instances.is_empty(),
         motion: lowered.objects.iter().any(pack::abi::Object::moves)
             || !lowered.camera_keys.is_empty(),

@@ -68,6 +68,21 @@ pub(super) fn radiance(
     Some(radiance)
 }
 
+/// Colour and `power` of a light whose size only its meshes say: watts, for each channel that is 1. `None` only for fields
+/// with faults.
+pub(super) fn watts(ev: &mut Evaluator<'_>, fields: &Fields) -> Option<(Rgb, f64)> {
+    let color = color(fields)?;
+    let (value, dim) = fields.quantity("power")?;
+    if !is_luminous(dim) {
+        return Some((color, value));
+    }
+    let luminance = luminance(color);
+    if luminance == 0.0 {
+        return black(ev, fields, "power").map(|color| (color, 0.0));
+    }
+    Some((color, value / (EFFICACY * luminance)))
+}
+
 /// Candelas of the value 1 of a profile.
 const PROFILE_UNIT: f64 = 1000.0;
 

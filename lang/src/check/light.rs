@@ -7,7 +7,7 @@ use super::linked;
 use super::transform::{self, Pose, Way};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::eval::Evaluator;
-use crate::material::{Color, Emissive, Scalar};
+use crate::material::{Brightness, Color, Emissive, Scalar};
 use crate::resolve::ItemId;
 use crate::scene::{
     Beam, ColorSpace, Directional, Light, LightLinks, Name, Profile, Rgb, Shape, Tint,
@@ -260,6 +260,11 @@ pub(super) fn light(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Opti
             Some(Lit::Panel(Box::new(panel)))
         }
         LightType::Mesh => {
+            if fields.has("power") {
+                let (color, watts) = brightness::watts(ev, fields)?;
+                let brightness = Brightness::Power(watts);
+                return Some(Lit::Glow(Box::new(Emissive { brightness, ..glow(fields, color)? })));
+            }
             let radiance = brightness::radiance(ev, &name, fields, Emitter::default())?;
             Some(Lit::Glow(Box::new(glow(fields, radiance)?)))
         }
@@ -377,7 +382,7 @@ fn panel(ev: &mut Evaluator<'_>, name: Name, fields: &Fields, form: &Form) -> Op
 fn glow(fields: &Fields, radiance: Rgb) -> Option<Emissive> {
     Some(Emissive {
         color: Color::Constant(radiance),
-        strength: 1.0,
+        brightness: Brightness::Strength(1.0),
         both_sides: fields.word("sides")? == "both",
         visible: fields.word("visible")? == "on",
         alpha: Scalar::Constant(1.0),

@@ -7,7 +7,7 @@ use super::pattern;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::eval::value::Value;
-use crate::material::{Lints, Traits as _};
+use crate::material::{Lints, TextureProjection, Traits as _};
 use crate::resolve::ItemId;
 use crate::scene::{Color, MaterialModel, NormalMap};
 use crate::source::Span;
@@ -23,6 +23,8 @@ pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
     whiteness(ev, fields);
     invisible_coat(ev, fields);
     bare_sheen(ev, fields);
+    unprojected(ev, fields);
+    one_of(ev, fields, &["strength", "power"], "how bright it is");
     if let (Some(id), Some(span)) = (fields.item("interior"), fields.value_span("interior")) {
         medium::refuse_fog(ev, id, span);
     }
@@ -93,6 +95,31 @@ fn bare_sheen(ev: &mut Evaluator<'_>, fields: &Fields) {
                 .with_help("leave one of them out, or `mix` two materials, each with one of them");
             ev.fault(error);
         }
+    }
+}
+
+/// What gives light and what is cut out is asked for by rays that know texture coordinates alone.
+fn unprojected(ev: &mut Evaluator<'_>, fields: &Fields) {
+    let Some(span) = fields
+        .span("projection")
+        .filter(|_| TextureProjection::of(fields) != TextureProjection::Uv)
+    else {
+        return;
+    };
+    let textured = |name: &str| fields.get(name).is_some_and(|value| value.is_textured());
+    for name in ["emission.color", "alpha"].into_iter().filter(|name| textured(name)) {
+        let text = format!("a textured `{name}` cannot be projected");
+        let error = Diagnostic::error(Code("E0703"), text)
+            .at(span, "moves all textures of this material")
+            .because(fields.value_span(name).unwrap_or(span), "is a texture")
+            .with_help("use the texture coordinates of the shape: `projection = uv`");
+        ev.fault(error);
+    }
+    if !fields.schema.fields.iter().any(|field| textured(field.name)) {
+        let text = "`projection` has no effect: nothing of this material is a texture";
+        let warning =
+            Diagnostic::warning(Code("W0404"), "no_effect", text).at(span, "changes nothing");
+        ev.tell(warning);
     }
 }
 

@@ -13,7 +13,7 @@ use super::{
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::eval::value::ShapeValue;
-use crate::material::{Emissive, Reader};
+use crate::material::{Emissive, Reader, TextureProjection};
 use crate::resolve::ItemId;
 use crate::scene::{
     Asset, Directional, Instance, Light, Material, MaterialModel, Medium, Name, Profile, Scalar,
@@ -133,13 +133,15 @@ impl Checker {
         let material = |(name, id): &(Name, ItemId)| {
             if let Some(glow) = glows.get(id) {
                 let model = MaterialModel::Emissive(glow.clone());
-                return Some(Material { name: name.clone(), model, normal: None });
+                let (normal, projection) = (None, TextureProjection::Uv);
+                return Some(Material { name: name.clone(), model, normal, projection });
             }
             let fields = self.sound(*id)?;
             let reader = Reader { fields, textures, expressions, media, materials };
             let model = MaterialModel::read(&reader)?;
             let normal = material::normal(fields, textures);
-            Some(Material { name: name.clone(), model, normal })
+            let projection = TextureProjection::of(fields);
+            Some(Material { name: name.clone(), model, normal, projection })
         };
         order.iter().map(material).collect()
     }
@@ -204,7 +206,8 @@ fn add_panel(scene: &mut Scene, panel: Panel) {
         (material.alpha, material.alpha_clip) = (Scalar::Expression(disk), Some(0.5));
     }
     let model = MaterialModel::Emissive(material);
-    scene.materials.push(Material { name: panel.name, model, normal: None });
+    let (normal, projection) = (None, TextureProjection::Uv);
+    scene.materials.push(Material { name: panel.name, model, normal, projection });
 }
 
 fn textures(ev: &Evaluator<'_>, order: &[(Name, ItemId)]) -> Option<Vec<Texture>> {

@@ -36,7 +36,6 @@ pub(super) const STRENGTH_NAMES: &[(&str, &str)] = &[
     ("scale", "pbrt"),
     ("gain", "LuxCore"),
     ("intensity", "common use"),
-    ("power", "LuxCore"),
     ("emissiveStrength", "glTF"),
     ("Strength", "Blender"),
 ];
@@ -186,6 +185,16 @@ pub(super) const EMISSIVE_STRENGTH: Field = Field::new(
     "Factor on `color`, in W/(m2 sr) up to the scale of the scene.",
 )
 .foreign(STRENGTH_NAMES);
+
+pub(super) const EMISSIVE_POWER: Field = Field::new(
+    "power",
+    FieldType::Number(Bounds::new(Dim::POWER, "W", 0.0, ANY)),
+    Default::Absent("`strength` decides"),
+    "What all that is made of this material gives off together, in watts where `color` is white: `strength` then \
+     follows from its area. Closed shapes shine outwards only.",
+)
+.typical("a bulb of 60W gives off some 5W of light; lights of `mesh` take lumens, too")
+.foreign(&[("flux", "common use"), ("watts", "common use")]);
 
 pub(super) const EMISSIVE_SIDES: Field = Field::new(
     "sides",

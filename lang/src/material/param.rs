@@ -142,7 +142,7 @@ impl<'a> Shown<'a> {
         Self { textures, expressions, media, materials, lines: Vec::new() }
     }
 
-    fn push(&mut self, field: &Field, value: String) {
+    pub(super) fn push(&mut self, field: &Field, value: String) {
         self.lines.push((field.name, value));
     }
 
@@ -163,7 +163,7 @@ impl<'a> Shown<'a> {
 }
 
 /// What is done with numbers: their field and the numbers.
-type Change<'a> = dyn FnMut(&Field, &mut [f64]) + 'a;
+pub(super) type Change<'a> = dyn FnMut(&Field, &mut [f64]) + 'a;
 
 /// A type of parameters. It stands for one schema field, or for several that belong together.
 pub(crate) trait Param: Sized {

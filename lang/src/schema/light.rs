@@ -543,6 +543,12 @@ const MESH: TypeSchema = TypeSchema {
             foreign: &[("gain", "LuxCore"), ("luminance", "common use"), ("energy", "Blender")],
             ..STRENGTH
         },
+        Field {
+            doc: "All the light it gives off, spread over its area: watts for a white light, or lumens, 683 to the watt of \
+                  luminous power. A closed shape shines outwards only.",
+            typical: "a neon sign of a metre 700lm",
+            ..POWER
+        },
         VELOCITY,
         VISIBLE,
         GROUP,

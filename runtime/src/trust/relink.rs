@@ -33,6 +33,8 @@ pub(crate) struct Wanted {
     pub(crate) camera_keys: bool,
     /// Whether some light does not light everything; likewise.
     pub(crate) links: bool,
+    /// Whether textures are projected; likewise.
+    pub(crate) projection: bool,
 }
 
 impl Wanted {
@@ -45,6 +47,7 @@ impl Wanted {
             keys: has("fn pose_at("),
             camera_keys: has("fn keys_camera("),
             links: has("load_frame_link_at()"),
+            projection: has("fn projection_apply("),
         }
     }
 
@@ -151,6 +154,8 @@ const KEYED: [&str; 2] = ["pose_", "dispatch_triangle_dir(i, ray.dir"];
 const EYE: [&str; 1] = ["keys_camera("];
 /// Words of the texts for light linking, likewise.
 const LINKED: [&str; 4] = ["struct Receiver", "Receiver(", "receiver.", "load_frame_link_at()"];
+/// Words of the text for textures that are projected, likewise.
+const PROJECTED: [&str; 1] = ["projection_apply("];
 /// Words of the text for either.
 const TIME: [&str; 1] = ["load_frame_camera_key_at() == NONE"];
 
@@ -168,18 +173,19 @@ impl Choice<'_> {
             let own = self.own.get(STACK).filter(|text| stack_size(text).is_some());
             return Some((*own.unwrap_or(&"const STACK_SIZE: u32 = 0x1u;")).to_owned());
         }
-        let Wanted { features, smooth, keys, camera_keys, links } = self.wanted;
+        let Wanted { features, smooth, keys, camera_keys, links, projection } = self.wanted;
         let rows = table().get(name).into_iter().flatten();
         let fitting: BTreeSet<&str> = rows
             .filter(|known| known.condition.holds(features, self.sections))
             .map(|known| known.text)
             .collect();
-        let kinds: [(&[&str], bool); 5] = [
+        let kinds: [(&[&str], bool); 6] = [
             (&SMOOTH, smooth),
             (&KEYED, keys),
             (&EYE, camera_keys),
             (&TIME, keys || camera_keys),
             (&LINKED, links),
+            (&PROJECTED, projection),
         ];
         // What has no bit tells texts apart that fit the same features.
         let chosen = match fitting.len() {

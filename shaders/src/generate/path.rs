@@ -235,6 +235,24 @@ pub(crate) fn place(features: &FeatureSet) -> String {
     text
 }
 
+/// Whether textures of any material are projected.
+pub(crate) fn projection(features: &FeatureSet) -> String {
+    let mut text = String::from("// Generated: whether this scene projects textures.\n\n");
+    text += &imports(["sampler/key.wgsl", "scene/constants.wgsl", "surface/surface.wgsl"]);
+    let mut body = "";
+    if features.projection {
+        text += &imports(["surface/projection.wgsl"]);
+        body = "    if ((flags & FLAG_PROJECT) != 0u) {\n        \
+                projection_apply(s, flags, key, time);\n    }\n";
+    }
+    let _ = write!(
+        text,
+        "\n// Gives `s`, on a material with these flags, other texture coordinates, if the material says so.\n\
+         fn dispatch_projection(s: ptr<function, Surface>, flags: u32, key: SampleKey, time: f32) {{\n{body}}}\n"
+    );
+    text
+}
+
 /// Whether any principled material is brushed.
 pub(crate) fn brushing(features: &FeatureSet) -> String {
     let mut text =

@@ -18,6 +18,7 @@
 #import "scene/dispatch_mix.wgsl"
 #import "scene/dispatch_pattern.wgsl"
 #import "scene/probe.wgsl"
+#import "scene/projection.wgsl"
 #import "scene/records.wgsl"
 #import "scene/segment.wgsl"
 #import "scene/start.wgsl"
@@ -94,6 +95,7 @@ fn aov_surface(path: ptr<function, Path>, found: ptr<function, AovSample>, hit: 
         return;
     }
     dispatch_tangent(&s, hit, m.flags, (*path).time);
+    dispatch_projection(&s, m.flags, (*path).key, (*path).time);
     dispatch_horizon(&s, m.kind, m.flags);
     dispatch_shading_normal(&s, m, (*path).dir);
     var scatter = scatter_at(m, s, (*path).key);

@@ -7,6 +7,7 @@
 #import "kernel/state.wgsl"
 #import "scene/constants.wgsl"
 #import "scene/dispatch.wgsl"
+#import "scene/projection.wgsl"
 #import "scene/records.wgsl"
 #import "scene/straight.wgsl"
 #import "surface/surface.wgsl"
@@ -18,6 +19,7 @@ fn sheet_through(path: ptr<function, Path>, at: Surface, hit: Hit) -> vec3f {
     let m = load_material(s.material);
     let dir = (*path).shadow_dir;
     dispatch_tangent(&s, hit, m.flags, (*path).time);
+    dispatch_projection(&s, m.flags, (*path).key, (*path).time);
     dispatch_shading_normal(&s, m, dir);
     return dispatch_straight(scatter_at(m, s, (*path).key), -dir);
 }

@@ -19,6 +19,7 @@
 #import "scene/receiver.wgsl"
 #import "scene/records.wgsl"
 #import "scene/probe.wgsl"
+#import "scene/projection.wgsl"
 #import "scene/sampler.wgsl"
 #import "scene/start.wgsl"
 #import "scene/survival.wgsl"
@@ -50,6 +51,7 @@ fn vertex_surface(path: ptr<function, Path>, hit: Hit, v: ptr<function, Vertex>)
         return false;
     }
     dispatch_tangent(&s, hit, m.flags, (*path).time);
+    dispatch_projection(&s, m.flags, (*path).key, (*path).time);
     dispatch_horizon(&s, m.kind, m.flags);
     dispatch_shading_normal(&s, m, (*path).dir);
     vertex_emit(path, s, m);

@@ -11,7 +11,7 @@ use crate::compare::{assert_exact, film};
 const POWERS: [i32; 3] = [-20, 1, 30];
 
 /// Fields of materials that are radiance, or the factor on a colour that is.
-const RADIANCE: [&str; 3] = ["strength", "emission.strength", "depth.color"];
+const RADIANCE: [&str; 4] = ["strength", "power", "emission.strength", "depth.color"];
 
 /// Multiplies every radiance of the scene. Colours that come from images have a factor next to them.
 fn brighten(scene: &mut Scene, factor: f64) {

@@ -6,6 +6,7 @@
 //! the picture times a half (`emission.rs`).
 
 use compiler::pipeline::Compiled;
+use lang::material::Brightness;
 use lang::scene::{MaterialModel, Scene};
 use tests::scene::{compile, compile_changed};
 
@@ -162,7 +163,9 @@ fn group(first: bool) -> Compiled {
         let off = if first { "pearl" } else { "lamp" };
         let off = scene.materials.iter_mut().find(|material| material.name.text == off);
         match off.map(|material| &mut material.model) {
-            Some(MaterialModel::Emissive(emissive)) => emissive.strength = 0.0,
+            Some(MaterialModel::Emissive(emissive)) => {
+                emissive.brightness = Brightness::Strength(0.0);
+            }
             other => panic!("{other:?} gives no light"),
         }
     })

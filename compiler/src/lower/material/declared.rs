@@ -1,10 +1,10 @@
 //! A material that a scene declares becomes a record.
 
 use lang::material::{
-    self, Clearcoat, Conductor, Dielectric, Diffuse, Emissive, Fabric, Inside, Leaf, Metal, Mix,
-    Pattern, Petal, Stone, Wood,
+    self, Brightness, Clearcoat, Conductor, Dielectric, Diffuse, Emissive, Fabric, Inside, Leaf,
+    Metal, Mix, Pattern, Petal, Stone, Wood,
 };
-use lang::scene::{self, MaterialModel, Scalar};
+use lang::scene::{self, MaterialModel, Scalar, TextureProjection};
 use pack::abi::{self, MaterialKind, NONE, material_flag};
 
 use super::principled::ONE;
@@ -31,6 +31,13 @@ impl MaterialTable<'_> {
             let image = self.normals(map.texture);
             set_normal_map(&mut record, image, map.strength);
         }
+        record.flags |= match material.projection {
+            TextureProjection::Uv => 0,
+            TextureProjection::Box => material_flag::PROJECT | material_flag::OBJECT,
+            TextureProjection::Axis(0) => material_flag::PROJECT_X | material_flag::OBJECT,
+            TextureProjection::Axis(1) => material_flag::PROJECT_Y | material_flag::OBJECT,
+            TextureProjection::Axis(_) => material_flag::PROJECT_Z | material_flag::OBJECT,
+        };
         record
     }
 
@@ -78,7 +85,12 @@ impl MaterialTable<'_> {
     }
 
     fn emissive(&mut self, from: &Emissive) -> abi::Material {
-        let (emission, emission_texture) = self.emission(from.color, from.strength);
+        let strength = match from.brightness {
+            Brightness::Strength(strength) => strength,
+            // The rest is known where its area is: `lower/spread.rs`.
+            Brightness::Power(watts) => f64::from(u8::from(watts > 0.0)),
+        };
+        let (emission, emission_texture) = self.emission(from.color, strength);
         let sides = if from.both_sides { material_flag::EMIT_BOTH_SIDES } else { 0 };
         let unseen = if from.visible { 0 } else { material_flag::UNSEEN };
         let flags = sides | unseen;

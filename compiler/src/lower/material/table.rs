@@ -82,11 +82,13 @@ impl<'a> MaterialTable<'a> {
         self.glows[index as usize]
     }
 
-    /// Whether any texture belongs to the material, or to what it is mixed from.
+    /// Whether any texture belongs to the material, or to what it is mixed from, and is looked up at texture
+    /// coordinates.
     pub(in crate::lower) fn reads_textures(&self, index: u32) -> bool {
         let record = &self.records[index as usize];
         let is_mix = record.kind == MaterialKind::Mix as u32;
-        record.textures().iter().any(|texture| *texture != NONE)
+        let is_projected = record.flags & material_flag::PROJECT != 0;
+        !is_projected && record.textures().iter().any(|texture| *texture != NONE)
             || is_mix && record.parts().into_iter().any(|part| self.reads_textures(part))
     }
 
@@ -130,7 +132,7 @@ impl<'a> MaterialTable<'a> {
     }
 
     /// The index of a material, if it is known.
-    pub(super) fn position(&self, of: MaterialRef) -> Option<u32> {
+    pub(in crate::lower) fn position(&self, of: MaterialRef) -> Option<u32> {
         self.refs.iter().position(|known| *known == of).map(|index| index as u32)
     }
 
@@ -141,6 +143,14 @@ impl<'a> MaterialTable<'a> {
         self.records.push(record);
         self.glows.push(glow);
         (self.records.len() - 1) as u32
+    }
+
+    /// Multiplies the emission of a material; whether it is still a number that a pack can hold.
+    pub(in crate::lower) fn brighten(&mut self, index: u32, factor: f64) -> bool {
+        let record = &mut self.records[index as usize];
+        record.emission = record.emission.map(|c| (f64::from(c) * factor) as f32);
+        self.glows[index as usize] *= factor;
+        record.emission.iter().all(|c| f64::from(*c) <= lang::schema::MAX_MAGNITUDE)
     }
 
     fn glow_of(&mut self, record: &abi::Material) -> f64 {

@@ -1,0 +1,105 @@
+//! Lamps of any shape that say their power: it is spread over all that is made of their material.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+use lang::diagnostic::{Code, Diagnostic};
+use lang::material::Brightness;
+use lang::scene::{Instance, MaterialModel, Scene, Shape};
+
+use super::closed;
+use super::geometry::body::{Bodies, Body, Form};
+use super::geometry::transform::Transform;
+use super::material::{MaterialRef, MaterialTable};
+use crate::import::ImportError;
+use crate::stage::{KeyOf, Stages};
+
+/// Gives materials that say their power the radiance that follows.
+///
+/// # Errors
+/// When a mesh cannot be loaded.
+pub(super) fn powers(
+    scene: &Scene,
+    bodies: &Bodies,
+    stages: &Stages,
+    materials: &mut MaterialTable<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<(), ImportError> {
+    for (index, material) in scene.materials.iter().enumerate() {
+        let MaterialModel::Emissive(emissive) = &material.model else { continue };
+        let Brightness::Power(power) = emissive.brightness else { continue };
+        let Some(known) = materials.position(MaterialRef::Scene(index)) else { continue };
+        let mut area = 0.0;
+        for (instance, body) in scene.instances.iter().zip(&bodies.list) {
+            if instance.material == Some(index) {
+                let sides = sides(instance, emissive.both_sides, (materials, stages))?;
+                area += sides * area_of(instance, body, (materials, stages))?;
+            }
+        }
+        // What has no area gives no light, however bright it is.
+        if area > 0.0 && !materials.brighten(known, power / (PI * area)) {
+            let name = &material.name;
+            let text = format!("`{}` is too bright: it has {area:e} m2 for {power} W", name.text);
+            let error = Diagnostic::error(Code("E0402"), text).at(name.span, "this light");
+            diagnostics.push(error.with_help("a larger light spreads the same `power`"));
+        }
+    }
+    Ok(())
+}
+
+/// How many sides of a shape give light that gets away.
+fn sides(
+    instance: &Instance,
+    both: bool,
+    (materials, stages): (&MaterialTable<'_>, &Stages),
+) -> Result<f64, ImportError> {
+    if !both {
+        return Ok(1.0);
+    }
+    let is_open = if let Shape::Mesh { asset, parts } = &instance.shape {
+        closed::surface(*asset, parts, (materials.files, stages))?.boundary_edges > 0
+    } else {
+        instance.shape.open().is_some()
+    };
+    Ok(if is_open { 2.0 } else { 1.0 })
+}
+
+/// Square metres of one side.
+fn area_of(
+    instance: &Instance,
+    body: &Body,
+    (materials, stages): (&MaterialTable<'_>, &Stages),
+) -> Result<f64, ImportError> {
+    match (&body.form, &instance.shape) {
+        (Form::Sphere(ball), _) => Ok(4.0 * PI * ball.radius * ball.radius),
+        (Form::Faces(faces, _), _) => Ok(faces.iter().map(|face| face.area).sum()),
+        (Form::Mesh(_) | Form::Stored(..), Shape::Mesh { asset, parts }) => {
+            let parts = materials.files.assets()[*asset].chosen(parts);
+            area_of_mesh((*asset, &parts), &body.transform, (materials, stages))
+        }
+        (Form::Nothing | Form::Mesh(_) | Form::Stored(..), _) => Ok(0.0),
+    }
+}
+
+fn area_of_mesh(
+    (asset, parts): (usize, &[usize]),
+    transform: &Transform,
+    (materials, stages): (&MaterialTable<'_>, &Stages),
+) -> Result<f64, ImportError> {
+    let files = materials.files;
+    let mut key = KeyOf::stage("area");
+    for part in parts {
+        key.bytes(&files.assets()[asset].parts[*part].content);
+    }
+    key.floats(&transform.numbers());
+    stages.try_value(key.end(), || {
+        let meshes = files.load_meshes(&[asset].into())?;
+        let area = |part: &usize| -> f64 {
+            let part = &meshes[&asset].parts[*part];
+            let point = |p: [f32; 3]| transform.point(DVec3::from(p.map(f64::from)));
+            let corners = (0..part.triangles.len()).map(|i| part.corners(i).map(point));
+            corners.map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum()
+        };
+        Ok(parts.iter().map(area).sum())
+    })
+}
