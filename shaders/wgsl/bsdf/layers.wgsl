@@ -2,6 +2,7 @@
 // are needed, so that the others do not carry them.
 
 #import "bsdf/scatter.wgsl"
+#import "math/vector.wgsl"
 #import "scene/records.wgsl"
 #import "scene/texture.wgsl"
 
@@ -13,14 +14,21 @@ fn layers_specular(s: Scatter) -> vec4f {
 
 // Share of the light entering that goes through.
 fn layers_transmission(s: Scatter) -> f32 {
-    let texel = texture_fetch(load_material_transmission_texture(s.material), s.uv);
-    return load_material_transmission(s.material) * texel.x;
+    let share = load_material_transmission(s.material);
+    if (share <= 0.0) {
+        return 0.0;
+    }
+    return share * texture_fetch(load_material_transmission_texture(s.material), s.uv).x;
 }
 
 // Colour of the sheen, and the perceptual roughness of its fibres.
 fn layers_sheen(s: Scatter) -> vec4f {
+    let color = load_material_sheen(s.material);
+    if (vector_max(color) <= 0.0) {
+        return vec4f(0.0);
+    }
     let texel = texture_fetch(load_material_sheen_texture(s.material), s.uv);
-    return vec4f(load_material_sheen(s.material), load_material_sheen_roughness(s.material)) * texel;
+    return vec4f(color, load_material_sheen_roughness(s.material)) * texel;
 }
 
 // Share under a clear coat, and the perceptual roughness of that coat.
