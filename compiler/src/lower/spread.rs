@@ -1,10 +1,11 @@
 //! Lamps of any shape that say their power: it is spread over all that is made of their material.
 
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use glam::DVec3;
 use lang::diagnostic::{Code, Diagnostic};
-use lang::material::Brightness;
+use lang::material::{Brightness, Emissive};
 use lang::scene::{Instance, MaterialModel, Scene, Shape};
 
 use super::closed;
@@ -25,21 +26,27 @@ pub(super) fn powers(
     materials: &mut MaterialTable<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<(), ImportError> {
+    // Of each: its watts, and the square metres that shine.
+    let mut lamps: BTreeMap<usize, (&Emissive, f64, f64)> = BTreeMap::new();
     for (index, material) in scene.materials.iter().enumerate() {
-        let MaterialModel::Emissive(emissive) = &material.model else { continue };
-        let Brightness::Power(power) = emissive.brightness else { continue };
-        let Some(known) = materials.position(MaterialRef::Scene(index)) else { continue };
-        let mut area = 0.0;
-        for (instance, body) in scene.instances.iter().zip(&bodies.list) {
-            if instance.material == Some(index) {
-                let sides = sides(instance, emissive.both_sides, (materials, stages))?;
-                area += sides * area_of(instance, body, (materials, stages))?;
-            }
+        if let MaterialModel::Emissive(emissive) = &material.model
+            && let Brightness::Power(watts) = emissive.brightness
+        {
+            lamps.insert(index, (emissive, watts, 0.0));
         }
+    }
+    for (instance, body) in scene.instances.iter().zip(&bodies.list) {
+        let lamp = instance.material.and_then(|material| lamps.get_mut(&material));
+        let Some((emissive, _, area)) = lamp else { continue };
+        let sides = sides(instance, emissive.both_sides, (materials, stages))?;
+        *area += sides * area_of(instance, body, (materials, stages))?;
+    }
+    for (index, (_, watts, area)) in lamps {
+        let Some(known) = materials.position(MaterialRef::Scene(index)) else { continue };
         // What has no area gives no light, however bright it is.
-        if area > 0.0 && !materials.brighten(known, power / (PI * area)) {
-            let name = &material.name;
-            let text = format!("`{}` is too bright: it has {area:e} m2 for {power} W", name.text);
+        if area > 0.0 && !materials.brighten(known, watts / (PI * area)) {
+            let name = &scene.materials[index].name;
+            let text = format!("`{}` is too bright: it has {area:e} m2 for {watts} W", name.text);
             let error = Diagnostic::error(Code("E0402"), text).at(name.span, "this light");
             diagnostics.push(error.with_help("a larger light spreads the same `power`"));
         }

@@ -36,8 +36,8 @@ pub(super) const PROJECTION: Field = Field::new(
     "projection",
     FieldType::Word(WORDS),
     Default::Word("uv"),
-    "Where textures lie. Projected ones need no texture coordinates: they lie in the object, one texture to the metre, \
-     whatever its `scale`; place and size them with `scale`, `offset` and `rotate` of the texture.",
+    "Where textures lie. Projected ones need no texture coordinates: they lie in the object, a unit to the metre whatever its \
+     `scale`; place and size them with `scale`, `offset` and `rotate` of the texture.",
 )
 .foreign(&[
     ("mapping", "LuxCore"),

@@ -95,6 +95,7 @@ fn aov_surface(path: ptr<function, Path>, found: ptr<function, AovSample>, hit: 
         return;
     }
     dispatch_tangent(&s, hit, m.flags, (*path).time);
+    let uv = s.uv;
     dispatch_projection(&s, m.flags, (*path).key, (*path).time);
     dispatch_horizon(&s, m.kind, m.flags);
     dispatch_shading_normal(&s, m, (*path).dir);
@@ -106,7 +107,7 @@ fn aov_surface(path: ptr<function, Path>, found: ptr<function, AovSample>, hit: 
         (*found).material = declared;
         (*found).object = s.object;
         (*found).position = s.p;
-        (*found).uv = s.uv;
+        (*found).uv = uv;
     }
     let next = dispatch_sample(scatter, wo, (*path).key);
     let mirrors = next.pdf == 0.0 && vector_max(next.weight) > 0.0;
