@@ -1,7 +1,6 @@
 // Texture expressions: runs of operations in reverse Polish notation, see `TextureOp`. An image is an expression of
 // one operation, because compilers for GPUs copy what is called: so its lookup is there once.
 
-#import "abi/texture.wgsl"
 #import "abi/texture_op.wgsl"
 #import "math/sincos.wgsl"
 #import "pattern/fbm.wgsl"
