@@ -155,6 +155,14 @@ const CASES: &[Case] = &[
         words: &["// ---- bsdf/sheen.wgsl", "under_sheen_"],
     },
     Case {
+        name: "projection of nothing",
+        idle: "MATERIAL projection = box\n",
+        without: "",
+        busy: "MATERIAL projection = box, metallic = 0.5 * checker(3)\n",
+        bits: bit::OBJECTS,
+        words: &["projection_apply(", "projection_axis("],
+    },
+    Case {
         name: "anisotropy of 0",
         idle: "MATERIAL anisotropy = 0, anisotropy.rotation = 30deg\n",
         without: "",

@@ -31,13 +31,16 @@ impl MaterialTable<'_> {
             let image = self.normals(map.texture);
             set_normal_map(&mut record, image, map.strength);
         }
-        record.flags |= match material.projection {
-            TextureProjection::Uv => 0,
-            TextureProjection::Box => material_flag::PROJECT | material_flag::OBJECT,
-            TextureProjection::Axis(0) => material_flag::PROJECT_X | material_flag::OBJECT,
-            TextureProjection::Axis(1) => material_flag::PROJECT_Y | material_flag::OBJECT,
-            TextureProjection::Axis(_) => material_flag::PROJECT_Z | material_flag::OBJECT,
-        };
+        // Without textures there is nothing to project.
+        if record.textures().iter().any(|texture| *texture != NONE) {
+            record.flags |= match material.projection {
+                TextureProjection::Uv => 0,
+                TextureProjection::Box => material_flag::PROJECT | material_flag::OBJECT,
+                TextureProjection::Axis(0) => material_flag::PROJECT_X | material_flag::OBJECT,
+                TextureProjection::Axis(1) => material_flag::PROJECT_Y | material_flag::OBJECT,
+                TextureProjection::Axis(_) => material_flag::PROJECT_Z | material_flag::OBJECT,
+            };
+        }
         record
     }
 
