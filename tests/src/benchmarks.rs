@@ -35,12 +35,17 @@ pub struct Table {
 }
 
 /// All of them, in the order of the page.
-pub const TABLES: [Table; 11] = [
+pub const TABLES: [Table; 12] = [
     Table { name: "devices", about: "path tracing on the CPU and others", write: devices::table },
     Table {
         name: "agreement",
         about: "pictures of GPUs against those of the CPU",
         write: agreement::table,
+    },
+    Table {
+        name: "features",
+        about: "every feature on GPUs against the CPU",
+        write: agreement::features,
     },
     Table { name: "walks", about: "the walk through the tree", write: walks::table },
     Table {
