@@ -40,20 +40,32 @@ fn path_ended(path: Path) -> bool {
 
 // Moves the path on by what its ray has hit.
 fn path_advance(path: ptr<function, Path>, hit: Hit) {
+    if (!path_connect(path, hit)) {
+        path_extend(path, hit);
+    }
+}
+
+// Takes in what a probe or a shadow ray has hit; false, and nothing happens, for a ray that is the next segment.
+fn path_connect(path: ptr<function, Path>, hit: Hit) -> bool {
     if (dispatch_probe_advance(path, hit)) {
-        return;
+        return true;
     }
-    if ((*path).shadow_light != NONE) {
-        dispatch_shadow_transmittance(path, hit.t);
-        if (hit.prim == NONE) {
-            (*path).radiance += (*path).shadow_radiance;
-        } else if (dispatch_shadow_advance(path, hit)) {
-            return;
-        }
-        (*path).shadow_light = NONE;
-        dispatch_shadow_end(path);
-        return;
+    if ((*path).shadow_light == NONE) {
+        return false;
     }
+    dispatch_shadow_transmittance(path, hit.t);
+    if (hit.prim == NONE) {
+        (*path).radiance += (*path).shadow_radiance;
+    } else if (dispatch_shadow_advance(path, hit)) {
+        return true;
+    }
+    (*path).shadow_light = NONE;
+    dispatch_shadow_end(path);
+    return true;
+}
+
+// Moves the path on to the end of its segment, which has hit that, and scatters it there.
+fn path_extend(path: ptr<function, Path>, hit: Hit) {
     (*path).segments += 1u;
     var v: Vertex;
     if (dispatch_segment(path, hit, &v)) {

@@ -1,5 +1,6 @@
 // The path tracer: one thread renders one pixel of a tile, sample after sample. When a path ends its
-// thread begins the next one at once, so that lanes do not wait for the longest path.
+// thread begins the next one at once, so that lanes do not wait for the longest path. Each turn traces the shadow rays
+// of the last vertex and then the next segment, so that lanes shade together.
 
 #import "kernel/film.wgsl"
 #import "kernel/indirect.wgsl"
@@ -9,6 +10,7 @@
 #import "scene/records.wgsl"
 #import "scene/shadow.wgsl"
 #import "trace/bvh.wgsl"
+#import "trace/ray.wgsl"
 
 @compute @workgroup_size(8, 8, 1)
 fn render(@builtin(global_invocation_id) gid: vec3<u32>) {
@@ -20,12 +22,21 @@ fn render(@builtin(global_invocation_id) gid: vec3<u32>) {
     let end = frame.sample_first + frame.sample_count;
     var film = film_empty();
     var path = path_begin(sample_key(pixel, frame.sample_first, frame.seed), pixel);
-    // The exit stands first: Mesa's llvmpipe (seen in 22.3.6) gives wrong pictures for the same loop with its exit
-    // inside the condition below.
+    // Exits stand first: Mesa's llvmpipe (seen in 22.3.6) gives wrong pictures for the same loops with their exits
+    // further down.
     loop {
         if (path.key.sample == end) { break; }
-        film.rays += dispatch_counted_rays(&path);
-        path_advance(&path, trace(path_ray(&path)));
+        var hit = ray_miss(0.0);
+        var at_vertex = false;
+        loop {
+            if (at_vertex || path_ended(path)) { break; }
+            film.rays += dispatch_counted_rays(&path);
+            hit = trace(path_ray(&path));
+            at_vertex = !path_connect(&path, hit);
+        }
+        if (at_vertex) {
+            path_extend(&path, hit);
+        }
         if (path_ended(path)) {
             let sample = path.key.sample;
             let kept = indirect_clamped(&path);

@@ -143,7 +143,8 @@ fn render_eight(kernel: &mut kernel::Kernel<'_>, inside: v::B, at: v::V2<v::U>) 
             if !v::any(short) {
                 break v::but_b(left, path.open);
             }
-            turn(kernel, short, &mut film, &mut path);
+            let hit = next_hit(kernel, short, &mut film, &mut path);
+            kernel.path_connect(short, &mut path, &hit);
         };
         if v::any(ended) {
             let sample = path.key.sample;
@@ -168,23 +169,23 @@ fn render_eight(kernel: &mut kernel::Kernel<'_>, inside: v::B, at: v::V2<v::U>) 
             let new = kernel.path_begin(ended, &key, pixel);
             path = kernel::Path::select(ended, &new, &path);
         }
-        turn(kernel, left, &mut film, &mut path);
+        let hit = next_hit(kernel, left, &mut film, &mut path);
+        kernel.path_extend(left, &mut path, &hit);
     }
     let place = v::add_u(v::mul_u(at.y, v::u(frame.tile_size.x)), at.x);
     kernel.film_store(all, place, &film);
 }
 
-/// Traces the next ray of the lanes of `mask`, and moves their paths on.
+/// What the next ray of the lanes of `mask` hits.
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-fn turn(
+fn next_hit(
     kernel: &mut kernel::Kernel<'_>,
     mask: v::B,
     film: &mut kernel::FilmPixel,
     path: &mut kernel::Path,
-) {
+) -> kernel::Hit {
     let counted = kernel.dispatch_counted_rays(mask, path);
     film.rays = v::select_u(mask, v::add_u(film.rays, counted), film.rays);
     let ray = kernel.path_ray(mask, path);
-    let hit = trace(kernel, mask, &ray);
-    kernel.path_advance(mask, path, &hit);
+    trace(kernel, mask, &ray)
 }
