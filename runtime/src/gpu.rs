@@ -5,8 +5,10 @@
 
 mod adapter;
 mod aovs;
+mod busy;
 mod device;
 mod error;
+mod fill;
 mod pace;
 mod queue;
 mod record;
@@ -14,6 +16,7 @@ mod slot;
 mod stopwatch;
 mod trial;
 mod upload;
+mod work;
 
 pub use self::adapter::{Adapter, adapters, describe};
 pub use self::aovs::layers_kernel;

@@ -1,11 +1,12 @@
 //! How much to hand to the GPU at once: measured durations → sizes of tiles and submissions.
 //!
 //! A submission should take long enough to hide what it costs to make one, and short enough that
-//! the desktop stays alive and no watchdog bites. It also has to fill the device: one that leaves
-//! most of a large GPU idle takes as long as its slowest thread, however few threads there are, and
-//! making it smaller gains nothing. Pure arithmetic, no device.
+//! the desktop stays alive and no watchdog bites. It also has to fill the device, see `fill`. Pure arithmetic,
+//! no device.
 
-use std::time::{Duration, Instant};
+use super::fill::Fill;
+use super::work::{CAP, GROWTH, Work};
+use std::time::Duration;
 
 /// Pixel samples of the first submission: about 64 × 64 pixels with a whole batch.
 const FIRST: f64 = 65_536.0;
@@ -17,32 +18,9 @@ pub(super) const MAX_TILE: u64 = 512 * 512;
 pub(super) const MAX_TILES: usize = 4;
 /// A submission is cut into several tiles only above this many pixels each.
 const MIN_SPLIT: f64 = 64.0 * 64.0;
-/// No submission is planned to take longer, whatever was asked for.
-const CAP: Duration = Duration::from_secs(1);
-/// A submission grows at most by this factor over the one before.
-const GROWTH: f64 = 4.0;
 
-/// Measured submissions of each size before two sizes are compared.
-const ROUNDS: u32 = 4;
-/// A larger size is kept when it raises the rate at least by this factor.
-const GAIN: f64 = 1.2;
-/// Submissions from a failed trial to the next, at first and at most; twice as many each time.
-const WAIT: [u32; 2] = [32, 1024];
 /// What is left per submission of the slowest pixel samples seen.
 const FORGET: f64 = 0.9;
-
-/// A finished submission.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Work {
-    /// Pixel samples that it was to have: [`Pace::next`].
-    pub(super) planned: f64,
-    /// Pixel samples that it had: fewer at the end of a pass.
-    pub(super) samples: u64,
-    /// Rays that they took.
-    pub(super) rays: u64,
-    /// How long it kept the device busy.
-    pub(super) busy: Duration,
-}
 
 /// The controller.
 pub(super) struct Pace {
@@ -61,7 +39,7 @@ pub(super) struct Pace {
 impl Pace {
     pub(super) fn new(target: Duration) -> Self {
         let target = target.clamp(Duration::from_millis(1), CAP).as_secs_f64();
-        let (ceiling, fill) = (f64::INFINITY, Fill::default());
+        let (ceiling, fill) = (f64::INFINITY, Fill::climbing(FIRST));
         Self { target, wanted: FIRST, cost: FIRST, ceiling, slowest: 0.0, fill }
     }
 
@@ -73,9 +51,16 @@ impl Pace {
 
     /// A submission has ended.
     pub(super) fn measured(&mut self, work: Work) {
-        let seconds = work.busy.as_secs_f64().max(1e-6);
-        let each = seconds / work.samples.max(1) as f64;
-        self.slowest = each.max(self.slowest * FORGET);
+        let each = work.seconds() / work.samples.max(1) as f64;
+        let has_grown = self.fill.climb(work);
+        self.slowest = if has_grown {
+            each
+        } else if work.planned < 0.5 * self.fill.least() && work.busy < CAP {
+            // It left most of the device idle: its time is that of one thread.
+            self.slowest * FORGET
+        } else {
+            each.max(self.slowest * FORGET)
+        };
         let ideal = (self.target / each).min(work.planned * GROWTH);
         let longest = CAP.as_secs_f64() / self.slowest;
         let least = self.fill.measured(work, ideal, longest);
@@ -99,144 +84,6 @@ impl Pace {
         #[expect(clippy::cast_possible_truncation, reason = "bounded by MAX_TILE")]
         let each = each.min(MAX_TILE as f64) as u64;
         (n, each.max(64))
-    }
-}
-
-/// The least size that fills the device. From time to time a larger one is tried in turns with the
-/// wanted one, so that both see the same parts of the picture: if its rate is higher, the device
-/// was not full.
-#[derive(Default)]
-struct Fill {
-    /// Pixel samples below which the device is known not to be full.
-    least: f64,
-    trial: Option<Trial>,
-    /// Submissions until the next trial.
-    wait: u32,
-    /// Trials that failed one after the other.
-    failed: u32,
-}
-
-/// Two sizes in turns.
-struct Trial {
-    /// The larger one, in pixel samples.
-    cost: f64,
-    /// Whether it is next.
-    is_next: bool,
-    /// What the usual size and the larger one achieve.
-    rates: [Rate; 2],
-    /// Submissions after which the trial ends in any case.
-    left: u32,
-}
-
-/// Rays and the time they took.
-#[derive(Clone, Copy, Default)]
-struct Rate {
-    rays: f64,
-    seconds: f64,
-    n: u32,
-}
-
-impl Rate {
-    fn add(&mut self, work: Work) {
-        self.rays += work.rays as f64;
-        self.seconds += work.busy.as_secs_f64().max(1e-6);
-        self.n += 1;
-    }
-
-    fn per_second(self) -> f64 {
-        self.rays / self.seconds.max(1e-6)
-    }
-}
-
-impl Fill {
-    /// The size of the next submission, if a trial decides it.
-    fn next(&mut self) -> Option<f64> {
-        let trial = self.trial.as_mut()?;
-        trial.is_next = !trial.is_next;
-        (!trial.is_next).then_some(trial.cost)
-    }
-
-    /// The least size of submissions, after one has ended. `ideal` takes the wanted duration,
-    /// `longest` the longest that is allowed.
-    fn measured(&mut self, work: Work, ideal: f64, longest: f64) -> f64 {
-        // What is left at the end of a pass says nothing of its planned size.
-        let is_full = work.samples as f64 >= 0.5 * work.planned;
-        self.wait = self.wait.saturating_sub(1);
-        if let Some(trial) = &mut self.trial {
-            let k = usize::from(work.planned >= 0.9 * trial.cost);
-            if is_full {
-                trial.rates[k].add(work);
-            }
-            trial.left -= 1;
-            let [usual, larger] = trial.rates;
-            if trial.left == 0 || usual.n.min(larger.n) >= ROUNDS {
-                let gains = larger.n > 0 && larger.per_second() >= GAIN * usual.per_second();
-                let kept = gains.then_some(trial.cost);
-                self.end(kept);
-            }
-        } else if self.wait == 0 && is_full && ideal < 1.5 * work.planned {
-            // It does not grow by itself any more.
-            let cost = (work.planned * GROWTH).min(longest);
-            if cost >= 1.5 * work.planned {
-                let rates = [Rate::default(); 2];
-                self.trial = Some(Trial { cost, is_next: false, rates, left: 4 * ROUNDS });
-            }
-        }
-        self.least
-    }
-
-    /// Ends the trial, with the size that is kept.
-    fn end(&mut self, kept: Option<f64>) {
-        self.trial = None;
-        if let Some(cost) = kept {
-            (self.least, self.failed) = (cost, 0);
-        } else {
-            self.wait = WAIT[0].saturating_mul(1 << self.failed.min(8)).min(WAIT[1]);
-            self.failed += 1;
-        }
-    }
-}
-
-/// How long the device was at work, submission after submission.
-pub(super) struct Busy {
-    began: Instant,
-    last_end: Instant,
-    total: Duration,
-    /// Submissions that the device timed itself, and all.
-    timed: [u32; 2],
-}
-
-impl Busy {
-    pub(super) fn new(now: Instant) -> Self {
-        Self { began: now, last_end: now, total: Duration::ZERO, timed: [0; 2] }
-    }
-
-    /// A submission has ended; `own` is what the device says that it took. Without that it was busy
-    /// from the submission, or from the end of the one before, until now.
-    pub(super) fn ended(
-        &mut self,
-        submitted: Instant,
-        now: Instant,
-        own: Option<Duration>,
-    ) -> Duration {
-        let wall = now.saturating_duration_since(submitted.max(self.last_end));
-        let time = own.unwrap_or(wall);
-        self.last_end = now;
-        self.total += time;
-        self.timed[0] += u32::from(own.is_some());
-        self.timed[1] += 1;
-        time
-    }
-
-    /// One line for the user; `None` when there was no submission.
-    pub(super) fn text(&self, now: Instant) -> Option<String> {
-        let [timed, all] = self.timed;
-        let run = now.saturating_duration_since(self.began).as_secs_f64();
-        let how = if timed == all { "its timestamps" } else { "wall time" };
-        let share = 100.0 * self.total.as_secs_f64() / run.max(1e-9);
-        (all > 0).then(|| {
-            format!("the GPU was busy for {share:.0} % of {run:.2}s, {all} submissions, by {how}")
-        })
     }
 }
 
@@ -297,6 +144,27 @@ mod tests {
     }
 
     #[test]
+    fn a_device_whose_slowest_thread_takes_far_longer_than_wanted_is_filled_at_once() {
+        // 40 million pixel samples fill it; a submission may have a second.
+        let (latency, rate) = (0.4, 1e8);
+        let mut pace = Pace::new(TARGET);
+        let times = run(&mut pace, 12, |samples| (samples / rate).max(latency));
+        assert!(times.iter().all(|t| *t <= 1.01), "{times:?}");
+        assert_eq!(pace.tiles(16), (MAX_TILES, MAX_TILE), "{}", pace.wanted);
+    }
+
+    #[test]
+    fn a_slow_part_of_the_picture_makes_submissions_small_for_a_while() {
+        let mut pace = Pace::new(TARGET);
+        run(&mut pace, 40, |samples| (samples / 4e7).max(0.12));
+        let before = pace.wanted;
+        run(&mut pace, 3, |samples| (samples / 2e6).max(0.12));
+        assert!(pace.wanted < 0.5 * before, "{before} to {}", pace.wanted);
+        run(&mut pace, 60, |samples| (samples / 4e7).max(0.12));
+        assert!(pace.wanted >= 0.9 * before, "{before} to {}", pace.wanted);
+    }
+
+    #[test]
     fn a_larger_size_that_gains_nothing_is_tried_rarely() {
         let times = durations(1e6, &mut Pace::new(TARGET), 1000);
         let long = times.iter().filter(|t| **t > 0.2).count();
@@ -311,21 +179,6 @@ mod tests {
         pace.halve();
         durations(1e7, &mut pace, 10);
         assert!(pace.next() <= before / 2.0);
-    }
-
-    #[test]
-    fn a_device_that_does_not_say_is_timed_by_the_wall() {
-        let ms = Duration::from_millis;
-        let start = Instant::now();
-        let mut busy = Busy::new(start);
-        assert_eq!(busy.text(start), None);
-        // Both were submitted at once: the second began when the first ended.
-        assert_eq!(busy.ended(start, start + ms(30), None), ms(30));
-        assert_eq!(busy.ended(start, start + ms(50), None), ms(20));
-        assert_eq!(busy.ended(start + ms(60), start + ms(80), Some(ms(15))), ms(15));
-        let text = busy.text(start + ms(100));
-        let expected = "the GPU was busy for 65 % of 0.10s, 3 submissions, by wall time";
-        assert_eq!(text.as_deref(), Some(expected));
     }
 
     #[test]

@@ -1,16 +1,18 @@
 //! Work items → submissions → pixels: several tiles at once, each with a film of its own.
 //!
-//! Two or three submissions are under way, so that the device never waits for us; each holds up to
-//! four tiles that share no writable buffer, so that their tails overlap. Tiles are deposited as
+//! Two or three submissions are under way, so that the device never waits for us; each holds four tiles, or more
+//! small ones, that share no writable buffer, so that their tails overlap. Tiles are deposited as
 //! their submission ends; what a lost device did not finish goes back to the run, and what a driver
 //! cut short is rendered by the CPU kernel.
 
+use super::busy::Busy;
 use super::device::Device;
 use super::error::GpuError;
-use super::pace::{Busy, MAX_TILES, Pace, Work};
+use super::pace::{MAX_TILES, Pace};
 use super::record::is_cut;
 use super::slot::{Slot, Slots, submit};
 use super::stopwatch::Stopwatch;
+use super::work::Work;
 use crate::cpu;
 use crate::run::Run;
 use crate::schedule::{Claim, WorkItem};
@@ -23,6 +25,8 @@ use wgpu::SubmissionIndex;
 
 /// Submissions under way at once.
 const IN_FLIGHT: usize = 3;
+/// Most tiles of a submission, where they are small: blocks that still have samples to come.
+const MOST_TILES: usize = 256;
 
 /// What the tiles of a device came to.
 struct Tally {
@@ -88,7 +92,7 @@ impl Device {
         loop {
             while under_way.len() < IN_FLIGHT {
                 let planned = pace.next();
-                let items = claim(run, pace);
+                let items = claim(run, pace, planned);
                 if items.is_empty() {
                     break;
                 }
@@ -165,15 +169,18 @@ impl Device {
     }
 }
 
-/// Items for one submission; empty when there are none now.
-fn claim(run: &Run<'_>, pace: &Pace) -> Vec<WorkItem> {
+/// Items for one submission that is to have so many pixel samples; empty when there are none now.
+fn claim(run: &Run<'_>, pace: &Pace, planned: f64) -> Vec<WorkItem> {
     let mut items: Vec<WorkItem> = Vec::with_capacity(MAX_TILES);
+    let mut cost = 0;
     loop {
         match run.claim(&|samples| pace.tiles(samples).1) {
             Claim::Work(item) | Claim::FirstOf(item) => {
                 items.push(item);
+                cost += item.cost();
                 let (n, _) = pace.tiles(items[0].samples.count());
-                if items.len() >= n {
+                let is_full = items.len() >= n && cost as f64 >= 0.5 * planned;
+                if is_full || items.len() == MOST_TILES {
                     return items;
                 }
             }
