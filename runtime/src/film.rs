@@ -357,6 +357,10 @@ impl Accumulator {
                 plane.counters.depth = plane.counters.depth.max(pixel.depth);
                 plane.counters.overflows += u64::from(pixel.stack_errors & 0xffff);
                 plane.counters.leaks += u64::from(pixel.stack_errors >> 16);
+                // Hardly any has lost something, and units are slow.
+                if pixel.removed > 0.0 {
+                    plane.removed = plane.removed.saturating_add(units(pixel.removed));
+                }
                 if pixel.n_bad() > 0 {
                     plane.counters.bad += u64::from(pixel.n_bad());
                     let first = plane.counters.first_bad;
@@ -369,9 +373,6 @@ impl Accumulator {
                 *sum = pixel.sum;
             }
             at += region_w;
-        }
-        for pixel in pixels {
-            plane.removed = plane.removed.saturating_add(units(pixel.removed));
         }
         plane.done.push(tile);
         plane.left -= tile.pixels();
