@@ -7,8 +7,10 @@ fn white_surfaces_return_everything() {
     let (mut families, mut count) = (std::collections::BTreeSet::new(), 0);
     let mut wrong = Vec::new();
     for surface in surfaces().iter().step_by(7) {
-        // Fibres are sampled evenly, and smooth ones have a peak at grazing.
-        let n = if surface.family.contains("sheen") { 1 << 16 } else { 1 << 14 };
+        // Fibres are sampled evenly, and smooth ones have a peak at grazing; what goes through coat and glass is as noisy.
+        let noisy = surface.family.contains("sheen")
+            || surface.family.contains("coat") && surface.name.contains("transmission");
+        let n = if noisy { 1 << 16 } else { 1 << 14 };
         let off = surface.worst(n);
         if off.abs() >= 0.017 {
             wrong.push(format!("{}, {}: {off}", surface.family, surface.name));

@@ -24,8 +24,11 @@ pub(crate) fn layers(features: &FeatureSet) -> String {
     let coated = features.principled_coat;
     let coat = choose(coated, "layers_coat(s)", "vec2f(0.0, 1.0)");
     let under = choose(coated, "under_coat_through(coat, on, c)", "1.0");
-    let kept =
-        choose(coated, "under_coat_kept(coat, g, dispatch_gloss_mean_flattened(s), entry)", "0.0");
+    let kept = choose(
+        coated,
+        "under_coat_kept(coat, g, s.roughness, dispatch_gloss_mean_flattened(s), entry)",
+        "0.0",
+    );
     let missing = choose(
         coated,
         "under_coat_missing(coat, g, s.roughness, dispatch_gloss_mean_flattened(s))",

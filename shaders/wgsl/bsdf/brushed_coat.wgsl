@@ -25,7 +25,7 @@ fn brushed_coat_flattened(s: Scatter, coat: vec2f, g: GlossAlbedo, w: vec3f, c: 
     }
     let table = load_frame_albedo_more_at().x + BRUSHED_COAT_AT;
     let lost = brushed_albedo_added(a, table, brushed_gloss_scaled(b, w, c), gloss_albedo_flattened(g, c));
-    return under_coat_steepness(coat) * max(lost, 0.0);
+    return under_coat_steepness(coat, c) * max(lost, 0.0);
 }
 
 // As `gloss_albedo_mean_flattened`. The table makes `under_coat_missing` right under a smooth coat: it also holds what
