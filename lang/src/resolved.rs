@@ -148,6 +148,9 @@ fn directional_fields(light: &Directional) -> Vec<(&'static str, String)> {
         ("color", color_text(light.radiance)),
         ("strength", "1".to_owned()),
     ];
+    if !light.visible {
+        fields.push(("visible", "off".to_owned()));
+    }
     fields.extend(group(light.group.as_ref()));
     fields.extend(links(light.links.as_ref()));
     fields

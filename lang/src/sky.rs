@@ -6,6 +6,7 @@ use crate::check::light::{check_direction, scaled, unit};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::eval::color::blackbody;
+use crate::material::VISIBLE;
 use crate::resolved::{Declared, number, vector};
 use crate::scene::{Name, Rgb};
 use crate::schema::instance::GROUP;
@@ -23,6 +24,8 @@ pub struct Sky {
     pub name: Name,
     /// Where its radiance comes from.
     pub model: SkyModel,
+    /// Whether the camera sees it, and the sun in it.
+    pub visible: bool,
     /// Its light group, if it names one.
     pub group: Option<String>,
 }
@@ -154,6 +157,9 @@ impl Sky {
                 ("sun_sky", fields)
             }
         };
+        if !self.visible {
+            fields.push(("visible", "off".to_owned()));
+        }
         fields.extend(self.group.iter().map(|group| ("group", format!("\"{group}\""))));
         (kind, fields)
     }
@@ -203,7 +209,8 @@ pub(crate) fn read(name: Name, fields: &Fields) -> Option<Sky> {
             strength,
         }),
     };
-    Some(Sky { name, model, group: fields.text("group") })
+    let visible = fields.word("visible")? == "on";
+    Some(Sky { name, model, visible, group: fields.text("group") })
 }
 
 fn gradient(fields: &Fields, strength: f64) -> Option<SkyModel> {
@@ -264,6 +271,7 @@ const CONSTANT: TypeSchema = TypeSchema {
         Field::new("color", FieldType::Color(ANY), Default::Color(WHITE), "Colour of the sky.")
             .foreign(&[("L", "pbrt"), ("radiance", "Mitsuba"), ("Color", "Blender")]),
         STRENGTH,
+        VISIBLE,
         GROUP,
     ],
     foreign: &[
@@ -326,6 +334,7 @@ const GRADIENT: TypeSchema = TypeSchema {
             "How much lower than `blend.low` the ground colour is reached.",
         ),
         STRENGTH,
+        VISIBLE,
         GROUP,
         Field::new(
             "sun.direction",
@@ -374,6 +383,7 @@ const IMAGE: TypeSchema = TypeSchema {
         )
         .foreign(&[("to_world", "Mitsuba"), ("transformation", "LuxCore"), ("azimuth", "common use")]),
         STRENGTH,
+        VISIBLE,
         GROUP,
     ],
     foreign: &[
@@ -427,6 +437,7 @@ const SUN_SKY: TypeSchema = TypeSchema {
         .typical("sea 0.05, grass and earth 0.2, sand 0.4, snow 0.8")
         .foreign(&[("ground_albedo", "Mitsuba and Blender"), ("albedo", "Mitsuba"), ("groundalbedo", "LuxCore")]),
         Field { doc: "Factor on all of its light.", ..STRENGTH },
+        VISIBLE,
         GROUP,
     ],
     foreign: &[

@@ -74,6 +74,7 @@ pub fn generated_texts(features: &FeatureSet) -> Result<Vec<(&'static str, Strin
         ("scene/records.wgsl", records::text()),
         ("scene/sampler.wgsl", sampler::text(features)),
         ("scene/segment.wgsl", media::segment(features)),
+        ("scene/seen.wgsl", sky::seen(features)),
         ("scene/shear.wgsl", traversal::shear(features)),
         ("scene/shadow.wgsl", media::shadow(features)),
         ("scene/start.wgsl", start::start(features)),

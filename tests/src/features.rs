@@ -156,6 +156,11 @@ pub const CASES: &[Case] = &[
     case("mesh lights", &[SIGN, PLASTIC, BALL, FLOOR]),
     case("disk light", &[DISH, PLASTIC, BALL, FLOOR]),
     case("lights that the camera does not see", &[UNSEEN, SKY, FUZZY, BALL, FLOOR]),
+    case(
+        "sky and sun that the camera does not see",
+        &[UNSEEN_SKY, UNSEEN_SUN, MIRROR, BALL, FLOOR],
+    ),
+    case("sky and sun that nobody sees", &[UNSEEN_SKY, UNSEEN_SUN]),
     case("spot light and other lights", &[SPOT, TINTED, LAMP, PANEL, SKY, FUZZY, BALL, FLOOR]),
     case("directional light alone", &[SUN_AHEAD]),
     case("directional light behind a sky", &[GRADIENT, SUN_AHEAD]),
@@ -400,6 +405,10 @@ const DISH: &str =
 /// Above the ball, in the picture.
 const UNSEEN: &str = "light bulb: point { at = (-0.8, 1.4, 0)m, radius = 30cm, power = 40W, visible = off }
 light panel: rectangle { at = (1, 1.6, -1)m, to = (0, 0.5, 0)m, size = (1, 1)m, power = 30W, visible = off }\n";
+const UNSEEN_SKY: &str = "sky day: gradient { sun.direction = (0.3, 0.5, 0.4), disc.color = linear(20), visible = off }\n";
+/// As [`SUN_AHEAD`].
+const UNSEEN_SUN: &str = "light ahead: directional { direction = (-0.2, -0.1, -1), angular_diameter = 30deg, strength = 0.5, visible = off }\n";
+const MIRROR: &str = "material m: metal { color = linear(0.9) }\n";
 const SUN: &str = "light sun: directional { direction = (1, 2, 1), angular_diameter = 4deg, illuminance = 4W/m2, temperature = 4500K }\n";
 /// Where the camera looks, and half the sky wide.
 const SUN_AHEAD: &str = "light ahead: directional { direction = (-0.2, -0.1, -1), angular_diameter = 30deg, color = linear(0.3, 0.4, 0.9), strength = 0.5 }\n";

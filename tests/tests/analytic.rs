@@ -413,11 +413,48 @@ instance floor { shape = rectangle(size: (4, 4)m), material = m }";
     all(&checks);
 }
 
+/// The same at infinity, where the camera looks into the dark.
+#[test]
+fn skies_and_suns_that_are_not_visible_are_there_for_all_but_the_camera() {
+    let sun = "light l: directional { direction = (0, 1, 0), angular_diameter = 20deg, strength = 3, visible = off }";
+    let sky = "sky s: constant { color = linear(0.25), visible = off }";
+    let gradient =
+        "sky s: gradient { sun.direction = (0, 1, 0), disc.color = linear(20), visible = off }";
+    let image = "sky s: sun_sky { sun.direction = (0, 1, 0), strength = 0.02, visible = off }";
+    let mirror = "material m: metal { color = linear(1) }
+instance floor { shape = rectangle(size: (4, 4)m), material = m }";
+    let mut checks = Vec::new();
+    for far in [sun, sky, gradient, image] {
+        let up = format!("rts 1\n{far}\n{}", view([0.0, 1.0, 0.0], [0.0, 3.0, 0.0], 2));
+        checks.push(Check::new(format!("past {far}"), 0.0, up));
+        let up = format!("rts 1\n{far}\n{mirror}\n{}", view([0.0, 1.0, 0.0], [0.0, 3.0, 0.0], 2));
+        checks.push(Check::new(format!("past {far}, with a surface"), 0.0, up));
+    }
+    for (far, radiance) in [(sun, 3.0), (sky, 0.25)] {
+        let text = format!("rts 1\n{mirror}\n{far}\n{}", view([-0.1, 1.0, 0.0], [0.0; 3], 3));
+        checks.push(Check::new(format!("{far} in a mirror"), radiance, text));
+    }
+    // One of two that lie behind each other is seen.
+    let behind = "sky s: constant { color = linear(0.25) }";
+    let text =
+        format!("rts 1\n{sun}\n{behind}\n{mirror}\n{}", view([0.0, 1.0, 0.0], [0.0, 3.0, 0.0], 2));
+    checks.push(Check::new("a sky behind a sun that is not visible".to_owned(), 0.25, text));
+    checks.push(lit_floor("a floor under a sky that is not visible", 0.25, sky));
+    let unseen = sun_of(60.0, 0.53, ", visible = off");
+    checks.push(lit_floor("a floor under a sun that is not visible", 0.5, &unseen));
+    all(&checks);
+}
+
 /// A directional light of 683 pi lux, `tilt` degrees off the zenith, `diameter` degrees wide.
 fn sun(tilt: f64, diameter: f64) -> String {
+    sun_of(tilt, diameter, "")
+}
+
+/// The same, with more fields.
+fn sun_of(tilt: f64, diameter: f64, fields: &str) -> String {
     let (sine, cosine) = tilt.to_radians().sin_cos();
     format!(
-        "light sun: directional {{ direction = ({sine:.12}, {cosine:.12}, 0), illuminance = {:.12}lx, angular_diameter = {diameter}deg }}",
+        "light sun: directional {{ direction = ({sine:.12}, {cosine:.12}, 0), illuminance = {:.12}lx, angular_diameter = {diameter}deg{fields} }}",
         683.0 * PI
     )
 }

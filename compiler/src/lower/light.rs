@@ -151,7 +151,7 @@ pub(super) fn directional(light: &scene::Directional, object: usize) -> abi::Lig
         kind: LightKind::Directional as u32,
         origin: light.direction.map(|c| c as f32),
         edge1: light.radiance.map(|c| c as f32),
-        edge2: [light.rim() as f32, 0.0, 0.0],
+        edge2: [light.rim() as f32, f32::from(u8::from(!light.visible)), 0.0],
         primitive: object as u32,
         ..Default::default()
     }

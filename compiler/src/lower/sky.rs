@@ -41,9 +41,21 @@ pub(super) fn sky(
     (files, stages): (&dyn Files, &Stages),
     textures: &mut TextureTable<'_>,
 ) -> Result<Option<LoweredSky>, ImportError> {
-    let plain = |record| LoweredSky { record, table: None };
     let Some(sky) = sky else { return Ok(None) };
-    Ok(match &sky.model {
+    let unseen = u32::from(!sky.visible);
+    let seen = visible(&sky.model, (files, stages), textures)?;
+    let hidden = |sky: LoweredSky| LoweredSky { record: abi::Sky { unseen, ..sky.record }, ..sky };
+    Ok(seen.map(hidden))
+}
+
+/// The same of a sky that the camera sees.
+fn visible(
+    model: &SkyModel,
+    (files, stages): (&dyn Files, &Stages),
+    textures: &mut TextureTable<'_>,
+) -> Result<Option<LoweredSky>, ImportError> {
+    let plain = |record| LoweredSky { record, table: None };
+    Ok(match model {
         SkyModel::Constant(radiance) => (!is_black(radiance)).then(|| plain(constant(*radiance))),
         SkyModel::Gradient { zenith, middle, horizon, ground, glow, disc, .. } => {
             let bands = [zenith, middle, horizon, ground, glow, disc];
@@ -56,7 +68,7 @@ pub(super) fn sky(
             if dull && flat {
                 return Ok(Some(plain(constant(*zenith))));
             }
-            let record = gradient(&sky.model);
+            let record = gradient(model);
             let mut key = KeyOf::stage("table of a gradient");
             key.bytes(bytemuck::bytes_of(&record));
             let cells = || Ok(gradient_cells(&record));

@@ -23,6 +23,7 @@ pub fn with_sun(scene: &Scene) -> Option<Scene> {
         direction: day.sun_direction,
         half_angle: day.half_angle,
         radiance: light.map(|c| c / (PI * sine * sine)),
+        visible: sky.visible,
         group: sky.group.clone(),
         links: None,
     };

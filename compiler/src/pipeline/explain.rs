@@ -218,6 +218,16 @@ impl Explain<'_> {
         Self::row(name_of(kind.feature()), self.features.lights.contains(&kind), why, None)
     }
 
+    /// What the camera does not see of sky and directional lights.
+    fn unseen_at_infinity(&self) -> Option<Reason> {
+        let text = || "is not visible".to_owned();
+        let sky = self.scene.sky.iter().filter(|sky| !sky.visible);
+        let mut names = sky.map(|sky| &sky.name).chain(
+            self.scene.directional.iter().filter(|light| !light.visible).map(|light| &light.name),
+        );
+        names.next().map(|name| by(text(), name))
+    }
+
     fn light_parts(&self) -> Vec<Row> {
         let lights = &self.lowered.lights;
         let n = lights.len();
@@ -232,6 +242,7 @@ impl Explain<'_> {
         let profiles =
             self.materials("has a profile", |m| m.flags & material_flag::EMIT_PROFILE != 0);
         let unseen = self.materials("is not visible", |m| m.flags & material_flag::UNSEEN != 0);
+        let unseen = unseen.or_else(|| self.unseen_at_infinity());
         let white = self.scene.lights.iter().find(|light| light.tint.is_some());
         let white = white.map(|light| by("its tint changes nothing".to_owned(), &light.name));
         vec![

@@ -34,7 +34,9 @@ pub(super) fn of(lowered: &Lowered) -> FeatureSet {
         tint: flagged(material_flag::EMIT_TINT),
         spot: flagged(material_flag::EMIT_SPOT),
         profile: flagged(material_flag::EMIT_PROFILE),
-        unseen: flagged(material_flag::UNSEEN),
+        unseen: flagged(material_flag::UNSEEN)
+            || lowered.lights.iter().any(pack::abi::Light::is_unseen)
+            || lowered.sky.iter().any(|sky| sky.unseen != 0),
         skies: lowered.sky.iter().filter_map(|sky| SkyKind::from_tag(sky.kind)).collect(),
         filters: FilterKind::from_tag(lowered.render.filter).into_iter().collect(),
         cameras: CameraKind::from_tag(lowered.camera.kind).into_iter().collect(),

@@ -280,7 +280,8 @@ fn directional(ev: &mut Evaluator<'_>, name: Name, fields: &Fields) -> Option<Li
     let radiance = brightness::radiance(ev, &name, fields, emitter)?;
     let group = fields.text("group");
     let links = linked::links(ev, fields);
-    let light = Directional { name, direction, half_angle, radiance, group, links };
+    let visible = fields.word("visible")? == "on";
+    let light = Directional { name, direction, half_angle, radiance, visible, group, links };
     Some(Lit::Directional(Box::new(light)))
 }
 

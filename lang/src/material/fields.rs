@@ -204,7 +204,7 @@ pub(super) const EMISSIVE_SIDES: Field = Field::new(
 )
 .foreign(&[("twosided", "pbrt"), ("two_sided", "common use"), ("doubleSided", "glTF")]);
 
-/// Of whatever gives off light and has a surface.
+/// Of whatever gives off light.
 pub(crate) const VISIBLE: Field = Field::new(
     "visible",
     FieldType::Word(&[("on", "it does"), ("off", "it looks past it")]),

@@ -41,6 +41,8 @@ pub struct Directional {
     pub half_angle: f64,
     /// Radiance, the same everywhere in its cone, W/(m2 sr) up to the scene's own scale.
     pub radiance: Rgb,
+    /// The camera sees it.
+    pub visible: bool,
     /// Its light group, if it names one.
     pub group: Option<String>,
     /// What it lights; `None`: everything.

@@ -438,6 +438,7 @@ const DIRECTIONAL: TypeSchema = TypeSchema {
             foreign: &[("scale", "pbrt"), ("gain", "LuxCore"), ("luminance", "common use")],
             ..STRENGTH
         },
+        VISIBLE,
         GROUP,
         ONLY,
         EXCEPT,

@@ -53,12 +53,14 @@ macro_rules! precision {
                 if n == 0 {
                     return sample.take(lights.of_emitter(Emitter::Sky), emitted);
                 }
+                // The camera looks past some.
+                let straight = path.scattered == 0;
                 for i in 0..n {
                     let found = path.throughput
-                        * kernel.directional_found(i, path.dir, path.pdf, path.receiver);
+                        * kernel.directional_found(i, path.dir, path.pdf, path.receiver, straight);
                     sample.take(lights.of_emitter(Emitter::Light(i)), $double(found));
                 }
-                let sky = path.throughput * kernel.dispatch_sky_miss(path.dir, path.pdf);
+                let sky = path.throughput * kernel.dispatch_sky_miss(path.dir, path.pdf, straight);
                 sample.take(lights.of_emitter(Emitter::Sky), $double(sky));
             }
 

@@ -184,9 +184,11 @@ pub(crate) fn of(contents: &Contents<'_>) -> u64 {
     set(MOTION, moves || !contents.camera_keys.is_empty());
     for light in contents.lights {
         set(LightKind::from_tag(light.kind).map_or(0, LightKind::feature), true);
+        set(UNSEEN, light.is_unseen());
     }
     if let Some(sky) = contents.sky {
         set(SkyKind::from_tag(sky.kind).map_or(0, SkyKind::feature), true);
+        set(UNSEEN, sky.unseen != 0);
     }
     for texture in contents.textures {
         set(TextureFormat::from_tag(texture.format).map_or(0, TextureFormat::feature), true);

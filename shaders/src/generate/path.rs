@@ -24,6 +24,7 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
         "scene/receiver.wgsl",
         "scene/records.wgsl",
         "scene/sampler.wgsl",
+        "scene/seen.wgsl",
         "shape/sphere.wgsl",
         "shape/triangle.wgsl",
         "surface/surface.wgsl",
@@ -277,30 +278,31 @@ fn miss(features: &FeatureSet) -> String {
     let sky_is_sampled = features.geometry() && features.lights.contains(&LightKind::Sky);
     let plus = match (features.lights.contains(&LightKind::Directional), features.geometry()) {
         (false, _) => "",
-        (true, true) => " + directional_miss(dir, pdf, receiver)",
+        (true, true) => " + directional_miss(dir, pdf, receiver, straight)",
         // Every ray is the camera's.
         (true, false) => " + directional_backdrop(dir)",
     };
-    let sky = if sky_is_sampled { "dispatch_sky_miss(dir, pdf)" } else { "dispatch_sky(dir)" };
-    let weighted = "    let radiance = dispatch_sky(dir);\n    \
-                    if (vector_max(radiance) <= 0.0) {\n        return radiance;\n    }\n    \
-                    return radiance * direct_sky_weight(dir, pdf);\n";
-    let alone = format!(
-        "\n// What is of the sky in `dispatch_miss`.\n\
-         fn dispatch_sky_miss(dir: vec3f, pdf: f32) -> vec3f {{\n{}}}\n",
-        if sky_is_sampled { weighted } else { "    return dispatch_sky(dir);\n" }
-    );
-    let (alone, body) = if plus.is_empty() {
-        (
-            String::new(),
-            if sky_is_sampled { weighted.to_owned() } else { format!("    return {sky};\n") },
-        )
+    let unseen = "    if (!dispatch_sky_seen(straight)) {\n        return vec3f(0.0);\n    }\n";
+    let weighted = if sky_is_sampled {
+        "    let radiance = dispatch_sky(dir);\n    \
+         if (vector_max(radiance) <= 0.0) {\n        return radiance;\n    }\n    \
+         return radiance * direct_sky_weight(dir, pdf);\n"
     } else {
-        (alone, format!("    return {sky}{plus};\n"))
+        "    return dispatch_sky(dir);\n"
+    };
+    let (alone, body) = if plus.is_empty() {
+        (String::new(), format!("{unseen}{weighted}"))
+    } else {
+        let alone = format!(
+            "\n// What is of the sky in `dispatch_miss`.\n\
+             fn dispatch_sky_miss(dir: vec3f, pdf: f32, straight: bool) -> vec3f {{\n{unseen}{weighted}}}\n"
+        );
+        (alone, format!("    return dispatch_sky_miss(dir, pdf, straight){plus};\n"))
     };
     format!(
         "{alone}\n// Radiance that a direction from a `receiver`, sampled with density `pdf`, finds where it hits nothing.\n\
-         fn dispatch_miss(dir: vec3f, pdf: f32, receiver: Receiver) -> vec3f {{\n{body}}}\n"
+         // `straight`: it is that of the camera.\n\
+         fn dispatch_miss(dir: vec3f, pdf: f32, receiver: Receiver, straight: bool) -> vec3f {{\n{body}}}\n"
     )
 }
 

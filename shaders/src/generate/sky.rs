@@ -37,6 +37,31 @@ pub(crate) fn sky(features: &FeatureSet) -> String {
     text
 }
 
+/// What rays that leave the scene do not find.
+pub(crate) fn seen(features: &FeatureSet) -> String {
+    let mut text = String::from(
+        "// Generated: whether rays that leave this scene see all of what is there.\n\n",
+    );
+    text += &imports(["abi/light.wgsl", "scene/constants.wgsl", "scene/records.wgsl"]);
+    let (sky, light) = if features.unseen {
+        (
+            "    if (!straight || load_frame_sky_at() == NONE) {\n        return true;\n    }\n    \
+             return load_sky_unseen() == 0u;\n",
+            "    return !straight || light.edge2.y <= 0.0;\n",
+        )
+    } else {
+        ("    return true;\n", "    return true;\n")
+    };
+    let _ = write!(
+        text,
+        "\n// Whether it finds the sky. `straight`: it comes from the camera.\n\
+         fn dispatch_sky_seen(straight: bool) -> bool {{\n{sky}}}\n\
+         \n// Whether it finds the directional light `light`.\n\
+         fn dispatch_directional_seen(light: Light, straight: bool) -> bool {{\n{light}}}\n"
+    );
+    text
+}
+
 /// Radiance of a sampled light.
 pub(crate) fn radiance(features: &FeatureSet) -> String {
     let mut modules = vec!["abi/light.wgsl", "light/light_sample.wgsl", "scene/constants.wgsl"];

@@ -71,7 +71,7 @@ fn aov_advance(path: ptr<function, Path>, found: ptr<function, AovSample>, hit: 
         (*path).open = false;
     } else if (hit.prim == NONE) {
         if ((*found).alpha == 0.0) {
-            let sky = dispatch_miss((*path).dir, (*path).pdf, (*path).receiver);
+            let sky = dispatch_miss((*path).dir, (*path).pdf, (*path).receiver, (*path).scattered == 0u);
             (*found).backdrop = (*path).radiance + (*path).throughput * sky;
         }
         (*path).open = false;

@@ -20,7 +20,7 @@ fn render(@builtin(global_invocation_id) gid: vec3<u32>) {
         if (sample == end) { break; }
         let key = sample_key(pixel, sample, frame.seed);
         let ray = dispatch_camera(key, dispatch_film(key, pixel));
-        film_add(&film, dispatch_miss(ray.dir, 0.0, receiver_none()), sample - frame.sample_first, 1u);
+        film_add(&film, dispatch_miss(ray.dir, 0.0, receiver_none(), true), sample - frame.sample_first, 1u);
         film.rays += 1u;
         sample += 1u;
     }

@@ -8,21 +8,25 @@
 #import "scene/links.wgsl"
 #import "scene/receiver.wgsl"
 #import "scene/records.wgsl"
+#import "scene/seen.wgsl"
 
 // Radiance of all directional lights along `dir` from a `receiver`, which sampled it with density `pb` per steradian,
-// 0 for the camera and delta lobes.
-fn directional_miss(dir: vec3f, pb: f32, receiver: Receiver) -> vec3f {
+// 0 for the camera and delta lobes. `straight`: it comes from the camera.
+fn directional_miss(dir: vec3f, pb: f32, receiver: Receiver, straight: bool) -> vec3f {
     let n = directional_count();
     var radiance = vec3f(0.0);
     for (var i = 0u; i < n; i += 1u) {
-        radiance += directional_found(i, dir, pb, receiver);
+        radiance += directional_found(i, dir, pb, receiver, straight);
     }
     return radiance;
 }
 
 // The same of light `index` alone.
-fn directional_found(index: u32, dir: vec3f, pb: f32, receiver: Receiver) -> vec3f {
+fn directional_found(index: u32, dir: vec3f, pb: f32, receiver: Receiver, straight: bool) -> vec3f {
     let light = load_light(index);
+    if (!dispatch_directional_seen(light, straight)) {
+        return vec3f(0.0);
+    }
     let radiance = directional_light_radiance(light, dir);
     if (vector_max(radiance) <= 0.0) {
         return radiance;

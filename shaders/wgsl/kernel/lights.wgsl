@@ -42,7 +42,8 @@ fn lights_advance(path: ptr<function, Path>, hit: Hit) -> LightsFound {
     let glow = (*path).radiance;
     (*path).radiance = vec3f(0.0);
     if (!in_medium && hit.prim == NONE) {
-        (*path).radiance = (*path).throughput * dispatch_miss((*path).dir, (*path).pdf, (*path).receiver);
+        let straight = (*path).scattered == 0u;
+        (*path).radiance = (*path).throughput * dispatch_miss((*path).dir, (*path).pdf, (*path).receiver, straight);
         (*path).open = false;
     } else if (!in_medium) {
         goes_on = vertex_surface(path, hit, &v);

@@ -73,7 +73,8 @@ fn path_extend(path: ptr<function, Path>, hit: Hit) {
             return;
         }
     } else if (hit.prim == NONE) {
-        (*path).radiance += (*path).throughput * dispatch_miss((*path).dir, (*path).pdf, (*path).receiver);
+        let straight = (*path).scattered == 0u;
+        (*path).radiance += (*path).throughput * dispatch_miss((*path).dir, (*path).pdf, (*path).receiver, straight);
         (*path).open = false;
         return;
     } else if (!vertex_surface(path, hit, &v)) {

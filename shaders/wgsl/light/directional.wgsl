@@ -9,6 +9,7 @@
 #import "math/vector.wgsl"
 #import "scene/constants.wgsl"
 #import "scene/records.wgsl"
+#import "scene/seen.wgsl"
 #import "trace/ray.wgsl"
 
 // A direction to the light; `u` in [0, 1 - 2^-24]^2.
@@ -58,7 +59,10 @@ fn directional_backdrop(dir: vec3f) -> vec3f {
     let n = directional_count();
     var radiance = vec3f(0.0);
     for (var i = 0u; i < n; i += 1u) {
-        radiance += directional_light_radiance(load_light(i), dir);
+        let light = load_light(i);
+        if (dispatch_directional_seen(light, true)) {
+            radiance += directional_light_radiance(light, dir);
+        }
     }
     return radiance;
 }

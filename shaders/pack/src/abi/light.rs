@@ -46,6 +46,12 @@ impl Light {
     pub fn has_surface(&self) -> bool {
         LightKind::from_tag(self.kind).is_some_and(|kind| kind.surface().is_some())
     }
+
+    /// Whether it is a directional light that the camera does not see. What has a surface says so by its material.
+    #[must_use]
+    pub fn is_unseen(&self) -> bool {
+        self.kind == LightKind::Directional as u32 && self.edge2[1] > 0.0
+    }
 }
 
 abi_struct! {
@@ -62,7 +68,8 @@ abi_struct! {
         /// Area in square normalised units; unused for a sphere and a directional light.
         pub area: f32,
         /// Second edge; for a sphere the unit vector towards which it is tinted, or against its beam; for a
-        /// directional light x is 1 less the cosine of the angle between its middle and its rim, in (0, 1].
+        /// directional light x is 1 less the cosine of the angle between its middle and its rim, in (0, 1], and y is 1
+        /// if rays that come straight from the camera do not find it, else 0.
         pub edge2: [f32; 3],
         /// Index of the sphere, of the triangle, or of the rectangle's first triangle; the number of the object for a
         /// directional light, for its light group; 0 for the sky.

@@ -63,5 +63,13 @@ abi_struct! {
         pub rows: u32,
         /// See `rows`.
         pub columns: u32,
+        /// 1: rays that come straight from the camera find it black.
+        pub unseen: u32,
+        /// Unused.
+        pub _pad0: u32,
+        /// Unused.
+        pub _pad1: u32,
+        /// Unused.
+        pub _pad2: u32,
     }
 }

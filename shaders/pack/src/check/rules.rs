@@ -102,6 +102,10 @@ rules! { pack;
         rotation: finite(),
         texture: index_or_none(table(pack, Kind::TEXTURE)),
         light: index_or_none(table(pack, Kind::LIGHT)),
+        unseen: bits(1),
+        _pad0: unused(),
+        _pad1: unused(),
+        _pad2: unused(),
     }
     // `left` and `right` are the tree's; so is that `lo <= hi`.
     Node {
@@ -440,8 +444,8 @@ fn directional(record: &Light) -> Option<Broken> {
     if let Some(fault) = not_negative(record.edge1) {
         return Some(("edge1", fault));
     }
-    let [rim, ..] = record.edge2;
-    positive(rim).or_else(|| unit_range(rim)).map(|fault| ("edge2", fault))
+    let [rim, unseen, _] = record.edge2;
+    positive(rim).or_else(|| unit_range([rim, unseen])).map(|fault| ("edge2", fault))
 }
 
 /// The texels lie inside TEXEL.
