@@ -124,6 +124,9 @@ impl<'p> Evaluator<'p> {
                 "metals take `color`, their reflectance at normal incidence: \
                  ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2) in each channel",
             ),
+            _ if !group(schema, name).is_empty() => error
+                .at(name.span, "a group of fields")
+                .with_help(format!("set what is meant: {}", quoted_list(&group(schema, name)))),
             (_, _, [one, ..]) => error
                 .at(name.span, format!("did you mean `{one}`?"))
                 .with_fix(Fix::sure(format!("write `{one}`"), name.span, *one)),
@@ -335,6 +338,14 @@ fn missing_arguments(
 /// Refractive index or extinction of a metal, as other renderers ask for them.
 fn is_optical_constant(schema: &TypeSchema, name: &Ident) -> bool {
     schema.name == "conductor" && ["ior", "eta", "k", "n"].contains(&name.text.as_str())
+}
+
+/// The fields whose names begin with `name` and a dot.
+fn group(schema: &TypeSchema, name: &Ident) -> Vec<String> {
+    let begins =
+        |field: &str| field.strip_prefix(&name.text).is_some_and(|rest| rest.starts_with('.'));
+    let names = schema.fields.iter().map(|field| field.name);
+    names.filter(|field| begins(field)).map(str::to_owned).collect()
 }
 
 /// A field of another type of the same kind: says which. Else lists the fields there are.

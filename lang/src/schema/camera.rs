@@ -115,6 +115,8 @@ const PERSPECTIVE: TypeSchema = TypeSchema {
             ("fov", "pbrt, Mitsuba and LuxCore"),
             ("vfov", "Ray Tracing in One Weekend"),
             ("yfov", "glTF"),
+            ("fovy", "OpenGL"),
+            ("fov_y", "common use"),
             ("fieldofview", "LuxCore"),
         ]),
         Field::new(
