@@ -220,12 +220,10 @@ impl Explain<'_> {
 
     /// What the camera does not see of sky and directional lights.
     fn unseen_at_infinity(&self) -> Option<Reason> {
-        let text = || "is not visible".to_owned();
-        let sky = self.scene.sky.iter().filter(|sky| !sky.visible);
-        let mut names = sky.map(|sky| &sky.name).chain(
-            self.scene.directional.iter().filter(|light| !light.visible).map(|light| &light.name),
-        );
-        names.next().map(|name| by(text(), name))
+        let sky = self.scene.sky.iter().find(|sky| !sky.visible).map(|sky| &sky.name);
+        let light = || self.scene.directional.iter().find(|light| !light.visible);
+        let name = sky.or_else(|| Some(&light()?.name))?;
+        Some(by("is not visible".to_owned(), name))
     }
 
     fn light_parts(&self) -> Vec<Row> {

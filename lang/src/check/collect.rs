@@ -101,6 +101,7 @@ impl<'p> Evaluator<'p> {
             let found = field.foreign.iter().find(|(theirs, _)| *theirs == name.text);
             found.map(|(_, from)| (field, *from))
         });
+        let group = group(schema, name);
         let error = match (same, foreign, close.as_slice()) {
             (None, Some((ours, from)), _) => {
                 let error = error
@@ -124,9 +125,9 @@ impl<'p> Evaluator<'p> {
                 "metals take `color`, their reflectance at normal incidence: \
                  ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2) in each channel",
             ),
-            _ if !group(schema, name).is_empty() => error
+            _ if !group.is_empty() => error
                 .at(name.span, "a group of fields")
-                .with_help(format!("set what is meant: {}", quoted_list(&group(schema, name)))),
+                .with_help(format!("set what is meant: {}", quoted_list(&group))),
             (_, _, [one, ..]) => error
                 .at(name.span, format!("did you mean `{one}`?"))
                 .with_fix(Fix::sure(format!("write `{one}`"), name.span, *one)),
