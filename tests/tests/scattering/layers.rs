@@ -1,8 +1,11 @@
 //! Layers of principled surfaces: coat, specular colour, thin transmission.
 
-use glam::DVec3;
+use std::f64::consts::FRAC_PI_2;
+
+use glam::{DVec2, DVec3};
 use pack::abi::Material;
 use runtime::kernel::{f32 as single, f64 as double};
+use tests::albedo::facets;
 use tests::kernel::{Bench, Lobe};
 use tests::layers::Layers;
 use tests::statistics::Mean;
@@ -364,4 +367,35 @@ fn the_direction_of_brushing_is_a_line() {
     let (along, half, across) = (value(0.0), value(0.5), value(0.25));
     assert!((along - half).abs() < 1e-9 * along, "{along} {half}");
     assert!(along > 1.2 * across, "{along} {across}");
+}
+
+/// What `under_coat.wgsl` says of what lobes lose under a coat, against quadrature over their normals.
+#[test]
+fn what_lobes_lose_under_a_coat_is_what_quadrature_gives() {
+    let bench = Lobe::principled(1.0, 0.0).bench();
+    let mut kernel = bench.double();
+    for (roughness, anisotropy) in [(0.1, 0.0), (0.1, 1.0), (0.3, 1.0), (0.45, 0.6), (0.8, 0.0)] {
+        let alpha = kernel.ggx_anisotropic_alpha(roughness, anisotropy);
+        for coat_roughness in [0.0, 0.07, 0.15, 0.3, 0.5, 1.0] {
+            let coat = DVec2::new(1.0, coat_roughness);
+            let held: Vec<f64> = (0..=2000)
+                .map(|i| 1.0 - kernel.under_coat_through(coat, true, f64::from(i) / 2000.0))
+                .collect();
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an index")]
+            let layer = |c: f64| held[(c.clamp(0.0, 1.0) * 2000.0).round() as usize];
+            for c in [0.9, 0.5, 0.25, 0.1, 0.05, 0.02] {
+                let factor = kernel.under_coat_steepness(coat, c);
+                for turn in [0.0, 0.8, FRAC_PI_2] {
+                    let o = facets::direction(c, turn);
+                    let exact = facets::flattened_under(layer, o, alpha, [96, 48]);
+                    let told = factor * facets::flattened(o, alpha, [96, 48]);
+                    let off = (told - exact).abs();
+                    assert!(
+                        off < 0.0045,
+                        "{roughness} {anisotropy} under {coat_roughness} at {c} {turn}: {told} {exact}"
+                    );
+                }
+            }
+        }
+    }
 }
