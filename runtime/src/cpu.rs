@@ -10,9 +10,9 @@ use crate::run::Run;
 use crate::schedule::WorkItem;
 use crate::setup::Setup;
 use crate::signals::Event;
-use glam::{UVec3, UVec4};
 #[cfg(target_arch = "x86_64")]
-use kernel_wide::render::{self as wide, Tile};
+use crate::wide::Wide;
+use glam::{UVec3, UVec4};
 use pack::Kind;
 use pack::abi::{AovSample, FilmPixel, Frame};
 use std::any::Any;
@@ -52,7 +52,7 @@ pub(crate) struct Inputs<'a> {
     texels: &'a [UVec4],
     tree: Option<&'a Tree>,
     #[cfg(target_arch = "x86_64")]
-    lanes: Option<pulp::x86::V3>,
+    wide: Option<Wide>,
 }
 
 impl<'a> Inputs<'a> {
@@ -67,7 +67,7 @@ impl<'a> Inputs<'a> {
             texels: setup.section(Kind::TEXEL),
             tree: setup.finished_tree(),
             #[cfg(target_arch = "x86_64")]
-            lanes: setup.lanes(),
+            wide: setup.wide(),
         }
     }
 }
@@ -114,9 +114,8 @@ fn render_f32<'a>(
     is_over: &dyn Fn() -> bool,
 ) -> bool {
     #[cfg(target_arch = "x86_64")]
-    if let Some(avx2) = inputs.lanes {
-        let scalar = scalar(inputs);
-        return wide::render(avx2, Tile { scalar, film, size }, is_over);
+    if let Some(wide) = inputs.wide {
+        return wide.render(scalar(inputs), film, size, is_over);
     }
     let mut kernel = bound!(f32, inputs, film);
     kernel.companion = Companion::new(inputs.tree);
@@ -216,10 +215,14 @@ pub(crate) fn render_item(
     let mut pixels = vec![FilmPixel::default(); w as usize * h as usize];
     let is_over = || run.is_broken_off();
     let render = || {
-        pixels.par_chunks_mut(w as usize).zip(y..y + h).all(|(row, y)| {
-            let tile = Rect { y, h: 1, ..item.tile };
+        // Rows that lanes share.
+        let strips = (y..y + h).into_par_iter().step_by(4);
+        pixels.par_chunks_mut(4 * w as usize).zip(strips).all(|(pixels, top)| {
+            let size = [w, (y + h - top).min(4)];
+            let tile = Rect { y: top, h: size[1], ..item.tile };
             let frame = setup.frame(&WorkItem { tile, ..*item });
-            render_f32(Inputs::new(setup, &frame), [w, 1], bytemuck::cast_slice_mut(row), &is_over)
+            let film = bytemuck::cast_slice_mut(pixels);
+            render_f32(Inputs::new(setup, &frame), size, film, &is_over)
         })
     };
     // As in `worker`.

@@ -5,6 +5,8 @@ use crate::layers::Wanted;
 use crate::region::{Rect, SampleRange};
 use crate::replicate::REPLICATES_U32;
 use crate::scene::Scene;
+#[cfg(target_arch = "x86_64")]
+use crate::wide::Wide;
 use pack::abi::Camera;
 use std::time::Duration;
 use thiserror::Error;
@@ -19,13 +21,24 @@ pub const MAX_PIXELS: u64 = 1 << 28;
 pub struct CpuWay {
     /// Wide nodes are walked by hand-written code, otherwise by what was generated from the WGSL.
     pub by_hand: bool,
-    /// Eight pixels are rendered at a time, where the processor can.
-    pub lanes: bool,
+    /// No more pixels than this are rendered at a time: as many as the processor can, sixteen or eight, else one.
+    pub lanes: u32,
+}
+
+impl CpuWay {
+    /// How many pixels this processor can render at a time.
+    #[must_use]
+    pub fn most_lanes() -> u32 {
+        #[cfg(target_arch = "x86_64")]
+        return Wide::of_processor(u32::MAX).map_or(1, Wide::lanes);
+        #[cfg(not(target_arch = "x86_64"))]
+        return 1;
+    }
 }
 
 impl Default for CpuWay {
     fn default() -> Self {
-        Self { by_hand: true, lanes: true }
+        Self { by_hand: true, lanes: u32::MAX }
     }
 }
 

@@ -60,6 +60,8 @@ mod tev;
 #[cfg(feature = "gpu")]
 mod trust;
 pub mod view;
+#[cfg(target_arch = "x86_64")]
+mod wide;
 mod zeros;
 
 pub use checkpoint::{Checkpoint, CheckpointError};

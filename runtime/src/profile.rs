@@ -1,17 +1,17 @@
-//! A scene → the rays of its picture on a CPU, to be timed without what is shaded, and how well eight lanes share them.
+//! A scene → the rays of its picture on a CPU, to be timed without what is shaded, and how well lanes share them.
 //!
 //! It drives the functions of the scalar kernel in the order of its main loop. It measures no time and does not print.
 
 use crate::cpu::{self, CpuError};
-use crate::job::Job;
+use crate::job::{CpuWay, Job};
 use crate::kernel::f32::{Kernel, NONE, Ray};
 use crate::scene::Scene;
 use crate::setup::Setup;
 use glam::UVec2;
 use pack::abi::Frame;
 
-/// Lanes of the wide kernel.
-const LANES: usize = 8;
+/// Columns of the pixels that are rendered together, as in `runtime/kernel/wide/render.rs`.
+const COLUMNS: usize = 4;
 
 /// Every ray of a picture.
 pub struct Profile<'a> {
@@ -21,12 +21,14 @@ pub struct Profile<'a> {
     lanes: Lanes,
 }
 
-/// How eight lanes share the segments of the paths of eight neighbours.
+/// How lanes share the segments of the paths of as many neighbours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Lanes {
+    /// How many there are: those of the widest kernel that the processor can run, or eight.
+    pub count: u32,
     /// Turns in which segments were shaded.
     pub turns: u64,
-    /// Lanes that had a segment in them; at most eight a turn.
+    /// Lanes that had a segment in them; at most all of a turn.
     pub busy: u64,
     /// Different materials, one of which may be none, among the busy lanes of a turn.
     pub materials: u64,
@@ -53,7 +55,8 @@ impl<'a> Profile<'a> {
         cpu::check_stack(&setup).map_err(|error: CpuError| error.to_string())?;
         setup.tree();
         let frame = setup.frame_of(job);
-        let mut profile = Self { setup, frame, rays: Vec::new(), lanes: Lanes::default() };
+        let lanes = Lanes { count: CpuWay::most_lanes().max(8), ..Lanes::default() };
+        let mut profile = Self { setup, frame, rays: Vec::new(), lanes };
         profile.record_rows(job, recorded);
         Ok(profile)
     }
@@ -62,10 +65,13 @@ impl<'a> Profile<'a> {
         let Self { setup, frame, rays, lanes } = self;
         let mut kernel = cpu::kernel(setup, frame);
         let [width, height] = job.image_size;
-        for y in 0..height {
-            for x in (0..width).step_by(LANES) {
-                let mut segments = |x| pixel(&mut kernel, [x, y], job, (rays, recorded));
-                let group: Vec<Vec<Segment>> = (x..width).take(LANES).map(&mut segments).collect();
+        let rows = lanes.count as usize / COLUMNS;
+        for top in (0..height).step_by(rows) {
+            for left in (0..width).step_by(COLUMNS) {
+                let columns = || (left..width).take(COLUMNS);
+                let pixels = (top..height).take(rows).flat_map(|y| columns().map(move |x| [x, y]));
+                let mut segments = |at| pixel(&mut kernel, at, job, (rays, recorded));
+                let group: Vec<Vec<Segment>> = pixels.map(&mut segments).collect();
                 lanes.add(&group);
             }
         }
@@ -139,7 +145,7 @@ impl Lanes {
     /// Mean share of the lanes that are busy.
     #[must_use]
     pub fn share(&self) -> f64 {
-        self.busy as f64 / (self.turns.max(1) * LANES as u64) as f64
+        self.busy as f64 / (self.turns * u64::from(self.count)).max(1) as f64
     }
 
     /// Mean number of different materials in a turn.
@@ -158,9 +164,9 @@ mod tests {
         let segments = |materials: &[u32]| -> Vec<Segment> {
             materials.iter().map(|m| Segment { material: *m }).collect()
         };
-        let mut lanes = Lanes::default();
+        let mut lanes = Lanes { count: 8, ..Lanes::default() };
         lanes.add(&[segments(&[1, 2, NONE]), segments(&[1]), segments(&[3, 3])]);
-        assert_eq!(lanes, Lanes { turns: 3, busy: 6, materials: 2 + 2 + 1 });
+        assert_eq!(lanes, Lanes { count: 8, turns: 3, busy: 6, materials: 2 + 2 + 1 });
         assert!((lanes.share() - 0.25).abs() < 1e-9);
         assert_eq!(Lanes::default().share().to_bits(), 0.0_f64.to_bits());
     }

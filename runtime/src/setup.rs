@@ -7,6 +7,8 @@ use crate::kernel::walk::Tree;
 use crate::replicate::replicate_seed;
 use crate::scene::Scene;
 use crate::schedule::WorkItem;
+#[cfg(target_arch = "x86_64")]
+use crate::wide::Wide;
 use glam::UVec4;
 use pack::Kind;
 use pack::abi::{Camera, Frame, NONE, albedo_tables};
@@ -217,10 +219,10 @@ impl Setup<'_> {
         if self.way.by_hand { self.scene.finished_tree() } else { None }
     }
 
-    /// The instructions for eight pixels at a time, if they are there and wanted.
+    /// The kernel for several pixels at a time, if there is one and it is wanted.
     #[cfg(target_arch = "x86_64")]
-    pub(crate) fn lanes(&self) -> Option<pulp::x86::V3> {
-        if self.way.lanes { pulp::x86::V3::try_new() } else { None }
+    pub(crate) fn wide(&self) -> Option<Wide> {
+        Wide::of_processor(self.way.lanes)
     }
 
     /// The nodes of the tree, in either layout.

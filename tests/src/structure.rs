@@ -33,7 +33,9 @@ pub const CRATES: &[(&str, &str)] = &[
     ("commit", "runtime/commit"),
     ("kernel_f32", "runtime/kernel/f32"),
     ("kernel_f64", "runtime/kernel/f64"),
-    ("kernel_wide", "runtime/kernel/wide"),
+    ("kernel_target", "runtime/kernel/target"),
+    ("kernel_avx2", "runtime/kernel/avx2"),
+    ("kernel_avx512", "runtime/kernel/avx512"),
     ("runtime", "runtime"),
     ("scenes", "scenes"),
 ];

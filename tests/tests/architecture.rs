@@ -16,10 +16,22 @@ const ARROWS: &[(&str, &[&str], &[&str])] = &[
     ("commit", &[], &[]),
     ("kernel_f32", &["pack"], &["shaders", "native"]),
     ("kernel_f64", &[], &["shaders", "native"]),
-    ("kernel_wide", &["kernel_f32"], &["shaders", "native"]),
+    ("kernel_target", &[], &[]),
+    ("kernel_avx2", &["kernel_f32", "kernel_target"], &["shaders", "native"]),
+    ("kernel_avx512", &["kernel_f32", "kernel_target"], &["shaders", "native"]),
     (
         "runtime",
-        &["host", "pack", "files", "commit", "kernel_f32", "kernel_f64", "kernel_wide", "wgpu"],
+        &[
+            "host",
+            "pack",
+            "files",
+            "commit",
+            "kernel_f32",
+            "kernel_f64",
+            "kernel_avx2",
+            "kernel_avx512",
+            "wgpu",
+        ],
         &["pack", "shaders"],
     ),
     ("scenes", &["compiler", "runtime", "files"], &[]),
@@ -79,7 +91,9 @@ fn a_forbidden_arrow_is_caught() {
 #[test]
 fn examples_in_comments_are_run() {
     for package in &metadata().packages {
-        let library = package.targets.iter().find(|target| target.is_lib()).expect("a library");
+        let library =
+            package.targets.iter().find(|target| target.is_lib() || target.is_proc_macro());
+        let library = library.expect("a library");
         let folder = library.src_path.parent().expect("src");
         assert!(
             library.doctest || !has_example(folder.as_std_path()),

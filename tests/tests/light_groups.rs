@@ -144,7 +144,7 @@ fn groups_add_up_with_every_feature() {
 #[test]
 fn every_kernel_gives_the_same_groups() {
     let whole = render(BOX, |_| ());
-    for (by_hand, lanes) in [(true, false), (false, false)] {
+    for (by_hand, lanes) in [(true, 8), (true, 1), (false, 1)] {
         let other = render(BOX, |job| job.way = CpuWay { by_hand, lanes });
         assert_eq!(whole.picture.layers, other.picture.layers);
         adds_up(&other.picture);

@@ -63,7 +63,7 @@ mod types;
 mod wide;
 
 pub use error::NativeError;
-pub use options::{ByHand, Precision, Seam};
+pub use options::{ByHand, Lanes, Precision, Seam};
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
@@ -86,12 +86,13 @@ pub fn generate_with(
     context::Context::new(&module, &info, source, precision, by_hand)?.write()
 }
 
-/// Translates what the entry points of a WGSL text call into a module that computes eight invocations at once, but for
-/// what is done by hand; `scalar` is the path of the module that [`generate_with`] makes of the same text in `f32`, as
+/// Translates what the entry points of a WGSL text call into a module that computes as many invocations at
+/// once as there are lanes, but for what is done by hand; `scalar` is the path of the module that [`generate_with`] makes of the same text in `f32`, as
 /// seen from the new one.
 pub fn generate_wide(
     source: &str,
     scalar: &str,
+    lanes: Lanes,
     by_hand: ByHand<'_>,
 ) -> Result<String, NativeError> {
     let module =
@@ -99,5 +100,6 @@ pub fn generate_wide(
     let info = Validator::new(ValidationFlags::all(), Capabilities::all())
         .validate(&module)
         .map_err(|error| NativeError::invalid(&error, source))?;
-    context::Context::new(&module, &info, source, Precision::F32, by_hand)?.write_wide(scalar)
+    context::Context::new(&module, &info, source, Precision::F32, by_hand)?
+        .write_wide(scalar, lanes)
 }

@@ -9,6 +9,15 @@ pub enum Precision {
     F64,
 }
 
+/// Which instructions the lanes of a wide module are made of, and so how many there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lanes {
+    /// Eight, with AVX2.
+    Avx2,
+    /// Sixteen, with the AVX-512 of x86-64-v4.
+    Avx512,
+}
+
 /// A function that hand-written Rust may do instead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Seam<'a> {

@@ -13,9 +13,3 @@ pub(crate) fn text() -> &'static str {
     let text = include_str!("prelude/scalar.rs");
     text.find("use super::Real;").map_or(text, |start| &text[start..])
 }
-
-/// The operations on eight lanes, without the header that speaks of this crate.
-pub(crate) fn wide_text() -> &'static str {
-    let text = include_str!("prelude/avx2.rs");
-    text.find("use core::arch").map_or(text, |start| &text[start..])
-}

@@ -1,13 +1,13 @@
-//! A WGSL compute kernel → the text of a Rust module that computes eight invocations at once.
+//! A WGSL compute kernel → the text of a Rust module that computes eight or sixteen invocations at once.
 //!
 //! The third form of a kernel, beside the two of [`crate::generate`]: values that may differ between invocations are
-//! eight lanes, and control flow is masks. A side of an `if` runs where some lane takes it, a case of a `switch` where
+//! lanes, and control flow is masks. A side of an `if` runs where some lane takes it, a case of a `switch` where
 //! some lane asks for it, a loop until no lane is left; `return`, `break` and `continue` take lanes out of the mask;
 //! what is stored is stored in the lanes of the mask. Every lane has the bits of the scalar form.
 //!
-//! Only what the entry points and hand-written code call is translated, without what is done by hand. The module needs `glam`, `bytemuck` and
-//! the scalar module, whose constants and structs it uses; all its functions are compiled for AVX2, so that calling an
-//! entry point is `unsafe` where that is not known to be there.
+//! Only what the entry points and hand-written code call is translated, without what is done by hand. The module needs
+//! `glam`, `bytemuck` and the scalar module, whose constants and structs it uses; all its functions are compiled for the
+//! instructions of its lanes, so that calling an entry point is `unsafe` where those are not known to be there.
 
 mod builtins;
 mod calls;
@@ -24,24 +24,26 @@ mod types;
 
 use crate::context::Context;
 use crate::error::NativeError;
+use crate::options::Lanes;
 use crate::text::Text;
 use functions::WideWriter;
 use naga::{AddressSpace, Block, Function, Handle, Statement};
 
 impl Context<'_> {
     /// Writes the wide form; `scalar` is the path of the module with the scalar form.
-    pub(crate) fn write_wide(&self, scalar: &str) -> Result<String, NativeError> {
+    pub(crate) fn write_wide(&self, scalar: &str, lanes: Lanes) -> Result<String, NativeError> {
         let mut out = Text::default();
         out.line("// Generated from WGSL by the crate `native`. Do not edit.");
         out.line(&format!("use {scalar} as scalar;"));
         out.line("");
         let reached = self.reached();
-        self.write_wide_structs(&mut out)?;
+        self.write_wide_structs(&mut out, lanes)?;
         self.write_wide_resources(&mut out)?;
         out.open("impl<'a> Kernel<'a> {");
         for (index, entry) in self.module.entry_points.iter().enumerate() {
             let info = self.info.get_entry_point(index);
-            let writer = WideWriter::new(self, &entry.function, info, naga::Span::UNDEFINED);
+            let writer =
+                WideWriter::new(self, lanes, (&entry.function, info, naga::Span::UNDEFINED));
             out.raw(&writer.write_entry(&self.entry_points[index])?);
         }
         for (handle, function) in self.module.functions.iter() {
@@ -50,7 +52,7 @@ impl Context<'_> {
             }
             out.line("");
             let span = self.module.functions.get_span(handle);
-            let writer = WideWriter::new(self, function, &self.info[handle], span);
+            let writer = WideWriter::new(self, lanes, (function, &self.info[handle], span));
             let name = self.function_name(handle);
             out.raw(&match &self.seams[handle.index()] {
                 Some((path, _)) => writer.write_seam(name, path)?,
@@ -60,7 +62,7 @@ impl Context<'_> {
         out.close("}");
         out.line("");
         out.line("pub mod v {");
-        out.raw(crate::prelude::wide_text());
+        out.raw(&lanes.operations());
         out.line("}");
         Ok(out.finish())
     }

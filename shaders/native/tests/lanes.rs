@@ -1,9 +1,9 @@
-//! Eight invocations side by side compute what each computes alone: every bit, in every mask.
+//! Eight or sixteen invocations side by side compute what each computes alone: every bit, in every mask.
 #![cfg(target_arch = "x86_64")]
 #![expect(unsafe_code, reason = "what the processor can is asked before")]
 
 use glam::{UVec3, UVec4};
-use native::{ByHand, generate_wide};
+use native::{ByHand, Lanes, generate_wide};
 
 macro_rules! generated {
     ($name:ident, $file:literal, $($rules:item)?) => {
@@ -26,21 +26,58 @@ macro_rules! generated {
     };
 }
 
-#[path = "../src/prelude/avx2.rs"]
-#[allow(
-    clippy::all,
-    clippy::pedantic,
-    dead_code,
-    unreachable_pub,
-    unused,
-    reason = "as it is pasted"
-)]
-mod avx2;
 #[path = "../src/prelude/single.rs"]
 mod single;
 
 generated!(scalar, "lanes.rs", use crate::single::rules as wgsl;);
-generated!(wide, "wide/lanes.rs", use crate::avx2 as v;);
+
+/// A module with the operations of an instruction set, the wide form of the probe, and a call of it.
+macro_rules! in_lanes {
+    ($name:ident, $operations:literal, $file:literal, $features:literal) => {
+        mod $name {
+            use glam::UVec4;
+
+            #[allow(
+                clippy::all,
+                clippy::pedantic,
+                dead_code,
+                unreachable_pub,
+                unused,
+                reason = "as it is pasted"
+            )]
+            mod v {
+                include!(concat!("../src/prelude/", $operations));
+                include!("../src/prelude/lanes.rs");
+            }
+            generated!(wide, $file, use super::v;);
+
+            pub(crate) const LANES: usize = v::LANES;
+
+            /// What the invocations from `first` find in the lanes of `mask`.
+            pub(crate) fn together(given: &[UVec4], first: u32, mask: u32) -> Vec<UVec4> {
+                let mut found = vec![super::NOTHING; given.len() * super::FOUND];
+                // SAFETY: the test asks for these instructions first.
+                unsafe { run(given, &mut found, first, mask) };
+                found
+            }
+
+            #[target_feature(enable = $features)]
+            fn run(given: &[UVec4], found: &mut [UVec4], first: u32, mask: u32) {
+                let mask = v::b_of(std::array::from_fn(|lane| mask >> lane & 1 == 1));
+                let id = v::V3 { x: v::add_u(v::u(first), v::lane()), y: v::u(0), z: v::u(0) };
+                wide::Kernel { given, found }.main(mask, id);
+            }
+        }
+    };
+}
+
+in_lanes!(avx2, "avx2.rs", "wide/avx2.rs", "avx2,bmi1,bmi2,lzcnt,popcnt");
+in_lanes!(
+    avx512,
+    "avx512.rs",
+    "wide/avx512.rs",
+    "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt"
+);
 
 /// Words that an invocation finds.
 const FOUND: usize = 10;
@@ -101,23 +138,6 @@ fn alone(given: &[UVec4], i: u32) -> Vec<UVec4> {
     found[i as usize * FOUND..][..FOUND].to_vec()
 }
 
-/// What the eight from `first` find in the lanes of `mask`.
-fn together(given: &[UVec4], first: u32, mask: u32) -> Vec<UVec4> {
-    let mut found = vec![NOTHING; given.len() * FOUND];
-    // SAFETY: the test asks for these instructions first.
-    unsafe { run(given, &mut found, first, mask) };
-    found
-}
-
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-fn run(given: &[UVec4], found: &mut [UVec4], first: u32, mask: u32) {
-    let lanes = [0, 1, 2, 3, 4, 5, 6, 7];
-    let mask = avx2::b_of(lanes.map(|lane| mask >> lane & 1 == 1));
-    let x = avx2::u_of(lanes.map(|lane| first + lane));
-    let id = avx2::V3 { x, y: avx2::u(0), z: avx2::u(0) };
-    wide::Kernel { given, found }.main(mask, id);
-}
-
 /// Bits, but those of what is not a number.
 fn known(words: &[UVec4]) -> Vec<[u32; 4]> {
     let floats = [1, 2, 3, 5, 9];
@@ -130,24 +150,20 @@ fn known(words: &[UVec4]) -> Vec<[u32; 4]> {
     words.iter().enumerate().map(known).collect()
 }
 
-#[test]
-fn every_lane_has_the_bits_of_the_scalar_form_in_every_mask() {
-    let all_there = is_x86_feature_detected!("avx2")
-        && is_x86_feature_detected!("bmi1")
-        && is_x86_feature_detected!("bmi2")
-        && is_x86_feature_detected!("lzcnt")
-        && is_x86_feature_detected!("popcnt");
-    if !all_there {
-        return;
-    }
+/// How invocations are computed side by side: as many as there are lanes from the first, in those of a mask.
+type Together = fn(&[UVec4], u32, u32) -> Vec<UVec4>;
+
+fn check(lanes: usize, together: Together) {
     let given = given(512);
     let expected: Vec<Vec<UVec4>> = (0..512).map(|i| alone(&given, i)).collect();
-    for first in (0..512).step_by(8) {
-        let masks: Vec<u32> = if first < 32 { (0..256).collect() } else { vec![0xff, 0x5a, first] };
+    let all = (1 << lanes) - 1;
+    for first in (0..512).step_by(lanes) {
+        let every: Vec<u32> = (0..256).map(|k| (k * 0x0101) ^ (k << 7)).collect();
+        let masks = if first < 32 { every } else { vec![all, 0x5a5a, first, first << 8] };
         for mask in masks {
-            let found = together(&given, first, mask & 0xff);
-            for lane in 0..8 {
-                let i = (first + lane) as usize;
+            let found = together(&given, first, mask & all);
+            for lane in 0..lanes {
+                let i = first as usize + lane;
                 let here = &found[i * FOUND..][..FOUND];
                 let nothing = vec![NOTHING; FOUND];
                 let active = mask >> lane & 1 == 1;
@@ -155,6 +171,20 @@ fn every_lane_has_the_bits_of_the_scalar_form_in_every_mask() {
                 let what = || format!("invocation {i}, mask {mask:#x}, given {:x?}", given[i]);
                 assert_eq!(known(here), known(expected), "{}", what());
             }
+        }
+    }
+}
+
+macro_rules! there {
+    ($($name:tt),*) => { $(is_x86_feature_detected!($name))&&* };
+}
+
+#[test]
+fn every_lane_has_the_bits_of_the_scalar_form_in_every_mask() {
+    if there!("avx2", "bmi1", "bmi2", "lzcnt", "popcnt") {
+        check(avx2::LANES, avx2::together);
+        if there!("avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl") {
+            check(avx512::LANES, avx512::together);
         }
     }
 }
@@ -170,7 +200,7 @@ var<private> state: u32;
     {body}
 }}"
         );
-        let error = generate_wide(&source, "crate::scalar", ByHand::default())
+        let error = generate_wide(&source, "crate::scalar", Lanes::Avx2, ByHand::default())
             .expect_err("this must be refused");
         assert!(error.message.contains(words), "{error} does not say {words:?}");
         assert_eq!(error.line, 4, "{error}");

@@ -4,7 +4,7 @@
 
 mod twin;
 
-use native::{ByHand, Precision, Seam, generate, generate_wide, generate_with};
+use native::{ByHand, Lanes, Precision, Seam, generate, generate_wide, generate_with};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -86,11 +86,13 @@ fn generated_text_is_current() {
 fn generated_text_in_lanes_is_current() {
     let probe = tests_folder().join("probes/lanes.wgsl");
     let source = fs::read_to_string(probe).expect("a probe");
-    let text = generate_wide(&source, "crate::scalar", ByHand::default())
-        .unwrap_or_else(|error| panic!("lanes.wgsl:{error}"));
-    let end = text.find("\npub mod v {").expect("it ends with the operations");
-    let stale = check_golden("wide/lanes.rs", &text[..end]);
-    assert!(stale.is_none(), "run `UPDATE=1 cargo test -p native`; stale: {stale:?}");
+    for (lanes, name) in [(Lanes::Avx2, "wide/avx2.rs"), (Lanes::Avx512, "wide/avx512.rs")] {
+        let text = generate_wide(&source, "crate::scalar", lanes, ByHand::default())
+            .unwrap_or_else(|error| panic!("lanes.wgsl:{error}"));
+        let end = text.find("\npub mod v {").expect("it ends with the operations");
+        let stale = check_golden(name, &text[..end]);
+        assert!(stale.is_none(), "run `UPDATE=1 cargo test -p native`; stale: {stale:?}");
+    }
 }
 
 #[test]

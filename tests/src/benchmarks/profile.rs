@@ -22,7 +22,7 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
         text,
         "\n## Tracing and shading: {width} x {height}, {SAMPLES} samples a pixel, the CPU kernel, one thread\n\n\
         `trace`: every ray of {TRACED} samples a pixel, traced again in the order of the paths by the scalar kernel. \
-        `shading`: the rest of a sample's time. `busy`: lanes with a segment, of eight, in a turn of the wide kernel; \
+        `shading`: the rest of a sample's time. `busy`: lanes with a segment, of all, in a turn of the wide kernel; \
         `materials`: different ones that these meet, on average.\n\n\
         | scene | ns a sample | rays a sample | trace, ns a ray | Mrays per CPU s | trace, share | shading, ns a sample | busy | materials |\n\
         |---|---|---|---|---|---|---|---|---|"
@@ -48,11 +48,12 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
         let lanes = profile.lanes();
         let _ = writeln!(
             text,
-            "| `{name}` | {sample:.0} | {rays:.2} | {ray:.0} | {:.2} | {:.0} % | {:.0} | {:.2} | {:.2} |",
+            "| `{name}` | {sample:.0} | {rays:.2} | {ray:.0} | {:.2} | {:.0} % | {:.0} | {:.2} of {} | {:.2} |",
             1e3 / ray,
             100.0 * rays * ray / sample,
             sample - rays * ray,
-            8.0 * lanes.share(),
+            lanes.share() * f64::from(lanes.count),
+            lanes.count,
             lanes.materials_a_turn(),
         );
     }

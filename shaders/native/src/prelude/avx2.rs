@@ -1,11 +1,14 @@
-//! Eight invocations at once with AVX2. This text is pasted into every wide module as `mod v`. Each lane of each
-//! function has the bits of the scalar rule of WGSL; lanes that a mask leaves out are computed and not kept.
-//!
-//! No function is unsafe: the instruction set is that of the functions themselves, and who calls the first of them
-//! must know that the processor has it.
+// Operations on eight lanes with AVX2. With `lanes.rs` this text is pasted into every such module as `mod v`. Each lane of
+// each function has the bits of the scalar rule of WGSL; lanes that a mask leaves out are computed and not kept.
+//
+// No function is unsafe: the instruction set is that of the functions themselves, and who calls the first of them must
+// know that the processor has it.
 
 use core::arch::x86_64::*;
 use glam::UVec4;
+
+/// How many there are.
+pub const LANES: usize = 8;
 
 /// Eight `f32`.
 #[derive(Clone, Copy, Debug)]
@@ -19,28 +22,6 @@ pub struct I(pub __m256i);
 /// Eight `bool`, each all ones or all zeros; and the lanes that do something.
 #[derive(Clone, Copy, Debug)]
 pub struct B(pub __m256i);
-
-/// Two of a kind.
-#[derive(Clone, Copy, Debug)]
-pub struct V2<T> {
-    pub x: T,
-    pub y: T,
-}
-/// Three of a kind.
-#[derive(Clone, Copy, Debug)]
-pub struct V3<T> {
-    pub x: T,
-    pub y: T,
-    pub z: T,
-}
-/// Four of a kind.
-#[derive(Clone, Copy, Debug)]
-pub struct V4<T> {
-    pub x: T,
-    pub y: T,
-    pub z: T,
-    pub w: T,
-}
 
 macro_rules! lanes {
     ($($(#[$doc:meta])* fn $name:ident($($arg:ident: $ty:ty),*) -> $out:ty $body:block)*) => {$(
@@ -59,22 +40,16 @@ lanes! {
     fn b(x: bool) -> B { B(_mm256_set1_epi32(-i32::from(x))) }
 
     // Lanes in memory, and back.
-    fn f_of(x: [f32; 8]) -> F { F(bytemuck::cast(x)) }
-    fn u_of(x: [u32; 8]) -> U { U(bytemuck::cast(x)) }
-    fn i_of(x: [i32; 8]) -> I { I(bytemuck::cast(x)) }
-    fn b_of(x: [bool; 8]) -> B {
-        let mut lanes = [0_i32; 8];
+    fn b_of(x: [bool; LANES]) -> B {
+        let mut lanes = [0_i32; LANES];
         for (lane, x) in lanes.iter_mut().zip(x) {
             *lane = -i32::from(x);
         }
         B(bytemuck::cast(lanes))
     }
-    fn f_to(x: F) -> [f32; 8] { bytemuck::cast(x.0) }
-    fn u_to(x: U) -> [u32; 8] { bytemuck::cast(x.0) }
-    fn i_to(x: I) -> [i32; 8] { bytemuck::cast(x.0) }
-    fn b_to(x: B) -> [bool; 8] {
-        let lanes: [i32; 8] = bytemuck::cast(x.0);
-        let mut out = [false; 8];
+    fn b_to(x: B) -> [bool; LANES] {
+        let lanes: [i32; LANES] = bytemuck::cast(x.0);
+        let mut out = [false; LANES];
         for (out, lane) in out.iter_mut().zip(lanes) {
             *out = lane != 0;
         }
@@ -92,7 +67,6 @@ lanes! {
     /// `a` and not `b`.
     fn but_b(a: B, b: B) -> B { B(_mm256_andnot_si256(b.0, a.0)) }
     fn eq_b(a: B, b: B) -> B { B(_mm256_cmpeq_epi32(a.0, b.0)) }
-    fn ne_b(a: B, b: B) -> B { xor_b(a, b) }
 
     // One or the other, lane by lane. By bytes, floats too: a blend of words that is stored where its old value came
     // from becomes a masked store, which is slow on processors of AMD.
@@ -109,7 +83,6 @@ lanes! {
     fn sub_f(a: F, b: F) -> F { F(_mm256_sub_ps(a.0, b.0)) }
     fn mul_f(a: F, b: F) -> F { F(_mm256_mul_ps(a.0, b.0)) }
     fn div_f(a: F, b: F) -> F { F(_mm256_div_ps(a.0, b.0)) }
-    fn rem_f(a: F, b: F) -> F { sub_f(a, mul_f(b, trunc_f(div_f(a, b)))) }
     fn neg_f(a: F) -> F { F(_mm256_xor_ps(a.0, _mm256_set1_ps(-0.0))) }
     fn abs_f(a: F) -> F { F(_mm256_andnot_ps(_mm256_set1_ps(-0.0), a.0)) }
     fn sqrt_f(a: F) -> F { F(_mm256_sqrt_ps(a.0)) }
@@ -121,7 +94,6 @@ lanes! {
     fn round_f(a: F) -> F {
         F(_mm256_round_ps::<{ _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC }>(a.0))
     }
-    fn fract_f(a: F) -> F { sub_f(a, floor_f(a)) }
     /// `b` if it is smaller, else `a`.
     fn min_f(a: F, b: F) -> F { F(_mm256_min_ps(b.0, a.0)) }
     /// `b` if it is larger, else `a`.
@@ -147,8 +119,6 @@ lanes! {
     fn add_u(a: U, b: U) -> U { U(_mm256_add_epi32(a.0, b.0)) }
     fn sub_u(a: U, b: U) -> U { U(_mm256_sub_epi32(a.0, b.0)) }
     fn mul_u(a: U, b: U) -> U { U(_mm256_mullo_epi32(a.0, b.0)) }
-    fn div_u(a: U, b: U) -> U { each_u(a, b, |a, b| if b == 0 { a } else { a / b }) }
-    fn rem_u(a: U, b: U) -> U { each_u(a, b, |a, b| if b == 0 { 0 } else { a % b }) }
     fn and_u(a: U, b: U) -> U { U(_mm256_and_si256(a.0, b.0)) }
     fn or_u(a: U, b: U) -> U { U(_mm256_or_si256(a.0, b.0)) }
     fn xor_u(a: U, b: U) -> U { U(_mm256_xor_si256(a.0, b.0)) }
@@ -188,15 +158,12 @@ lanes! {
     fn add_i(a: I, b: I) -> I { I(_mm256_add_epi32(a.0, b.0)) }
     fn sub_i(a: I, b: I) -> I { I(_mm256_sub_epi32(a.0, b.0)) }
     fn mul_i(a: I, b: I) -> I { I(_mm256_mullo_epi32(a.0, b.0)) }
-    fn div_i(a: I, b: I) -> I { each_i(a, b, |a, b| if b == 0 { a } else { a.wrapping_div(b) }) }
-    fn rem_i(a: I, b: I) -> I { each_i(a, b, |a, b| if b == 0 { 0 } else { a.wrapping_rem(b) }) }
     fn neg_i(a: I) -> I { I(_mm256_sub_epi32(_mm256_setzero_si256(), a.0)) }
     fn abs_i(a: I) -> I { I(_mm256_abs_epi32(a.0)) }
     fn and_i(a: I, b: I) -> I { I(_mm256_and_si256(a.0, b.0)) }
     fn or_i(a: I, b: I) -> I { I(_mm256_or_si256(a.0, b.0)) }
     fn xor_i(a: I, b: I) -> I { I(_mm256_xor_si256(a.0, b.0)) }
     fn not_i(a: I) -> I { I(_mm256_xor_si256(a.0, _mm256_set1_epi32(-1))) }
-    fn shl_i(a: I, n: U) -> I { I(shl_u(U(a.0), n).0) }
     fn shr_i(a: I, n: U) -> I {
         I(_mm256_srav_epi32(a.0, _mm256_and_si256(n.0, _mm256_set1_epi32(31))))
     }
@@ -214,8 +181,6 @@ lanes! {
     fn i_bits_f(a: F) -> I { I(_mm256_castps_si256(a.0)) }
     fn f_bits_u(a: U) -> F { F(_mm256_castsi256_ps(a.0)) }
     fn f_bits_i(a: I) -> F { F(_mm256_castsi256_ps(a.0)) }
-    fn i_bits_u(a: U) -> I { I(a.0) }
-    fn u_bits_i(a: I) -> U { U(a.0) }
     fn f_from_i(a: I) -> F { F(_mm256_cvtepi32_ps(a.0)) }
     /// Both halves are exact, and their sum is rounded once.
     fn f_from_u(a: U) -> F {
@@ -228,11 +193,6 @@ lanes! {
     }
     fn u_from_b(a: B) -> U { U(_mm256_srli_epi32::<31>(a.0)) }
     fn i_from_b(a: B) -> I { I(_mm256_srli_epi32::<31>(a.0)) }
-    fn i_from_u(a: U) -> I { I(a.0) }
-    fn u_from_i(a: I) -> U { U(a.0) }
-    fn b_from_f(a: F) -> B { ne_f(a, f(0.0)) }
-    fn b_from_u(a: U) -> B { ne_u(a, u(0)) }
-    fn b_from_i(a: I) -> B { ne_i(a, i(0)) }
     /// Towards zero; outside the range the nearest value that `f32` also holds; not a number is 0.
     fn i_from_f(a: F) -> I {
         let cut = _mm256_cvttps_epi32(a.0);
@@ -253,17 +213,16 @@ lanes! {
         U(_mm256_and_si256(near.0, gt_f(a, f(0.0)).0))
     }
 
-    /// Element `index` of a slice, lane by lane; outside the last one, of nothing zero. Lanes outside `m` read what the
-    /// first inside reads.
-    fn at(array: &[UVec4], index: U, m: B) -> V4<U> {
-        let lane = _mm256_set1_epi32(bits(m).trailing_zeros() as i32);
-        let first = U(_mm256_permutevar8x32_epi32(index.0, lane));
-        let index = select_u(m, index, first);
-        if bits(eq_u(index, first)) == 0xff {
-            at_same(array, _mm256_cvtsi256_si32(first.0) as u32)
-        } else {
-            gather(array, index)
-        }
+    /// The number of one lane; any one where there is no such lane.
+    fn from_lane(x: U, lane: u32) -> u32 {
+        let first = _mm256_permutevar8x32_epi32(x.0, _mm256_set1_epi32(lane as i32));
+        _mm256_cvtsi256_si32(first) as u32
+    }
+
+    /// One of four words for each lane.
+    fn word_f(row: [f32; 4], axis: U) -> F {
+        let row: __m128 = bytemuck::cast(row);
+        F(_mm256_permutevar_ps(_mm256_set_m128(row, row), axis.0))
     }
 
     /// Two rows, of which each is there.
@@ -274,52 +233,6 @@ lanes! {
             }
             _ => _mm256_setzero_si256(),
         }
-    }
-
-    /// The same element in all lanes.
-    fn at_same(array: &[UVec4], index: u32) -> V4<U> {
-        let row = match array.get(index as usize) {
-            Some(element) => *element,
-            None => array.last().copied().unwrap_or(UVec4::ZERO),
-        };
-        V4 { x: u(row.x), y: u(row.y), z: u(row.z), w: u(row.w) }
-    }
-
-    fn pick_f(array: &[F], index: U) -> F {
-        let mut picked = array[0];
-        let mut k = 1;
-        while k < array.len() {
-            picked = select_f(ge_u(index, u(k as u32)), array[k], picked);
-            k += 1;
-        }
-        picked
-    }
-    fn pick_u(array: &[U], index: U) -> U {
-        let mut picked = array[0];
-        let mut k = 1;
-        while k < array.len() {
-            picked = select_u(ge_u(index, u(k as u32)), array[k], picked);
-            k += 1;
-        }
-        picked
-    }
-    fn pick_i(array: &[I], index: U) -> I {
-        let mut picked = array[0];
-        let mut k = 1;
-        while k < array.len() {
-            picked = select_i(ge_u(index, u(k as u32)), array[k], picked);
-            k += 1;
-        }
-        picked
-    }
-    fn pick_b(array: &[B], index: U) -> B {
-        let mut picked = array[0];
-        let mut k = 1;
-        while k < array.len() {
-            picked = select_b(ge_u(index, u(k as u32)), array[k], picked);
-            k += 1;
-        }
-        picked
     }
 }
 
@@ -342,37 +255,4 @@ fn gather(array: &[UVec4], index: U) -> V4<U> {
         z: U(_mm256_unpacklo_epi64(ef, gh)),
         w: U(_mm256_unpackhi_epi64(ef, gh)),
     }
-}
-
-/// Writes element `index` in the lanes of `m`, the lowest first; outside nothing.
-#[inline]
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-pub fn put(array: &mut [UVec4], index: U, value: V4<U>, m: B) {
-    let (index, [x, y, z, w]) =
-        (u_to(index), [u_to(value.x), u_to(value.y), u_to(value.z), u_to(value.w)]);
-    for lane in (0..8).filter(|lane| bits(m) >> lane & 1 == 1) {
-        if let Some(element) = array.get_mut(index[lane] as usize) {
-            *element = UVec4::new(x[lane], y[lane], z[lane], w[lane]);
-        }
-    }
-}
-
-#[inline]
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-fn each_u(a: U, b: U, f: fn(u32, u32) -> u32) -> U {
-    let (mut a, b) = (u_to(a), u_to(b));
-    for (a, b) in a.iter_mut().zip(b) {
-        *a = f(*a, b);
-    }
-    u_of(a)
-}
-
-#[inline]
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-fn each_i(a: I, b: I, f: fn(i32, i32) -> i32) -> I {
-    let (mut a, b) = (i_to(a), i_to(b));
-    for (a, b) in a.iter_mut().zip(b) {
-        *a = f(*a, b);
-    }
-    i_of(a)
 }

@@ -1,4 +1,4 @@
-//! Built-in functions over eight lanes: those whose bits IEEE 754 fixes.
+//! Built-in functions over lanes: those whose bits IEEE 754 fixes.
 
 use super::functions::WideWriter;
 use super::operators::call;

@@ -1,4 +1,4 @@
-//! Expressions over eight lanes. Each gets a name where naga says that it is evaluated.
+//! Expressions over lanes. Each gets a name where naga says that it is evaluated.
 
 use super::functions::WideWriter;
 use super::operators::call;

@@ -1,10 +1,10 @@
-//! One WGSL function → one method over eight lanes. Its first parameter is the mask of lanes that call it.
+//! One WGSL function → one method over lanes. Its first parameter is the mask of lanes that call it.
 
 use super::exits::returns_in;
-use super::target::TARGET;
 use crate::context::Context;
 use crate::error::NativeError;
 use crate::names::{Names, PATTERNS};
+use crate::options::Lanes;
 use crate::text::Text;
 use naga::valid::FunctionInfo;
 use naga::{
@@ -24,6 +24,7 @@ pub(crate) enum Scope {
 /// The state of the walk through one function.
 pub(crate) struct WideWriter<'a> {
     pub(crate) cx: &'a Context<'a>,
+    lanes: Lanes,
     pub(crate) fun: &'a Function,
     pub(crate) info: &'a FunctionInfo,
     pub(crate) span: Span,
@@ -51,9 +52,8 @@ impl<'a> WideWriter<'a> {
     /// Prepares the walk. `span` is where the function stands, if naga knows.
     pub(crate) fn new(
         cx: &'a Context<'a>,
-        fun: &'a Function,
-        info: &'a FunctionInfo,
-        span: Span,
+        lanes: Lanes,
+        (fun, info, span): (&'a Function, &'a FunctionInfo, Span),
     ) -> Self {
         let mut names = Names::with(cx.value_names().chain(PATTERNS.iter().copied()));
         for taken in ["v", "scalar"] {
@@ -71,6 +71,7 @@ impl<'a> WideWriter<'a> {
             .collect();
         Self {
             cx,
+            lanes,
             fun,
             info,
             span,
@@ -133,7 +134,7 @@ impl<'a> WideWriter<'a> {
             None => String::new(),
         };
         self.out.line("#[inline]");
-        self.out.line(TARGET);
+        self.out.line(self.lanes.attribute());
         self.out.open(&format!("pub fn {name}(&mut self{parameters}){result} {{"));
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! Operators, choices and conversions over eight lanes: each has a function for each kind of numbers.
+//! Operators, choices and conversions over lanes: each has a function for each kind of numbers.
 
 use super::functions::WideWriter;
 use super::types::letter;

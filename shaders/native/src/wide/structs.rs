@@ -1,9 +1,9 @@
-//! Structs of eight lanes: their zeros, choosing between two, and lanes from and to the scalar form.
+//! Structs of lanes: their zeros, choosing between two, and lanes from and to the scalar form.
 
-use super::target::TARGET;
 use super::types::{letter, vector};
 use crate::context::Context;
 use crate::error::NativeError;
+use crate::options::Lanes;
 use crate::text::Text;
 use crate::types::{LANES, vector_name};
 use naga::{Handle, Type, TypeInner};
@@ -13,16 +13,25 @@ type PartOf<'a> = dyn Fn(&str, Handle<Type>) -> Result<String, NativeError> + 'a
 
 impl Context<'_> {
     /// Writes every struct.
-    pub(crate) fn write_wide_structs(&self, out: &mut Text) -> Result<(), NativeError> {
+    pub(crate) fn write_wide_structs(
+        &self,
+        out: &mut Text,
+        lanes: Lanes,
+    ) -> Result<(), NativeError> {
         for (handle, ty) in self.module.types.iter() {
             if let TypeInner::Struct { .. } = ty.inner {
-                self.write_wide_struct(out, handle)?;
+                self.write_wide_struct(out, handle, lanes)?;
             }
         }
         Ok(())
     }
 
-    fn write_wide_struct(&self, out: &mut Text, handle: Handle<Type>) -> Result<(), NativeError> {
+    fn write_wide_struct(
+        &self,
+        out: &mut Text,
+        handle: Handle<Type>,
+        lanes: Lanes,
+    ) -> Result<(), NativeError> {
         let TypeInner::Struct { members, .. } = &self.module.types[handle].inner else {
             return Ok(());
         };
@@ -38,7 +47,7 @@ impl Context<'_> {
         out.open(&format!("impl {name} {{"));
         let mut each = |head: &str, part: &PartOf<'_>| {
             out.line("#[inline]");
-            out.line(TARGET);
+            out.line(lanes.attribute());
             out.open(&format!("pub fn {head} {{"));
             let is_scalar = head.ends_with("scalar::") || head.contains("-> scalar::");
             out.open(&if is_scalar { format!("scalar::{name} {{") } else { "Self {".to_owned() });
@@ -56,8 +65,8 @@ impl Context<'_> {
         each(&format!("lane(&self, k: usize) -> scalar::{name}"), &|field, ty| {
             self.lane_of(ty, &format!("self.{field}"))
         })?;
-        each(&format!("of(x: &[scalar::{name}; 8]) -> Self"), &|field, ty| {
-            self.of_lanes(ty, &format!(".{field}"))
+        each(&format!("of(x: &[scalar::{name}; {}]) -> Self", lanes.count()), &|field, ty| {
+            self.of_lanes(ty, &format!(".{field}"), lanes)
         })?;
         out.close("}");
         out.line("");
@@ -70,11 +79,12 @@ impl Context<'_> {
         match self.module.types[ty].inner {
             TypeInner::Struct { .. } => Ok(format!("{text}.lane(k)")),
             TypeInner::Scalar(scalar) => {
-                Ok(format!("v::{}_to({text})[k & 7]", letter(scalar.kind)))
+                Ok(format!("v::{}_to({text})[k % v::LANES]", letter(scalar.kind)))
             }
             TypeInner::Vector { size, scalar } => {
-                let lane =
-                    |axis: &&str| format!("v::{}_to({text}.{axis})[k & 7]", letter(scalar.kind));
+                let lane = |axis: &&str| {
+                    format!("v::{}_to({text}.{axis})[k % v::LANES]", letter(scalar.kind))
+                };
                 let parts: Vec<String> = LANES[..size as usize].iter().map(lane).collect();
                 Ok(format!("glam::{}::new({})", vector_name(size, scalar.kind), parts.join(", ")))
             }
@@ -88,11 +98,11 @@ impl Context<'_> {
         }
     }
 
-    /// Lanes from part `path` of each of eight scalar structs `x`.
-    fn of_lanes(&self, ty: Handle<Type>, path: &str) -> Result<String, NativeError> {
+    /// Lanes from part `path` of each of the scalar structs `x`.
+    fn of_lanes(&self, ty: Handle<Type>, path: &str, lanes: Lanes) -> Result<String, NativeError> {
         let span = self.module.types.get_span(ty);
         let all = |path: &str| -> String {
-            let each: Vec<String> = (0..8).map(|k| format!("x[{k}]{path}")).collect();
+            let each: Vec<String> = (0..lanes.count()).map(|k| format!("x[{k}]{path}")).collect();
             format!("[{}]", each.join(", "))
         };
         match self.module.types[ty].inner {
@@ -108,7 +118,7 @@ impl Context<'_> {
             }
             TypeInner::Array { base, size, .. } => {
                 let length = self.array_length(size, span)?;
-                let part = |k: u32| self.of_lanes(base, &format!("{path}[{k}]"));
+                let part = |k: u32| self.of_lanes(base, &format!("{path}[{k}]"), lanes);
                 let parts = (0..length).map(part).collect::<Result<Vec<_>, _>>()?;
                 Ok(format!("[{}]", parts.join(", ")))
             }

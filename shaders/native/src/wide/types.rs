@@ -1,4 +1,4 @@
-//! WGSL types → types of eight lanes, their zeros, and choosing between two values.
+//! WGSL types → types of lanes, their zeros, and choosing between two values.
 
 use crate::context::Context;
 use crate::error::NativeError;

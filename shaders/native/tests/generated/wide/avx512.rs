@@ -11,7 +11,7 @@ pub struct Pair {
 
 impl Pair {
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn zero() -> Self {
         Self {
             a: v::f(0.0),
@@ -21,7 +21,7 @@ impl Pair {
         }
     }
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn select(m: v::B, yes: &Self, no: &Self) -> Self {
         Self {
             a: v::select_f(m, yes.a, no.a),
@@ -31,23 +31,23 @@ impl Pair {
         }
     }
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn lane(&self, k: usize) -> scalar::Pair {
         scalar::Pair {
-            a: v::f_to(self.a)[k & 7],
-            n: v::u_to(self.n)[k & 7],
-            v: glam::Vec3::new(v::f_to(self.v.x)[k & 7], v::f_to(self.v.y)[k & 7], v::f_to(self.v.z)[k & 7]),
-            odd: v::b_to(self.odd)[k & 7],
+            a: v::f_to(self.a)[k % v::LANES],
+            n: v::u_to(self.n)[k % v::LANES],
+            v: glam::Vec3::new(v::f_to(self.v.x)[k % v::LANES], v::f_to(self.v.y)[k % v::LANES], v::f_to(self.v.z)[k % v::LANES]),
+            odd: v::b_to(self.odd)[k % v::LANES],
         }
     }
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-    pub fn of(x: &[scalar::Pair; 8]) -> Self {
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
+    pub fn of(x: &[scalar::Pair; 16]) -> Self {
         Self {
-            a: v::f_of([x[0].a, x[1].a, x[2].a, x[3].a, x[4].a, x[5].a, x[6].a, x[7].a]),
-            n: v::u_of([x[0].n, x[1].n, x[2].n, x[3].n, x[4].n, x[5].n, x[6].n, x[7].n]),
-            v: v::V3 { x: v::f_of([x[0].v.x, x[1].v.x, x[2].v.x, x[3].v.x, x[4].v.x, x[5].v.x, x[6].v.x, x[7].v.x]), y: v::f_of([x[0].v.y, x[1].v.y, x[2].v.y, x[3].v.y, x[4].v.y, x[5].v.y, x[6].v.y, x[7].v.y]), z: v::f_of([x[0].v.z, x[1].v.z, x[2].v.z, x[3].v.z, x[4].v.z, x[5].v.z, x[6].v.z, x[7].v.z]) },
-            odd: v::b_of([x[0].odd, x[1].odd, x[2].odd, x[3].odd, x[4].odd, x[5].odd, x[6].odd, x[7].odd]),
+            a: v::f_of([x[0].a, x[1].a, x[2].a, x[3].a, x[4].a, x[5].a, x[6].a, x[7].a, x[8].a, x[9].a, x[10].a, x[11].a, x[12].a, x[13].a, x[14].a, x[15].a]),
+            n: v::u_of([x[0].n, x[1].n, x[2].n, x[3].n, x[4].n, x[5].n, x[6].n, x[7].n, x[8].n, x[9].n, x[10].n, x[11].n, x[12].n, x[13].n, x[14].n, x[15].n]),
+            v: v::V3 { x: v::f_of([x[0].v.x, x[1].v.x, x[2].v.x, x[3].v.x, x[4].v.x, x[5].v.x, x[6].v.x, x[7].v.x, x[8].v.x, x[9].v.x, x[10].v.x, x[11].v.x, x[12].v.x, x[13].v.x, x[14].v.x, x[15].v.x]), y: v::f_of([x[0].v.y, x[1].v.y, x[2].v.y, x[3].v.y, x[4].v.y, x[5].v.y, x[6].v.y, x[7].v.y, x[8].v.y, x[9].v.y, x[10].v.y, x[11].v.y, x[12].v.y, x[13].v.y, x[14].v.y, x[15].v.y]), z: v::f_of([x[0].v.z, x[1].v.z, x[2].v.z, x[3].v.z, x[4].v.z, x[5].v.z, x[6].v.z, x[7].v.z, x[8].v.z, x[9].v.z, x[10].v.z, x[11].v.z, x[12].v.z, x[13].v.z, x[14].v.z, x[15].v.z]) },
+            odd: v::b_of([x[0].odd, x[1].odd, x[2].odd, x[3].odd, x[4].odd, x[5].odd, x[6].odd, x[7].odd, x[8].odd, x[9].odd, x[10].odd, x[11].odd, x[12].odd, x[13].odd, x[14].odd, x[15].odd]),
         }
     }
 }
@@ -60,7 +60,7 @@ pub struct Pairs {
 
 impl Pairs {
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn zero() -> Self {
         Self {
             first: Pair::zero(),
@@ -68,7 +68,7 @@ impl Pairs {
         }
     }
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn select(m: v::B, yes: &Self, no: &Self) -> Self {
         Self {
             first: Pair::select(m, &yes.first, &no.first),
@@ -76,7 +76,7 @@ impl Pairs {
         }
     }
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn lane(&self, k: usize) -> scalar::Pairs {
         scalar::Pairs {
             first: self.first.lane(k),
@@ -84,11 +84,11 @@ impl Pairs {
         }
     }
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-    pub fn of(x: &[scalar::Pairs; 8]) -> Self {
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
+    pub fn of(x: &[scalar::Pairs; 16]) -> Self {
         Self {
-            first: Pair::of(&[x[0].first, x[1].first, x[2].first, x[3].first, x[4].first, x[5].first, x[6].first, x[7].first]),
-            second: Pair::of(&[x[0].second, x[1].second, x[2].second, x[3].second, x[4].second, x[5].second, x[6].second, x[7].second]),
+            first: Pair::of(&[x[0].first, x[1].first, x[2].first, x[3].first, x[4].first, x[5].first, x[6].first, x[7].first, x[8].first, x[9].first, x[10].first, x[11].first, x[12].first, x[13].first, x[14].first, x[15].first]),
+            second: Pair::of(&[x[0].second, x[1].second, x[2].second, x[3].second, x[4].second, x[5].second, x[6].second, x[7].second, x[8].second, x[9].second, x[10].second, x[11].second, x[12].second, x[13].second, x[14].second, x[15].second]),
         }
     }
 }
@@ -101,7 +101,7 @@ pub struct Kernel<'a> {
 
 impl<'a> Kernel<'a> {
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn main(&mut self, mut mask: v::B, id: v::V3<v::U>) {
         let i = id.x;
         let word = v::at(self.given, i, mask);
@@ -216,7 +216,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn parting(&mut self, mut mask: v::B, kind: v::U, n: v::U) -> v::U {
         let mut sum: v::U = v::u(1u32);
         let mut i: v::U = v::u(0u32);
@@ -322,7 +322,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn turns(&mut self, mut mask: v::B, n: v::U) -> v::U {
         let mut sum: v::U = v::u(0u32);
         let mut i: v::U = v::u(0u32);
@@ -447,7 +447,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn guarded(&mut self, mut mask: v::B, x: v::F) -> v::F {
         let mut y: v::F;
         y = x;
@@ -478,7 +478,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn change(&mut self, mut mask: v::B, pair: &mut Pair, x: v::F) -> v::B {
         let mut result: v::B = v::b(false);
         let t = v::f(0.0f32);
@@ -508,7 +508,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn pointed(&mut self, mut mask: v::B, x: v::F, n: v::U) -> v::V4<v::F> {
         let t = v::f(3.0f32);
         let mut other: Pair = Pair { a: v::f(1.0f32), n: v::u(2u32), v: v::V3 { x: t, y: t, z: t }, odd: v::b(false) };
@@ -578,7 +578,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn exchanged(&mut self, mut mask: v::B, p: &Pairs, n: v::U) -> v::V4<v::F> {
         let mut q: Pair;
         q = (*p).second;
@@ -619,7 +619,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn anew(&mut self, mut mask: v::B, n: v::U) -> v::U {
         let mut sum: v::U = v::u(0u32);
         let mut i: v::U = v::u(0u32);
@@ -706,7 +706,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn kept(&mut self, mut mask: v::B, n: v::U) -> v::U {
         let mut last: v::U;
         let mut sum: v::U = v::u(0u32);
@@ -771,7 +771,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn indexed(&mut self, mut mask: v::B, n: v::I, x: v::F) -> v::V4<v::F> {
         let mut list: [v::F; 4];
         let mut v_: v::V3<v::F>;
@@ -819,7 +819,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn integers(&mut self, mut mask: v::B, a: v::U, b: v::I) -> v::V4<v::U> {
         let c = v::i_bits_u(a);
         let d = v::u_bits_i(b);
@@ -883,7 +883,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn floats(&mut self, mut mask: v::B, x: v::F, y: v::F) -> v::V4<v::F> {
         let e2 = v::min_f(x, y);
         let e3 = v::floor_f(x);
@@ -920,7 +920,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
     pub fn conversions(&mut self, mut mask: v::B, a: v::U, x: v::F) -> v::V4<v::U> {
         let bytes = v::V4 { x: v::and_u(v::shr_u(a, v::u(0)), v::u(255)), y: v::and_u(v::shr_u(a, v::u(8)), v::u(255)), z: v::and_u(v::shr_u(a, v::u(16)), v::u(255)), w: v::and_u(v::shr_u(a, v::u(24)), v::u(255)) };
         let t = v::u(5u32);

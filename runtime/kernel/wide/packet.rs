@@ -1,6 +1,6 @@
-//! Eight rays at once through a tree of eights.
+//! A ray a lane at once through a tree of eights.
 //!
-//! Turns eight rays into their hits, the bits that eight walks find: a box, a triangle or a leaf of spheres is tested
+//! Turns rays into their hits, the bits that walks one by one find: a box, a triangle or a leaf of spheres is tested
 //! with all rays that come to it. A ray that comes to a node alone walks by itself from there, and so does every
 //! ray that comes to an instance or to triangles that move. Worth it where most rays meet most of the tree, and for rays
 //! of the camera, which stay together; others soon part in large trees.
@@ -8,6 +8,7 @@
 use crate::kernel::{Hit, Kernel, Ray, TriangleShear, v};
 use crate::packet_triangle::Sheared;
 use crate::rays::Rays;
+use crate::target;
 use kernel_f32::kernel as scalar;
 use kernel_f32::walk::{self, Block, FAR_END, Node, Step, Tree};
 use scalar::NONE;
@@ -28,7 +29,7 @@ struct Waiting {
 #[derive(Debug, Default)]
 pub(crate) struct Stack(Vec<Waiting>);
 
-/// Eight rays, and what is worked out once for them.
+/// Rays, and what is worked out once for them.
 struct Packet<'r> {
     ray: &'r Ray,
     inverse: v::V3<v::F>,
@@ -45,7 +46,7 @@ struct Packet<'r> {
 }
 
 /// What the rays of `mask` meet in `tree`, which is small. For each as `walk::trace`.
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+#[target]
 pub(crate) fn trace(kernel: &mut Kernel<'_>, tree: &Tree, mask: v::B, ray: &Ray) -> Hit {
     let mut stack = std::mem::take(&mut kernel.companion.stack);
     let packet = Packet::new(kernel, tree, mask, ray);
@@ -55,7 +56,7 @@ pub(crate) fn trace(kernel: &mut Kernel<'_>, tree: &Tree, mask: v::B, ray: &Ray)
 }
 
 impl<'r> Packet<'r> {
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target]
     fn new(kernel: &mut Kernel<'_>, tree: &Tree, mask: v::B, ray: &'r Ray) -> Self {
         let other = v::ne_u(v::and_u(ray.skip.x, v::u(scalar::PRIM_OTHER)), v::u(0));
         let skip = v::but_b(v::and_b(mask, v::eq_u(ray.skip.y, v::u(NONE))), other);
@@ -76,7 +77,7 @@ impl<'r> Packet<'r> {
         }
     }
 
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target]
     fn walk(
         &self,
         kernel: &mut Kernel<'_>,
@@ -114,7 +115,7 @@ impl<'r> Packet<'r> {
 
     /// Pushes the children of `node` that rays of `active` meet, the nearest last. Boxes are met as in
     /// `trace/box.wgsl`.
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target]
     #[inline]
     fn visit(&self, node: &Node, active: v::B, t_max: v::F, stack: &mut Vec<Waiting>) {
         let (o, inverse) = (self.ray.origin, self.inverse);
@@ -151,7 +152,7 @@ impl<'r> Packet<'r> {
     }
 
     /// Makes the hits in `blocks` count; gives the lanes that look for no other.
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target]
     #[inline]
     fn triangles(
         &self,
@@ -180,7 +181,7 @@ impl<'r> Packet<'r> {
     }
 
     /// Which of the new hits `met` of one triangle replace the old ones.
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target]
     #[inline]
     fn counts(
         &self,
@@ -217,7 +218,7 @@ impl<'r> Packet<'r> {
     }
 
     /// As `triangles` for the leaf of spheres that `child` refers to.
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target]
     #[inline]
     fn spheres(&self, kernel: &mut Kernel<'_>, child: u32, active: v::B, hit: &mut Hit) -> v::B {
         let first = v::u(child & scalar::CHILD_FIRST);
@@ -229,7 +230,7 @@ impl<'r> Packet<'r> {
     }
 
     /// Lets the rays of `active` walk on one by one below `child`; gives the lanes that look for no other hit.
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target]
     fn apart(
         &self,
         kernel: &mut Kernel<'_>,
@@ -254,8 +255,8 @@ impl<'r> Packet<'r> {
             let found = walk::trace_below(avx2, scalar, walk, child, best);
             let same = found.prim == best.prim && found.instance == best.instance;
             if !same || found.t.to_bits() != best.t.to_bits() {
-                let here = v::eq_u(v::u_of([0, 1, 2, 3, 4, 5, 6, 7]), v::u(lane));
-                *hit = Hit::select(here, &Hit::of(&[found; 8]), hit);
+                let here = v::eq_u(v::lane(), v::u(lane));
+                *hit = Hit::select(here, &Hit::of(&[found; v::LANES]), hit);
                 new = v::or_b(new, here);
             }
         }
@@ -263,7 +264,7 @@ impl<'r> Packet<'r> {
     }
 
     /// The lanes of `new` that are shadow rays and have met something opaque.
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target]
     #[inline]
     fn ended(&self, kernel: &mut Kernel<'_>, new: v::B, hit: &Hit) -> v::B {
         let shadows = v::and_b(new, self.shadow);
@@ -278,14 +279,14 @@ impl<'r> Packet<'r> {
 /// The rays of a packet and what was worked out for them, lane by lane.
 struct Apart {
     rays: Rays,
-    inverse: [[f32; 8]; 3],
-    slope: [[f32; 8]; 2],
-    inv_depth: [f32; 8],
-    axis: [u32; 8],
+    inverse: [[f32; v::LANES]; 3],
+    slope: [[f32; v::LANES]; 2],
+    inv_depth: [f32; v::LANES],
+    axis: [u32; v::LANES],
 }
 
 impl Apart {
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target]
     fn of(packet: &Packet<'_>) -> Self {
         let Packet { ray, inverse, shear, .. } = packet;
         Self {
@@ -300,7 +301,7 @@ impl Apart {
     /// The walk of one ray, as `walk_begin` begins it.
     #[inline]
     fn walk(&self, lane: usize) -> scalar::Walk {
-        let k = lane & 7;
+        let k = lane % v::LANES;
         let [x, y, z] = self.inverse.map(|axis| axis[k]);
         let [slope_x, slope_y] = self.slope.map(|axis| axis[k]);
         scalar::Walk {

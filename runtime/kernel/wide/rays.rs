@@ -1,20 +1,21 @@
-//! Eight rays that are to be walked one by one.
+//! Rays that are to be walked one by one.
 
 use crate::kernel::{self, v};
+use crate::target;
 use kernel_f32::kernel as scalar;
 
-/// Eight rays in memory, number by number.
+/// A ray a lane in memory, number by number.
 pub(crate) struct Rays {
-    origin: [[f32; 8]; 3],
-    dir: [[f32; 8]; 3],
-    range: [[f32; 8]; 2],
-    time: [f32; 8],
-    ids: [[u32; 8]; 6],
-    key: [[u32; 8]; 4],
+    origin: [[f32; v::LANES]; 3],
+    dir: [[f32; v::LANES]; 3],
+    range: [[f32; v::LANES]; 2],
+    time: [f32; v::LANES],
+    ids: [[u32; v::LANES]; 6],
+    key: [[u32; v::LANES]; 4],
 }
 
 impl Rays {
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target]
     pub(crate) fn of(ray: &kernel::Ray) -> Self {
         let three = |a: v::V3<v::F>| [v::f_to(a.x), v::f_to(a.y), v::f_to(a.z)];
         let [skip, last] = [ray.skip, ray.last];
@@ -33,8 +34,8 @@ impl Rays {
 
     #[inline]
     pub(crate) fn lane(&self, k: usize) -> scalar::Ray {
-        let k = k & 7;
-        let three = |a: &[[f32; 8]; 3]| glam::Vec3::new(a[0][k], a[1][k], a[2][k]);
+        let k = k % v::LANES;
+        let three = |a: &[[f32; v::LANES]; 3]| glam::Vec3::new(a[0][k], a[1][k], a[2][k]);
         let id = |i: usize| self.ids[i][k];
         scalar::Ray {
             origin: three(&self.origin),

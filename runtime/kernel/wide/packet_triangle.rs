@@ -1,14 +1,14 @@
-//! Eight rays against one triangle.
+//! A ray a lane against one triangle.
 //!
 //! Each lane does the operations of `triangle_intersect` (`shape/triangle.wgsl`, where it says why) in their order, so
 //! that its bits are the same. Which hit counts is not decided here.
 
 use crate::kernel::{Hit, Ray, TriangleShear, v};
-use core::arch::x86_64::{__m128, _mm256_permutevar_ps, _mm256_set_m128};
+use crate::target;
 use glam::UVec4;
 use kernel_f32::kernel::NONE;
 
-/// Eight rays, and for each the frame in which it runs along z.
+/// Rays, and for each the frame in which it runs along z.
 pub(crate) struct Sheared {
     shear: TriangleShear,
     /// For each axis of that frame: which one of the world it is.
@@ -26,7 +26,7 @@ struct Corner {
 }
 
 impl Sheared {
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target]
     pub(crate) fn new(ray: &Ray, shear: TriangleShear) -> Self {
         let z = shear.axis;
         let x = v::select_u(v::eq_u(z, v::u(2)), v::u(0), v::add_u(z, v::u(1)));
@@ -40,7 +40,7 @@ impl Sheared {
     }
 
     /// The lanes of `active` whose lines meet triangle `i`, which is `rows` of the pack, at some distance; and where.
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target]
     #[inline]
     pub(crate) fn intersect(&self, rows: &[UVec4; 3], i: u32, active: v::B) -> Option<(v::B, Hit)> {
         let [a, b, c] = &[self.corner(rows[0]), self.corner(rows[1]), self.corner(rows[2])];
@@ -67,13 +67,11 @@ impl Sheared {
         Some((met, Hit { t, prim: v::u(i), b, instance: v::u(NONE) }))
     }
 
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target]
     #[inline]
     fn corner(&self, row: UVec4) -> Corner {
-        let row: __m128 = bytemuck::cast(row.to_array());
-        let both = _mm256_set_m128(row, row);
-        let from =
-            |k: usize| v::sub_f(v::F(_mm256_permutevar_ps(both, self.axes[k].0)), self.origin[k]);
+        let row = bytemuck::cast(row.to_array());
+        let from = |k: usize| v::sub_f(v::word_f(row, self.axes[k]), self.origin[k]);
         let (x, y, z) = (from(0), from(1), from(2));
         let slope = self.shear.slope;
         Corner {
@@ -87,7 +85,7 @@ impl Sheared {
 
 /// The lanes of `active` that pass the triangle on the inner side of its edges, and the weights of its corners. Swapped
 /// ends only change the sign of an edge function, twice, unless a ray meets the edge.
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+#[target]
 #[inline]
 fn edges([a, b, c]: [&Corner; 3], rows: &[UVec4; 3], active: v::B) -> (v::B, [v::F; 3]) {
     let weights = [edge(b, c), edge(c, a), edge(a, b)];
@@ -102,7 +100,7 @@ fn edges([a, b, c]: [&Corner; 3], rows: &[UVec4; 3], active: v::B) -> (v::B, [v:
 }
 
 /// The same with the ends of every edge in the order of their ids, where a ray meets one exactly.
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+#[target]
 fn edges_in_order([a, b, c]: [&Corner; 3], rows: &[UVec4; 3], active: v::B) -> (v::B, [v::F; 3]) {
     let [p, q, r] = rows.map(|row| row.w);
     let [(in0, w0), (in1, w1), (in2, w2)] =
@@ -112,7 +110,7 @@ fn edges_in_order([a, b, c]: [&Corner; 3], rows: &[UVec4; 3], active: v::B) -> (
 }
 
 /// The edge function of two corners.
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+#[target]
 #[inline]
 fn edge(p: &Corner, q: &Corner) -> v::F {
     v::sub_f(v::mul_f(p.x, q.y), v::mul_f(p.y, q.x))
@@ -120,7 +118,7 @@ fn edge(p: &Corner, q: &Corner) -> v::F {
 
 /// The lanes on the inner side of an edge, one that is met exactly counts as moved; and the weight of the corner
 /// opposite.
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+#[target]
 fn side(a: &Corner, b: &Corner, swap: bool) -> (v::B, v::F) {
     let (p, q) = if swap { (b, a) } else { (a, b) };
     let (e, zero) = (edge(p, q), v::f(0.0));

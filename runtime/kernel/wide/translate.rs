@@ -1,10 +1,12 @@
-//! Links the full kernel and translates it to Rust for eight invocations at once.
+//! The build script of a wide kernel: links the full kernel and translates it to Rust for as many invocations at once
+//! as there are lanes.
 
 use std::error::Error;
 use std::path::Path;
 use std::{env, fs};
 
-fn main() -> Result<(), Box<dyn Error>> {
+/// Writes `kernel.rs`.
+pub(crate) fn translate(lanes: native::Lanes) -> Result<(), Box<dyn Error>> {
     // The modules themselves are compiled into `shaders`: cargo runs this again when they change.
     println!("cargo::rerun-if-changed=build.rs");
     let kernel = shaders::link(&shaders::FeatureSet::full())?;
@@ -24,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             "dispatch_ends",
         ],
     };
-    let text = native::generate_wide(&kernel.text, "kernel_f32::kernel", by_hand);
+    let text = native::generate_wide(&kernel.text, "kernel_f32::kernel", lanes, by_hand);
     // An error names the place in our modules, not in the linked text.
     let text = text.map_err(|error| {
         format!("{:?}: {}", kernel.locate_line(error.line, error.column), error.message)

@@ -1,11 +1,11 @@
-//! The tile of a frame, eight pixels at a time.
+//! The tile of a frame, a pixel a lane.
 //!
 //! Turns a tile into the pixels that the scalar kernel makes of it, bit for bit: the wide form of the same WGSL, with
-//! rays traced one by one, or together if the tree is small. Only where the processor has AVX2.
+//! rays traced one by one, or together if the tree is small. Only where the processor has the instructions.
 
 use crate::kernel::{self, v};
-use crate::packet;
 use crate::rays::Rays;
+use crate::{Instructions, avx2, packet, target};
 use glam::UVec4;
 use kernel_f32::{
     kernel as scalar,
@@ -15,6 +15,9 @@ use pulp::x86::V3;
 
 /// Camera rays are traced together if there are this many or more.
 const COHERENT: u32 = 4;
+
+/// Pixels that are rendered together lie in so many columns.
+const COLUMNS: u32 = 4;
 
 /// What the wide kernel needs beside it: the scalar one, which traces.
 pub struct Companion<'a> {
@@ -37,8 +40,8 @@ pub struct Tile<'a> {
     pub size: [u32; 2],
 }
 
-/// The hits of eight rays.
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+/// The hits of a ray a lane.
+#[target]
 pub(crate) fn trace(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::Ray) -> kernel::Hit {
     let Companion { tree, together, .. } = kernel.companion;
     let Some(tree) = tree else { return trace_one_by_one(kernel, mask, ray) };
@@ -60,14 +63,14 @@ pub(crate) fn trace(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::R
 }
 
 /// The hits of rays that have nothing in common.
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+#[target]
 fn trace_one_by_one(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::Ray) -> kernel::Hit {
-    let mut hits = [scalar::Hit::ZERO; 8];
+    let mut hits = [scalar::Hit::ZERO; v::LANES];
     let Companion { scalar, avx2, .. } = &mut kernel.companion;
     let rays = Rays::of(ray);
     let mut left = v::bits(mask);
     while left != 0 {
-        let lane = left.trailing_zeros() as usize & 7;
+        let lane = left.trailing_zeros() as usize % v::LANES;
         left &= left - 1;
         hits[lane] = walk::trace_here(*avx2, scalar, rays.lane(lane), lane);
     }
@@ -76,13 +79,13 @@ fn trace_one_by_one(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::R
 
 /// Renders the tile. Whether it came to the end of it, which it does unless `is_over` says so after some pixels.
 #[expect(unsafe_code, reason = "who has the first argument has the instructions")]
-pub fn render(avx2: V3, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
-    // SAFETY: `V3` is made only where the processor has AVX2, BMI and the others that `render_groups` is compiled for.
-    unsafe { render_groups(avx2, tile, is_over) }
+pub fn render(instructions: Instructions, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
+    // SAFETY: `Instructions` are made only where the processor has all that `render_groups` is compiled for.
+    unsafe { render_groups(instructions, tile, is_over) }
 }
 
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-fn render_groups(avx2: V3, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
+#[target]
+fn render_groups(instructions: Instructions, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
     let Tile { scalar, film, size } = tile;
     let tree = scalar.companion.tree();
     let together = tree.is_some_and(Tree::is_small);
@@ -95,17 +98,23 @@ fn render_groups(avx2: V3, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
         shade_words: scalar.shade_words,
         sphere_words: scalar.sphere_words,
         texel_words: scalar.texel_words,
-        companion: Companion { scalar, avx2, tree, together, stack: packet::Stack::default() },
+        companion: Companion {
+            scalar,
+            avx2: avx2(instructions),
+            tree,
+            together,
+            stack: packet::Stack::default(),
+        },
     };
-    for y in (0..size[1]).step_by(2) {
-        for x in (0..size[0]).step_by(4) {
+    for y in (0..size[1]).step_by(v::LANES / COLUMNS as usize) {
+        for x in (0..size[0]).step_by(COLUMNS as usize) {
             if is_over() {
                 return false;
             }
-            let x = v::add_u(v::u(x), v::u_of([0, 1, 2, 3, 0, 1, 2, 3]));
-            let y = v::add_u(v::u(y), v::u_of([0, 0, 0, 0, 1, 1, 1, 1]));
+            let x = v::add_u(v::u(x), v::and_u(v::lane(), v::u(COLUMNS - 1)));
+            let y = v::add_u(v::u(y), v::shr_u(v::lane(), v::u(COLUMNS.trailing_zeros())));
             let inside = v::and_b(v::lt_u(x, v::u(size[0])), v::lt_u(y, v::u(size[1])));
-            render_eight(&mut kernel, inside, v::V2 { x, y });
+            render_group(&mut kernel, inside, v::V2 { x, y });
         }
     }
     true
@@ -113,8 +122,8 @@ fn render_groups(avx2: V3, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
 
 /// What `render` of `kernel/render.wgsl` does with the pixels `at` of the tile, in another order: the rays that cost no
 /// shading (shadow rays and probes) of all lanes first, then a segment of each. So all lanes shade together.
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-fn render_eight(kernel: &mut kernel::Kernel<'_>, inside: v::B, at: v::V2<v::U>) {
+#[target]
+fn render_group(kernel: &mut kernel::Kernel<'_>, inside: v::B, at: v::V2<v::U>) {
     let frame = kernel.companion.scalar.load_frame();
     let first = v::u(frame.sample_first);
     let end = v::u(frame.sample_first.wrapping_add(frame.sample_count));
@@ -177,7 +186,7 @@ fn render_eight(kernel: &mut kernel::Kernel<'_>, inside: v::B, at: v::V2<v::U>) 
 }
 
 /// What the next ray of the lanes of `mask` hits.
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+#[target]
 fn next_hit(
     kernel: &mut kernel::Kernel<'_>,
     mask: v::B,

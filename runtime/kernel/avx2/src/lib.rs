@@ -1,0 +1,26 @@
+//! The full kernel in single precision for eight invocations at once, with AVX2: the bits of `kernel_f32`, lane by lane.
+//!
+//! The build script links every WGSL module and translates the text to [`kernel`]; [`render`] runs it over the pixels of
+//! a tile. What is written by hand lies in `runtime/kernel/wide/`, for any number of lanes. Empty where processors have no
+//! AVX2.
+#![cfg(target_arch = "x86_64")]
+
+use kernel_target::avx2 as target;
+/// The proof that the processor has the instructions.
+pub use pulp::x86::V3 as Instructions;
+
+#[path = "../../wide/kernel.rs"]
+pub mod kernel;
+#[path = "../../wide/packet.rs"]
+mod packet;
+#[path = "../../wide/packet_triangle.rs"]
+mod packet_triangle;
+#[path = "../../wide/rays.rs"]
+mod rays;
+#[path = "../../wide/render.rs"]
+pub mod render;
+
+/// AVX2, with which a ray is walked alone.
+fn avx2(there: Instructions) -> pulp::x86::V3 {
+    there
+}
