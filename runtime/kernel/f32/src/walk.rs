@@ -42,7 +42,7 @@ pub fn trace(kernel: &mut Kernel<'_>, ray: Ray) -> Hit {
     walk.walk(Halves)
 }
 
-/// The same for who is compiled for AVX2 himself, and whose paths are told apart by `lane`, below eight.
+/// The same for who is compiled for AVX2 himself, and whose paths are told apart by `lane`, below sixteen.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 pub fn trace_here(avx2: pulp::x86::V3, kernel: &mut Kernel<'_>, ray: Ray, lane: usize) -> Hit {
@@ -134,7 +134,7 @@ impl Walk<'_, '_> {
         // As in `trace/bvh.wgsl`.
         let t_min = ray.t_min * 0.9999;
         let mut walker = Walker::new(lanes, &walk.ray, walk.inverse, t_min);
-        let mut sheared = Sheared::new(walk.ray.origin, &walk.leaf);
+        let mut sheared = Sheared::new(kernel, &walk.ray, &walk.leaf);
         let shadow = ray.light != NONE;
         if let Some(crossed) = &mut crossed {
             crossed.clear();
@@ -155,7 +155,7 @@ impl Walk<'_, '_> {
             } else if child & CHILD_SPHERES != 0 && kernel.dispatch_is_instance_leaf(child) {
                 kernel.dispatch_instance_leaf(child, ray, &mut walk);
                 walker = Walker::new(lanes, &walk.ray, walk.inverse, t_min);
-                sheared = Sheared::new(walk.ray.origin, &walk.leaf);
+                sheared = Sheared::new(kernel, &walk.ray, &walk.leaf);
                 if child != CHILD_OUT {
                     // Nothing lies before it: it is never left out.
                     stack.push(Waiting { child: CHILD_OUT, distance: 0.0 });

@@ -21,7 +21,7 @@ pub(super) const MOVING: u32 = 1 << 28;
 pub(super) const BLOCK_INDEX: u32 = TWO_BLOCKS - 1;
 
 /// Paths that one kernel takes forward side by side, at most.
-const LANES: usize = 8;
+const LANES: usize = 16;
 
 /// The nodes of a small tree, at most.
 const SMALL: usize = 128;

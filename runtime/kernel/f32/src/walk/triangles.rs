@@ -5,9 +5,9 @@
 
 use super::crossings::Crossings;
 use super::tree::{BLOCK, Block};
-use crate::kernel::{Hit, Kernel, NONE, Ray, TriangleShear};
+use crate::kernel::{Hit, Kernel, NONE, PRIM_OTHER, Ray, TriangleShear};
 use bytemuck::cast;
-use glam::{UVec4, Vec2, Vec3};
+use glam::{UVec4, Vec2};
 use wide::{f32x4, i32x4};
 
 /// A ray, and what turns it into the z axis, in all lanes.
@@ -20,12 +20,16 @@ pub(super) struct Sheared {
     inv_depth: f32x4,
     /// Which axis becomes z.
     axis: u32,
+    /// Where the first corner of the triangle lies that the ray starts on, along x; not a number if there is none in
+    /// this frame.
+    skipped: f32,
 }
 
 impl Sheared {
     #[inline(always)]
-    pub(super) fn new(origin: Vec3, shear: &TriangleShear) -> Self {
+    pub(super) fn new(kernel: &Kernel<'_>, ray: &Ray, shear: &TriangleShear) -> Self {
         let all = f32x4::splat;
+        let origin = ray.origin;
         Self {
             from: origin.to_array(),
             shear: *shear,
@@ -33,7 +37,22 @@ impl Sheared {
             slope: [all(shear.slope.x), all(shear.slope.y)],
             inv_depth: all(shear.inv_depth),
             axis: shear.axis,
+            skipped: first_corner(kernel, ray),
         }
+    }
+
+    /// Whether triangle `i`, in a lane of `block`, is what the ray starts on. Equal triangles have equal corners, which
+    /// are here, while what else is asked is often not in any cache.
+    #[inline(always)]
+    fn skips(
+        &self,
+        kernel: &mut Kernel<'_>,
+        block: &Block,
+        lane: usize,
+        i: u32,
+        ray: &Ray,
+    ) -> bool {
+        block.corners[0][0][lane & 3] == self.skipped && kernel.order_skipped(i, *ray)
     }
 
     /// The distance of a triangle in a plane across an axis other than that of the ray.
@@ -106,7 +125,12 @@ fn leaf_along<const AXIS: u32>(
             if let Some(t) = sheared.flat::<AXIS>(block, lane) {
                 new.t = t;
             }
-            if new.t > 0.0 && new.t <= hit.t && counts(kernel, &new, &hit, ray, all) {
+            if new.t > 0.0
+                && new.t <= hit.t
+                && comes_first(kernel, &new, &hit, ray)
+                && !sheared.skips(kernel, block, lane, i, ray)
+                && (all || kernel.candidate_triangle(i, new.b, *ray))
+            {
                 match &mut crossed {
                     Some(crossed) if !kernel.dispatch_ends(new) => {
                         hit.t = crossed.add(kernel, new, hit.t);
@@ -257,12 +281,17 @@ impl Lanes {
     }
 }
 
-/// Whether `new`, at a distance above 0, replaces `best`.
+/// Whether `new`, at a distance above 0, comes before `best` and after what the ray has met.
 #[inline(always)]
-fn counts(kernel: &mut Kernel<'_>, new: &Hit, best: &Hit, ray: &Ray, all: bool) -> bool {
-    let accepted = new.t < best.t || kernel.order_triangle(*best, new.t, new.prim, ray.instance);
-    accepted
-        && kernel.dispatch_triangle_after(*ray, new.t, new.prim)
-        && !kernel.order_skipped(new.prim, *ray)
-        && (all || kernel.candidate_triangle(new.prim, new.b, *ray))
+fn comes_first(kernel: &mut Kernel<'_>, new: &Hit, best: &Hit, ray: &Ray) -> bool {
+    let before = new.t < best.t || kernel.order_triangle(*best, new.t, new.prim, ray.instance);
+    before && kernel.dispatch_triangle_after(*ray, new.t, new.prim)
+}
+
+/// Where the first corner of the triangle lies that `ray` starts on, along x.
+#[inline(always)]
+fn first_corner(kernel: &Kernel<'_>, ray: &Ray) -> f32 {
+    let here = ray.skip.x & PRIM_OTHER == 0 && ray.skip.y == ray.instance;
+    let row = kernel.tri_words.get(3 * ray.skip.x as usize).filter(|_| here);
+    row.map_or(f32::NAN, |row| f32::from_bits(row.x))
 }
