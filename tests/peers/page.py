@@ -133,11 +133,13 @@ same error in about half the time.
 
 - **Error**: of each pixel's luminance `(Y - R)^2 / (R^2 + e^2)`, with `e` a hundredth of the mean of the reference `R`;
   the worst 0.1 % of the pixels are left out, the others averaged ([error.md](error.md) calls its root `ref_rel_trim`).
-- **Reference**: {replicates} independent pictures of each renderer, {reference:g} s in all for each ({longer}), joined with the
-  inverse of their noise as weights. It favours nobody where the means agree, and is less noisy than the best of the
-  three. How noisy it still is, is known from the pictures it is made of, and taken off the error. What stays is that
-  `R` is too low where light is rare and has not been met often: errors of scenes with bright specks come out some
-  percent too high, all renderers' by the same factor.
+- **Reference**: {replicates} pictures of each renderer, {reference:g} s in all for each ({longer}), joined with the
+  inverse of their noise as weights. Ours have seeds of their own, and so have Mitsuba's, which take the sampler
+  `independent`: the means of `multijitter` depend on how many samples there are. Those of Cycles are parts of one
+  picture, because its pictures of few samples are too dark, whatever the seeds. The reference favours nobody where
+  the means agree, and is less noisy than the best of the three. How noisy it still is, is known from the pictures it
+  is made of, and taken off the error. What stays is that `R` is too low where light is rare and has not been met
+  often: errors of scenes with bright specks come out some percent too high, all renderers' by the same factor.
 - **Equal time**: samples of a pixel are whole, so each picture has as many as fit, and its error is multiplied by the
   seconds they took over those they should have taken.
 - The renderers took turns, who is first changed; medians of rounds: {rounds}.

@@ -12,12 +12,8 @@ import numpy as np
 
 import error
 
-# Seeds of references; measured pictures take others.
-FIRST_SEED = 1000
-# Times as long for these: with a handful of samples a pixel Cycles and Mitsuba show less than with many, whatever the
-# seed. Cycles' box is 0.42 % too dark with 5 samples, 0.15 % with 15
-# and 0.04 % with 64, which is still more than noise; Mitsuba's slab was 1.4 % too dark with 6 and
-# agrees with three times as many.
+# Times as long for these. Cycles' box is 0.42 % too dark with 5 samples, 0.15 % with 15 and 0.04 % with 64, whatever
+# the seed; Mitsuba's slab was 1.4 % too dark with 6.
 LONGER = {"box": 12, "slab": 3}
 
 
@@ -53,7 +49,7 @@ class Shelf:
 
     def at(self, renderer, scene, size):
         # How much means may differ says nothing of the picture.
-        said = repr((replace(scene, allowed=0), size, renderer.name, self.seconds_of(scene), self.replicates))
+        said = repr((replace(scene, allowed=0), size, renderer.reference_name, self.seconds_of(scene), self.replicates))
         return self.folder / f"{scene.name}-{renderer.key}-{hashlib.sha256(said.encode()).hexdigest()[:12]}"
 
     def speed(self, renderer, scene, size):
@@ -73,7 +69,7 @@ class Shelf:
             path = self.at(renderer, scene, size) / f"{k}.npy"
             if not path.exists():
                 self.say(f"{scene.name}: {renderer.key}: reference {k + 1} of {self.replicates}, {n} samples")
-                picture = renderer.render(scene, size, n, FIRST_SEED + k)[1]
+                picture = renderer.reference(scene, size, n, k, self.replicates)
                 half = path.with_suffix(".half.npy")
                 np.save(half, picture)
                 half.rename(path)

@@ -19,6 +19,8 @@ import to_rts
 from processes import Run, run
 
 HERE = Path(__file__).resolve().parent
+# Seeds of references; measured pictures take others.
+FIRST_SEED = 1000
 
 
 def read(path):
@@ -50,6 +52,14 @@ class Ours:
                    "--spp", spp, "--seed", seed, "-o", out]
         return run(command, self.work), read(out)
 
+    def reference(self, scene, size, spp, replicate, replicates):
+        """One of several pictures without bias; what kind of pictures these are is in `reference_name`."""
+        return self.render(scene, size, spp, FIRST_SEED + replicate)[1]
+
+    @property
+    def reference_name(self):
+        return self.name
+
     @staticmethod
     def whole(spp):
         """The greatest number of samples up to `spp` that it renders as asked."""
@@ -66,13 +76,13 @@ class Peer:
         """There is nothing to do ahead."""
         return Run(0, 0, 0)
 
-    def render(self, scene, size, spp, seed):
+    def render(self, scene, size, spp, seed, more=()):
         home = self.work / "home"
         shutil.rmtree(home, ignore_errors=True)
         home.mkdir()
         out = self.work / f"{self.key}{self.suffix}"
         command = [sys.executable, HERE / self.script, scene.name, self.work, *size, spp, seed, self.threads, out,
-                   *self.more]
+                   *more]
         return run(command, home), read(out)
 
 
@@ -81,8 +91,17 @@ class Mitsuba(Peer):
 
     def __init__(self, args, work):
         super().__init__(args, work)
-        self.more = [args.variant]
+        self.variant = args.variant
         self.name = f"Mitsuba {mi.__version__}, `{args.variant}`, `multijitter`"
+
+    def render(self, scene, size, spp, seed, sampler="multijitter"):
+        return super().render(scene, size, spp, seed, [self.variant, sampler])
+
+    reference_name = "Mitsuba, `independent`"
+
+    def reference(self, scene, size, spp, replicate, replicates):
+        """The means of `multijitter` depend on how many samples there are, whatever the seeds."""
+        return self.render(scene, size, spp, FIRST_SEED + replicate, "independent")[1]
 
     @staticmethod
     def whole(spp):
@@ -92,7 +111,7 @@ class Mitsuba(Peer):
 
 
 class Cycles(Peer):
-    key, script, suffix, more = "cycles", "with_cycles.py", ".exr", []
+    key, script, suffix = "cycles", "with_cycles.py", ".exr"
 
     def __init__(self, args, work):
         super().__init__(args, work)
@@ -100,6 +119,12 @@ class Cycles(Peer):
         said = subprocess.run([sys.executable, "-c", "import bpy; print(bpy.app.version_string)"], check=True,
                               capture_output=True, text=True)
         self.name = f"Blender {said.stdout.split()[-1]}, Cycles"
+
+    reference_name = "Cycles, one sequence"
+
+    def reference(self, scene, size, spp, replicate, replicates):
+        """Parts of one picture: those of few samples are too dark, whatever the seeds."""
+        return self.render(scene, size, spp, FIRST_SEED, [replicate * spp, replicates * spp])[1]
 
     @staticmethod
     def whole(spp):

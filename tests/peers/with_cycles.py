@@ -1,4 +1,5 @@
-"""Renders a scene with Blender's Cycles: `with_cycles.py SCENE FOLDER WIDTH HEIGHT SPP SEED THREADS OUT.exr`.
+"""Renders a scene with Blender's Cycles: `with_cycles.py SCENE FOLDER WIDTH HEIGHT SPP SEED THREADS OUT.exr
+[FIRST ALL]`: with the last two, SPP samples from FIRST on of a picture that has ALL.
 
 Blender's z is up: `UP` turns the scene's frame into it. A sphere is a mesh of 81,920 triangles with the normals of the
 sphere. Lamps are points or areas, which Cycles samples best; its lamps stop no light, so a black body stands in each.
@@ -158,7 +159,7 @@ def sky(radiance):
     bpy.context.scene.world = space
 
 
-def settings(size, spp, seed, threads, depth, out):
+def settings(size, spp, seed, threads, depth, out, part):
     render, cycles = bpy.context.scene.render, bpy.context.scene.cycles
     render.engine = "CYCLES"
     render.resolution_x, render.resolution_y = size
@@ -167,6 +168,10 @@ def settings(size, spp, seed, threads, depth, out):
     render.image_settings.file_format, render.image_settings.color_depth = "OPEN_EXR", "32"
     render.filepath = out
     cycles.device, cycles.samples, cycles.seed = "CPU", spp, seed
+    if part:
+        cycles.use_sample_subset = True
+        cycles.sample_offset, cycles.samples = part
+        cycles.sample_subset_length = spp
     cycles.use_adaptive_sampling, cycles.use_denoising = False, False
     cycles.pixel_filter_type, cycles.filter_width = "BOX", 1.0
     # The rays from the camera and to the light are not bounces.
@@ -179,7 +184,7 @@ def settings(size, spp, seed, threads, depth, out):
 
 
 def main():
-    name, folder, width, height, spp, seed, threads, out = sys.argv[1:]
+    name, folder, width, height, spp, seed, threads, out, *part = sys.argv[1:]
     scene = scenes.ALL[name]
     bpy.ops.wm.read_factory_settings(use_empty=True)
     found = {key: material(key, m) for key, m in scene.materials.items()}
@@ -194,7 +199,7 @@ def main():
     camera(scene.camera)
     if scene.sky:
         sky(scene.sky)
-    settings((int(width), int(height)), int(spp), int(seed), int(threads), scene.depth, out)
+    settings((int(width), int(height)), int(spp), int(seed), int(threads), scene.depth, out, [int(n) for n in part])
     bpy.ops.render.render(write_still=True)
 
 

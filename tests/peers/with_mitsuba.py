@@ -1,4 +1,5 @@
-"""Renders a scene with Mitsuba 3: `with_mitsuba.py SCENE FOLDER WIDTH HEIGHT SPP SEED THREADS OUT.npy VARIANT`."""
+"""Renders a scene with Mitsuba 3:
+`with_mitsuba.py SCENE FOLDER WIDTH HEIGHT SPP SEED THREADS OUT.npy VARIANT SAMPLER`."""
 
 import sys
 
@@ -64,17 +65,17 @@ def lamp(s, folder):
             "emitter": {"type": "area", "radiance": rgb(s.radiance)}}
 
 
-def camera(c, size):
+def camera(c, size, sampler):
     film = {"type": "hdrfilm", "width": size[0], "height": size[1], "pixel_format": "rgb",
             "component_format": "float32", "rfilter": {"type": "box"}}
     view = mi.ScalarTransform4f().look_at(origin=list(c.origin), target=list(c.to), up=[0, 1, 0])
     return {"type": "perspective", "fov": c.fov, "fov_axis": "y", "near_clip": 1e-3, "far_clip": 1e4,
-            "to_world": view, "film": film, "sampler": {"type": "multijitter"}}
+            "to_world": view, "film": film, "sampler": {"type": sampler}}
 
 
-def dictionary(scene, folder, size):
+def dictionary(scene, folder, size, sampler="multijitter"):
     """What `mi.load_dict` takes."""
-    out = {"type": "scene", "camera": camera(scene.camera, size),
+    out = {"type": "scene", "camera": camera(scene.camera, size, sampler),
            # Not `volpathmis`: its roulette is biased, see docs/validation.md.
            "integrator": {"type": "volpath" if scene.media() else "path", "max_depth": scene.depth}}
     if scene.sky:
@@ -87,10 +88,10 @@ def dictionary(scene, folder, size):
 
 
 def main():
-    name, folder, width, height, spp, seed, threads, out, variant = sys.argv[1:]
+    name, folder, width, height, spp, seed, threads, out, variant, sampler = sys.argv[1:]
     mi.set_variant(variant)
     dr.set_thread_count(int(threads))
-    scene = mi.load_dict(dictionary(scenes.ALL[name], folder, (int(width), int(height))))
+    scene = mi.load_dict(dictionary(scenes.ALL[name], folder, (int(width), int(height)), sampler))
     np.save(out, np.array(mi.render(scene, spp=int(spp), seed=int(seed))))
 
 
