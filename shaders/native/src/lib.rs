@@ -86,9 +86,9 @@ pub fn generate_with(
     context::Context::new(&module, &info, source, precision, by_hand)?.write()
 }
 
-/// Translates what the entry points of a WGSL text call into a module that computes as many invocations at
-/// once as there are lanes, but for what is done by hand; `scalar` is the path of the module that [`generate_with`] makes of the same text in `f32`, as
-/// seen from the new one.
+/// Translates what the entry points of a WGSL text call into a module that computes as many invocations at once as there
+/// are `lanes`, but for what is done by hand; `scalar` is the path of the module that [`generate_with`] makes of the same
+/// text in `f32`, as seen from the new one.
 pub fn generate_wide(
     source: &str,
     scalar: &str,

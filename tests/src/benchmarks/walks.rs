@@ -30,7 +30,8 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
         "\n## The walk through the tree: {width} x {height}, {SAMPLES} samples a pixel, the CPU kernel\n\n\
         `generated`: `trace` as it was translated from the WGSL; `by hand`: a tree of eights of its own \
         (`runtime/kernel/f32/src/walk.rs`); several pixels at a time: the wide forms of the kernel \
-        (`runtime/kernel/wide/render.rs`), eight with AVX2 and sixteen with AVX-512, where the processor has them. The same picture, bit for bit; all of path tracing is in the times.\n\n\
+        (`runtime/kernel/wide/render.rs`), eight with AVX2 and sixteen with AVX-512, where the processor has them. \
+        The same picture, bit for bit; all of path tracing is in the times.\n\n\
         | scene | nodes and walk | CPU s | Mrays | Mrays per CPU s | against the first |\n\
         |---|---|---|---|---|---|"
     );
