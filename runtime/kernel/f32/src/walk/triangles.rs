@@ -44,6 +44,7 @@ impl Sheared {
     /// Whether triangle `i`, in a lane of `block`, is what the ray starts on. Equal triangles have equal corners, which
     /// are here, while what else is asked is often not in any cache.
     #[inline(always)]
+    #[expect(clippy::float_cmp, reason = "the same number, read from two places")]
     fn skips(
         &self,
         kernel: &mut Kernel<'_>,
