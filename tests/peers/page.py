@@ -136,7 +136,7 @@ same error in about half the time.
 - **Reference**: {replicates} pictures of each renderer, {reference:g} s in all for each ({longer}), joined with the
   inverse of their noise as weights. Ours have seeds of their own, and so have Mitsuba's, which take the sampler
   `independent`: the means of `multijitter` depend on how many samples there are. Those of Cycles are parts of one
-  picture, because its pictures of few samples are too dark, whatever the seeds. The reference favours nobody where
+  picture, because its pictures of few samples are too dark, whatever the seeds. The reference favours no renderer where
   the means agree, and is less noisy than the best of the three. How noisy it still is, is known from the pictures it
   is made of, and taken off the error. What stays is that `R` is too low where light is rare and has not been met
   often: errors of scenes with bright specks come out some percent too high, all renderers' by the same factor.

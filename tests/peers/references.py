@@ -13,7 +13,7 @@ import numpy as np
 import error
 
 # Times as long for these. Cycles' box is 0.42 % too dark with 5 samples, 0.15 % with 15 and 0.04 % with 64, whatever
-# the seed; Mitsuba's slab was 1.4 % too dark with 6.
+# the seed. That of the slab dates from when Mitsuba's references took `multijitter`, and was 1.4 % too dark with 6.
 LONGER = {"box": 12, "slab": 3}
 
 

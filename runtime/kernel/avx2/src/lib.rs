@@ -1,8 +1,8 @@
 //! The full kernel in single precision for eight invocations at once, with AVX2: the bits of `kernel_f32`, lane by lane.
 //!
 //! The build script links every WGSL module and translates the text to [`kernel`]; [`render`] runs it over the pixels of
-//! a tile. What is written by hand lies in `runtime/kernel/wide/`, for any number of lanes. Empty where processors have no
-//! AVX2.
+//! a tile. What is written by hand lies in `runtime/kernel/wide/`, for any number of lanes. Empty on architectures other
+//! than x86-64.
 #![cfg(target_arch = "x86_64")]
 
 use kernel_target::avx2 as target;
