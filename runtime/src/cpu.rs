@@ -22,7 +22,7 @@ use thiserror::Error;
 use {crate::region::Rect, rayon::prelude::*};
 
 /// Pixels of a block: 32 × 32.
-const BLOCK: u64 = 32 * 32;
+pub(crate) const BLOCK: u64 = 32 * 32;
 
 /// The CPU kernel cannot render.
 #[derive(Debug, Error)]

@@ -5,13 +5,14 @@
 use crate::cpu::{self, CpuError};
 use crate::job::{CpuWay, Job};
 use crate::kernel::f32::{Kernel, NONE, Ray};
+use crate::region::{Rect, Tiler};
 use crate::scene::Scene;
 use crate::setup::Setup;
 use glam::UVec2;
 use pack::abi::Frame;
 
-/// Columns of the pixels that are rendered together, as in `runtime/kernel/wide/render.rs`.
-const COLUMNS: usize = 4;
+/// Columns of the pixels that are rendered together, as in `runtime/kernel/wide/pixels.rs`.
+const COLUMNS: u32 = 4;
 
 /// Every ray of a picture.
 pub struct Profile<'a> {
@@ -64,16 +65,13 @@ impl<'a> Profile<'a> {
     fn record_rows(&mut self, job: &Job, recorded: u32) {
         let Self { setup, frame, rays, lanes } = self;
         let mut kernel = cpu::kernel(setup, frame);
-        let [width, height] = job.image_size;
-        let rows = lanes.count as usize / COLUMNS;
-        for top in (0..height).step_by(rows) {
-            for left in (0..width).step_by(COLUMNS) {
-                let columns = || (left..width).take(COLUMNS);
-                let pixels = (top..height).take(rows).flat_map(|y| columns().map(move |x| [x, y]));
-                let mut segments = |at| pixel(&mut kernel, at, job, (rays, recorded));
-                let group: Vec<Vec<Segment>> = pixels.map(&mut segments).collect();
-                lanes.add(&group);
-            }
+        let [w, h] = job.image_size;
+        let mut tiler = Tiler::new(Rect { x: 0, y: 0, w, h });
+        while let Some(tile) = tiler.next(cpu::BLOCK) {
+            let mut segments = |at| pixel(&mut kernel, at, job, (rays, recorded));
+            let pixels: Vec<Vec<Segment>> =
+                in_squares(tile, lanes.count).map(&mut segments).collect();
+            lanes.add(&pixels);
         }
     }
 
@@ -127,13 +125,40 @@ fn pixel(
     segments
 }
 
+/// The pixels of a tile, those of a square of as many as there are lanes after those of another.
+fn in_squares(tile: Rect, lanes: u32) -> impl Iterator<Item = [u32; 2]> {
+    let rows = lanes / COLUMNS;
+    let across = move |x: u32, y: u32| {
+        let ys = y..(y + rows).min(tile.y + tile.h);
+        let xs = x..(x + COLUMNS).min(tile.x + tile.w);
+        ys.flat_map(move |y| xs.clone().map(move |x| [x, y]))
+    };
+    let tops = (tile.y..tile.y + tile.h).step_by(rows as usize);
+    let lefts = move || (tile.x..tile.x + tile.w).step_by(COLUMNS as usize);
+    tops.flat_map(move |y| lefts().flat_map(move |x| across(x, y)))
+}
+
 impl Lanes {
-    /// Adds the turns of a group: a lane whose path has ended begins the next sample at once.
-    fn add(&mut self, group: &[Vec<Segment>]) {
-        let longest = group.iter().map(Vec::len).max().unwrap_or(0);
-        for turn in 0..longest {
-            let mut materials: Vec<u32> =
-                group.iter().filter_map(|lane| lane.get(turn)).map(|s| s.material).collect();
+    /// Adds the turns of a tile. A lane whose path has ended begins the next sample at once, and with the last one of its
+    /// pixel the first one of the next pixel.
+    fn add(&mut self, pixels: &[Vec<Segment>]) {
+        let mut rest = pixels.iter();
+        let mut lanes = vec![[].iter(); self.count as usize];
+        loop {
+            let mut materials = Vec::new();
+            for lane in &mut lanes {
+                let mut segment = lane.next();
+                while segment.is_none()
+                    && let Some(pixel) = rest.next()
+                {
+                    *lane = pixel.iter();
+                    segment = lane.next();
+                }
+                materials.extend(segment.map(|segment| segment.material));
+            }
+            if materials.is_empty() {
+                return;
+            }
             self.turns += 1;
             self.busy += materials.len() as u64;
             materials.sort_unstable();
@@ -160,14 +185,25 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_lane_that_has_no_sample_left_is_idle() {
+    fn a_lane_that_has_no_sample_left_takes_the_next_pixel() {
         let segments = |materials: &[u32]| -> Vec<Segment> {
             materials.iter().map(|m| Segment { material: *m }).collect()
         };
-        let mut lanes = Lanes { count: 8, ..Lanes::default() };
-        lanes.add(&[segments(&[1, 2, NONE]), segments(&[1]), segments(&[3, 3])]);
-        assert_eq!(lanes, Lanes { count: 8, turns: 3, busy: 6, materials: 2 + 2 + 1 });
-        assert!((lanes.share() - 0.25).abs() < 1e-9);
+        let mut lanes = Lanes { count: 2, ..Lanes::default() };
+        lanes.add(&[segments(&[1, 2, NONE]), segments(&[1]), segments(&[3, 2, 3])]);
+        assert_eq!(lanes, Lanes { count: 2, turns: 4, busy: 7, materials: 1 + 2 + 2 + 1 });
+        assert!((lanes.share() - 0.875).abs() < 1e-9);
         assert_eq!(Lanes::default().share().to_bits(), 0.0_f64.to_bits());
+    }
+
+    #[test]
+    fn squares_cover_a_tile_once() {
+        let tile = Rect { x: 3, y: 5, w: 9, h: 6 };
+        let mut pixels: Vec<[u32; 2]> = in_squares(tile, 16).collect();
+        assert_eq!(pixels[..5], [[3, 5], [4, 5], [5, 5], [6, 5], [3, 6]]);
+        assert_eq!(pixels[16], [7, 5]);
+        pixels.sort_unstable();
+        let all = (3..12).flat_map(|x| (5..11).map(move |y| [x, y]));
+        assert!(pixels.into_iter().eq(all));
     }
 }

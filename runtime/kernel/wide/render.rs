@@ -4,6 +4,7 @@
 //! rays traced one by one, or together if the tree is small. Only where the processor has the instructions.
 
 use crate::kernel::{self, v};
+use crate::pixels::Pixels;
 use crate::rays::Rays;
 use crate::{Instructions, avx2, packet, target};
 use glam::UVec4;
@@ -15,9 +16,6 @@ use pulp::x86::V3;
 
 /// Camera rays are traced together if there are this many or more.
 const COHERENT: u32 = 4;
-
-/// Pixels that are rendered together lie in so many columns.
-const COLUMNS: u32 = 4;
 
 /// What the wide kernel needs beside it: the scalar one, which traces.
 pub struct Companion<'a> {
@@ -80,12 +78,12 @@ fn trace_one_by_one(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::R
 /// Renders the tile. Whether it came to the end of it, which it does unless `is_over` says so after some pixels.
 #[expect(unsafe_code, reason = "who has the first argument has the instructions")]
 pub fn render(instructions: Instructions, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
-    // SAFETY: `Instructions` are made only where the processor has all that `render_groups` is compiled for.
-    unsafe { render_groups(instructions, tile, is_over) }
+    // SAFETY: `Instructions` are made only where the processor has all that `render_tile` is compiled for.
+    unsafe { render_tile(instructions, tile, is_over) }
 }
 
 #[target]
-fn render_groups(instructions: Instructions, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
+fn render_tile(instructions: Instructions, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
     let Tile { scalar, film, size } = tile;
     let tree = scalar.companion.tree();
     let together = tree.is_some_and(Tree::is_small);
@@ -106,83 +104,112 @@ fn render_groups(instructions: Instructions, tile: Tile<'_>, is_over: &dyn Fn() 
             stack: packet::Stack::default(),
         },
     };
-    for y in (0..size[1]).step_by(v::LANES / COLUMNS as usize) {
-        for x in (0..size[0]).step_by(COLUMNS as usize) {
-            if is_over() {
-                return false;
-            }
-            let x = v::add_u(v::u(x), v::and_u(v::lane(), v::u(COLUMNS - 1)));
-            let y = v::add_u(v::u(y), v::shr_u(v::lane(), v::u(COLUMNS.trailing_zeros())));
-            let inside = v::and_b(v::lt_u(x, v::u(size[0])), v::lt_u(y, v::u(size[1])));
-            render_group(&mut kernel, inside, v::V2 { x, y });
-        }
-    }
-    true
+    let frame = kernel.companion.scalar.load_frame();
+    let inside =
+        [0, 1].map(|k| size[k].min(frame.image_size[k].saturating_sub(frame.tile_origin[k])));
+    render_pixels(&mut kernel, &mut Pixels::of_tile(inside), is_over)
 }
 
-/// What `render` of `kernel/render.wgsl` does with the pixels `at` of the tile, in another order: the rays that cost no
-/// shading (shadow rays and probes) of all lanes first, then a segment of each. So all lanes shade together.
+/// What `render` of `kernel/render.wgsl` does with the pixels of the tile, in another order: the rays that cost no
+/// shading (shadow rays and probes) of all lanes first, then a segment of each. So all lanes shade together. A lane
+/// whose pixel has all its samples takes the next pixel at once.
 #[target]
-fn render_group(kernel: &mut kernel::Kernel<'_>, inside: v::B, at: v::V2<v::U>) {
+fn render_pixels(
+    kernel: &mut kernel::Kernel<'_>,
+    pixels: &mut Pixels,
+    is_over: &dyn Fn() -> bool,
+) -> bool {
     let frame = kernel.companion.scalar.load_frame();
     let first = v::u(frame.sample_first);
     let end = v::u(frame.sample_first.wrapping_add(frame.sample_count));
-    let pixel = v::V2 {
+    let seed = v::u(frame.seed);
+    let on_film = |at: v::V2<v::U>| v::V2 {
         x: v::add_u(v::u(frame.tile_origin.x), at.x),
         y: v::add_u(v::u(frame.tile_origin.y), at.y),
     };
-    let on_film = v::and_b(
-        v::lt_u(pixel.x, v::u(frame.image_size.x)),
-        v::lt_u(pixel.y, v::u(frame.image_size.y)),
-    );
-    let all = v::and_b(inside, on_film);
-    if frame.sample_count == 0 || !v::any(all) {
-        return;
+    let (mut left, mut at) = pixels.take(v::b(true), v::V2 { x: v::u(0), y: v::u(0) });
+    if frame.sample_count == 0 || !v::any(left) {
+        return true;
     }
-    let seed = v::u(frame.seed);
-    let mut film = kernel.film_empty(all);
-    let key = kernel.sample_key(all, pixel, first, seed);
-    let mut path = kernel.path_begin(all, &key, pixel);
-    let mut left = all;
+    let mut film = kernel.film_empty(left);
+    let key = kernel.sample_key(left, on_film(at), first, seed);
+    let mut path = kernel.path_begin(left, &key, on_film(at));
     loop {
-        let ended = loop {
-            let shadow = v::ne_u(path.shadow_light, v::u(scalar::NONE));
-            let probe = v::eq_u(path.start.state, v::u(scalar::SMOOTH_START_PROBE));
-            let short = v::and_b(left, v::or_b(shadow, probe));
-            if !v::any(short) {
-                break v::but_b(left, path.open);
-            }
-            let hit = next_hit(kernel, short, &mut film, &mut path);
-            kernel.path_connect(short, &mut path, &hit);
-        };
+        let ended = connect(kernel, left, &mut film, &mut path);
         if v::any(ended) {
             let sample = path.key.sample;
-            let kept = kernel.indirect_clamped(ended, &mut path);
-            kernel.film_add(ended, &mut film, kept, v::sub_u(sample, first), path.segments);
-            let radiance = path.radiance;
-            let lost = v::V3 {
-                x: v::sub_f(radiance.x, kept.x),
-                y: v::sub_f(radiance.y, kept.y),
-                z: v::sub_f(radiance.z, kept.z),
-            };
-            kernel.film_remove(ended, &mut film, lost);
-            let errors = kernel.dispatch_stack_errors(ended, &mut path);
-            film.stack_errors =
-                v::select_u(ended, v::add_u(film.stack_errors, errors), film.stack_errors);
-            let next = v::add_u(sample, v::u(1));
-            left = v::but_b(left, v::and_b(ended, v::eq_u(next, end)));
-            if !v::any(left) {
-                break;
+            add_sample(kernel, ended, &mut film, &mut path, v::sub_u(sample, first));
+            let mut next = v::add_u(sample, v::u(1));
+            let done = v::and_b(ended, v::eq_u(next, end));
+            let mut begun = ended;
+            if v::any(done) {
+                let place = v::add_u(v::mul_u(at.y, v::u(frame.tile_size.x)), at.x);
+                kernel.film_store(done, place, &film);
+                let (fresh, new) = pixels.take(done, at);
+                let none = v::but_b(done, fresh);
+                (left, begun) = (v::but_b(left, none), v::but_b(begun, none));
+                if !v::any(left) {
+                    return true;
+                }
+                if is_over() {
+                    return false;
+                }
+                at = new;
+                next = v::select_u(fresh, first, next);
+                let empty = kernel.film_empty(fresh);
+                film = kernel::FilmPixel::select(fresh, &empty, &film);
             }
-            let key = kernel.sample_key(ended, pixel, next, seed);
-            let new = kernel.path_begin(ended, &key, pixel);
-            path = kernel::Path::select(ended, &new, &path);
+            let key = kernel.sample_key(begun, on_film(at), next, seed);
+            let new = kernel.path_begin(begun, &key, on_film(at));
+            path = kernel::Path::select(begun, &new, &path);
         }
         let hit = next_hit(kernel, left, &mut film, &mut path);
         kernel.path_extend(left, &mut path, &hit);
     }
-    let place = v::add_u(v::mul_u(at.y, v::u(frame.tile_size.x)), at.x);
-    kernel.film_store(all, place, &film);
+}
+
+/// Traces the rays of the lanes of `left` that cost no shading. Gives those whose paths have ended.
+#[target]
+#[inline]
+fn connect(
+    kernel: &mut kernel::Kernel<'_>,
+    left: v::B,
+    film: &mut kernel::FilmPixel,
+    path: &mut kernel::Path,
+) -> v::B {
+    loop {
+        let shadow = v::ne_u(path.shadow_light, v::u(scalar::NONE));
+        let probe = v::eq_u(path.start.state, v::u(scalar::SMOOTH_START_PROBE));
+        let short = v::and_b(left, v::or_b(shadow, probe));
+        if !v::any(short) {
+            return v::but_b(left, path.open);
+        }
+        let hit = next_hit(kernel, short, film, path);
+        kernel.path_connect(short, path, &hit);
+    }
+}
+
+/// Adds the paths of the lanes of `ended`, each the sample `number` of its pixel.
+#[target]
+#[inline]
+fn add_sample(
+    kernel: &mut kernel::Kernel<'_>,
+    ended: v::B,
+    film: &mut kernel::FilmPixel,
+    path: &mut kernel::Path,
+    number: v::U,
+) {
+    let kept = kernel.indirect_clamped(ended, path);
+    kernel.film_add(ended, film, kept, number, path.segments);
+    let radiance = path.radiance;
+    let lost = v::V3 {
+        x: v::sub_f(radiance.x, kept.x),
+        y: v::sub_f(radiance.y, kept.y),
+        z: v::sub_f(radiance.z, kept.z),
+    };
+    kernel.film_remove(ended, film, lost);
+    let errors = kernel.dispatch_stack_errors(ended, path);
+    film.stack_errors = v::select_u(ended, v::add_u(film.stack_errors, errors), film.stack_errors);
 }
 
 /// What the next ray of the lanes of `mask` hits.

@@ -15,6 +15,8 @@ pub mod kernel;
 mod packet;
 #[path = "../../wide/packet_triangle.rs"]
 mod packet_triangle;
+#[path = "../../wide/pixels.rs"]
+mod pixels;
 #[path = "../../wide/rays.rs"]
 mod rays;
 #[path = "../../wide/render.rs"]
