@@ -6,7 +6,7 @@
 //! of the camera, which stay together; others soon part in large trees.
 
 use crate::kernel::{Hit, Kernel, Ray, TriangleShear, v};
-use crate::packet_triangle::Sheared;
+use crate::packet_triangle::{Crossing, Sheared};
 use crate::rays::Rays;
 use crate::target;
 use kernel_f32::kernel as scalar;
@@ -168,10 +168,10 @@ impl<'r> Packet<'r> {
             else {
                 continue;
             };
-            let first_id = rows[0].w;
-            if let Some((met, new)) = self.sheared.intersect(rows, i, active) {
-                let counts = self.counts(kernel, first_id, met, &new, hit);
+            if let Some((met, new)) = self.sheared.intersect(rows, active, hit.t) {
+                let counts = self.counts(kernel, (i, rows[0].w), met, &new, hit);
                 if v::any(counts) {
+                    let new = Hit { t: new.t, prim: v::u(i), b: new.b(), instance: v::u(NONE) };
                     *hit = Hit::select(counts, &new, hit);
                     ended = v::or_b(ended, self.ended(kernel, counts, hit));
                 }
@@ -180,27 +180,24 @@ impl<'r> Packet<'r> {
         ended
     }
 
-    /// Which of the new hits `met` of one triangle replace the old ones.
+    /// Which of the new hits `met` of one triangle, whose number and the id of whose first corner are given, replace
+    /// the old ones, which are no nearer.
     #[target]
     #[inline]
     fn counts(
         &self,
         kernel: &mut Kernel<'_>,
-        first_id: u32,
+        (triangle, first_id): (u32, u32),
         met: v::B,
-        new: &Hit,
+        new: &Crossing,
         hit: &Hit,
     ) -> v::B {
-        let (ray, i) = (self.ray, new.prim);
-        let front = v::and_b(met, v::and_b(v::gt_f(new.t, v::f(0.0)), v::le_f(new.t, hit.t)));
-        if !v::any(front) {
-            return front;
-        }
+        let (ray, i) = (self.ray, v::u(triangle));
         let between = v::and_b(v::gt_f(new.t, ray.t_min), v::lt_f(new.t, hit.t));
-        let mut counts = v::and_b(front, between);
-        let tie = v::but_b(v::and_b(front, v::ge_f(new.t, ray.t_min)), between);
+        let mut counts = v::and_b(met, between);
+        let tie = v::but_b(v::and_b(met, v::ge_f(new.t, ray.t_min)), between);
         if v::any(tie) {
-            let before = kernel.order_triangle(tie, hit, new.t, i, new.instance);
+            let before = kernel.order_triangle(tie, hit, new.t, i, v::u(NONE));
             let after = kernel.dispatch_triangle_after(tie, ray, new.t, i);
             counts = v::or_b(counts, v::and_b(tie, v::and_b(before, after)));
         }
@@ -211,7 +208,7 @@ impl<'r> Packet<'r> {
         }
         let asked = if self.uncut { v::and_b(counts, self.shadow) } else { counts };
         if v::any(asked) {
-            let candidates = kernel.candidate_triangle(asked, i, new.b, ray);
+            let candidates = kernel.candidate_triangle(asked, i, new.b(), ray);
             counts = v::but_b(counts, v::but_b(asked, candidates));
         }
         counts

@@ -3,10 +3,9 @@
 //! Each lane does the operations of `triangle_intersect` (`shape/triangle.wgsl`, where it says why) in their order, so
 //! that its bits are the same. Which hit counts is not decided here.
 
-use crate::kernel::{Hit, Ray, TriangleShear, v};
+use crate::kernel::{Ray, TriangleShear, v};
 use crate::target;
 use glam::UVec4;
-use kernel_f32::kernel::NONE;
 
 /// Rays, and for each the frame in which it runs along z.
 pub(crate) struct Sheared {
@@ -14,6 +13,27 @@ pub(crate) struct Sheared {
     /// For each axis of that frame: which one of the world it is.
     axes: [v::U; 3],
     origin: [v::F; 3],
+    /// The lanes that run across the planes in which x or y does not change.
+    steep: [v::B; 2],
+}
+
+/// Where a ray a lane meets the plane of a triangle.
+pub(crate) struct Crossing {
+    /// Distance along the ray.
+    pub(crate) t: v::F,
+    /// Weights of the second and the third corner, and the sum of all three.
+    w1: v::F,
+    w2: v::F,
+    det: v::F,
+}
+
+impl Crossing {
+    /// Barycentric weights of the second and the third corner.
+    #[target]
+    #[inline]
+    pub(crate) fn b(&self) -> v::V2<v::F> {
+        v::V2 { x: v::div_f(self.w1, self.det), y: v::div_f(self.w2, self.det) }
+    }
 }
 
 /// A corner of a triangle in that frame.
@@ -36,35 +56,49 @@ impl Sheared {
             let x_or_y = v::select_f(v::eq_u(axis, v::u(0)), o.x, o.y);
             v::select_f(v::eq_u(axis, v::u(2)), o.z, x_or_y)
         };
-        Self { shear, axes: [x, y, z], origin: [along(x), along(y), along(z)] }
+        let slope = shear.slope;
+        Self {
+            shear,
+            axes: [x, y, z],
+            origin: [along(x), along(y), along(z)],
+            steep: [v::ne_f(slope.x, v::f(0.0)), v::ne_f(slope.y, v::f(0.0))],
+        }
     }
 
-    /// The lanes of `active` whose lines meet triangle `i`, which is `rows` of the pack, at some distance; and where.
+    /// The lanes of `active` whose rays may meet the triangle of which `rows` of the pack are the corners, before `t_max`
+    /// or there; and where.
     #[target]
     #[inline]
-    pub(crate) fn intersect(&self, rows: &[UVec4; 3], i: u32, active: v::B) -> Option<(v::B, Hit)> {
+    pub(crate) fn intersect(
+        &self,
+        rows: &[UVec4; 3],
+        active: v::B,
+        t_max: v::F,
+    ) -> Option<(v::B, Crossing)> {
         let [a, b, c] = &[self.corner(rows[0]), self.corner(rows[1]), self.corner(rows[2])];
-        let (inside, [w0, w1, w2]) = edges([a, b, c], rows, active);
-        if !v::any(inside) {
-            return None;
-        }
+        let (inside, [w0, w1, w2]) = edges([a, b, c], rows, active)?;
         let det = v::add_f(v::add_f(w0, w1), w2);
         let depth = v::add_f(v::add_f(v::mul_f(w0, a.z), v::mul_f(w1, b.z)), v::mul_f(w2, c.z));
-        let mut t = v::mul_f(v::div_f(depth, det), self.shear.inv_depth);
-        let slope = self.shear.slope;
-        for (k, slope) in [(1, slope.y), (0, slope.x)] {
+        let (mut above, mut below) = (depth, det);
+        let slope = [self.shear.slope.x, self.shear.slope.y];
+        for k in [1, 0] {
             // In a plane across an axis; that of x counts where both do.
             let [p, q, r] = [a.plain[k], b.plain[k], c.plain[k]];
             let level = v::and_b(v::eq_f(p, q), v::eq_f(q, r));
-            let flat = v::and_b(level, v::ne_f(slope, v::f(0.0)));
-            if v::any(v::and_b(inside, flat)) {
-                let there = v::mul_f(v::div_f(p, slope), self.shear.inv_depth);
-                t = v::select_f(flat, there, t);
-            }
+            let flat = v::and_b(level, self.steep[k]);
+            above = v::select_f(flat, p, above);
+            below = v::select_f(flat, slope[k], below);
         }
-        let b = v::V2 { x: v::div_f(w1, det), y: v::div_f(w2, det) };
-        let met = v::and_b(inside, v::ne_f(det, v::f(0.0)));
-        Some((met, Hit { t, prim: v::u(i), b, instance: v::u(NONE) }))
+        // Most of what lies behind is known by its sign, before the slow division.
+        let inv_depth = self.shear.inv_depth;
+        let ahead = v::and_b(inside, same_sign(above, below, inv_depth));
+        if !v::any(ahead) {
+            return None;
+        }
+        let t = v::mul_f(v::div_f(above, below), inv_depth);
+        let near = v::and_b(v::gt_f(t, v::f(0.0)), v::le_f(t, t_max));
+        let met = v::and_b(v::and_b(ahead, near), v::ne_f(det, v::f(0.0)));
+        v::any(met).then_some((met, Crossing { t, w1, w2, det }))
     }
 
     #[target]
@@ -83,30 +117,48 @@ impl Sheared {
     }
 }
 
-/// The lanes of `active` that pass the triangle on the inner side of its edges, and the weights of its corners. Swapped
-/// ends only change the sign of an edge function, twice, unless a ray meets the edge.
+/// The lanes of `active` that pass the triangle on the inner side of its edges, if any, and the weights of its corners.
+/// Swapped ends only change the sign of an edge function, twice, unless a ray meets the edge.
 #[target]
 #[inline]
-fn edges([a, b, c]: [&Corner; 3], rows: &[UVec4; 3], active: v::B) -> (v::B, [v::F; 3]) {
+fn edges(
+    [a, b, c]: [&Corner; 3],
+    rows: &[UVec4; 3],
+    active: v::B,
+) -> Option<(v::B, [v::F; 3])> {
     let weights = [edge(b, c), edge(c, a), edge(a, b)];
-    let [p0, p1, p2] = weights.map(|e| v::gt_f(e, v::f(0.0)));
-    let [n0, n1, n2] = weights.map(|e| v::lt_f(e, v::f(0.0)));
-    let sure = v::and_b(v::and_b(v::or_b(p0, n0), v::or_b(p1, n1)), v::or_b(p2, n2));
-    if v::any(v::but_b(active, sure)) {
+    let [w0, w1, w2] = weights;
+    let zero = v::f(0.0);
+    let low = v::min_f(w0, v::min_f(w1, w2));
+    let high = v::max_f(w0, v::max_f(w1, w2));
+    // Two weights of opposite signs: outside, whatever the third is.
+    let inside = v::but_b(active, v::and_b(v::lt_f(low, zero), v::gt_f(high, zero)));
+    if !v::any(inside) {
+        return None;
+    }
+    let sum = v::add_f(v::add_f(w0, w1), w2);
+    let all = v::or_b(v::gt_f(low, zero), v::lt_f(high, zero));
+    // Of numbers one of which is none, `low` and `high` say nothing.
+    let sure = v::and_b(all, v::eq_f(sum, sum));
+    if v::any(v::but_b(inside, sure)) {
         return edges_in_order([a, b, c], rows, active);
     }
-    let inside = v::or_b(v::and_b(v::and_b(p0, p1), p2), v::and_b(v::and_b(n0, n1), n2));
-    (v::and_b(active, inside), weights)
+    Some((inside, weights))
 }
 
 /// The same with the ends of every edge in the order of their ids, where a ray meets one exactly.
 #[target]
-fn edges_in_order([a, b, c]: [&Corner; 3], rows: &[UVec4; 3], active: v::B) -> (v::B, [v::F; 3]) {
+fn edges_in_order(
+    [a, b, c]: [&Corner; 3],
+    rows: &[UVec4; 3],
+    active: v::B,
+) -> Option<(v::B, [v::F; 3])> {
     let [p, q, r] = rows.map(|row| row.w);
     let [(in0, w0), (in1, w1), (in2, w2)] =
         [side(b, c, q > r), side(c, a, r > p), side(a, b, p > q)];
     let outside = v::or_b(v::xor_b(in0, in1), v::xor_b(in1, in2));
-    (v::but_b(active, outside), [w0, w1, w2])
+    let inside = v::but_b(active, outside);
+    v::any(inside).then_some((inside, [w0, w1, w2]))
 }
 
 /// The edge function of two corners.
@@ -126,4 +178,12 @@ fn side(a: &Corner, b: &Corner, swap: bool) -> (v::B, v::F) {
     let side = v::select_f(v::eq_f(e, zero), moved, e);
     let inside = v::xor_b(v::gt_f(side, zero), v::b(swap));
     (inside, if swap { v::neg_f(e) } else { e })
+}
+
+/// The lanes in which the product of all three is positive, or no number.
+#[target]
+#[inline]
+fn same_sign(a: v::F, b: v::F, c: v::F) -> v::B {
+    let signs = v::xor_u(v::xor_u(v::u_bits_f(a), v::u_bits_f(b)), v::u_bits_f(c));
+    v::lt_u(signs, v::u(1 << 31))
 }
