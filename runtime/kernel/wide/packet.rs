@@ -1,20 +1,26 @@
 //! A ray a lane at once through a tree of eights.
 //!
 //! Turns rays into their hits, the bits that walks one by one find: a box, a triangle or a leaf of spheres is tested
-//! with all rays that come to it. A ray that comes to a node alone walks by itself from there, and so does every
-//! ray that comes to an instance or to triangles that move. Worth it where most rays meet most of the tree, and for rays
-//! of the camera, which stay together; others soon part in large trees.
+//! with all rays that come to it. Of the smallest trees a list is gone through instead (`walk::Few`). A ray that comes
+//! to a node alone walks by itself from there, and so does every ray that comes to an instance or to triangles that
+//! move. Worth it where most rays meet most of the tree, and for rays of the camera, which stay together; others soon
+//! part in large trees.
 
 use crate::kernel::{Hit, Kernel, Ray, TriangleShear, v};
-use crate::packet_triangle::{Crossing, Sheared};
+use crate::packet_triangle::{Corner, Crossing, Sheared};
 use crate::rays::Rays;
 use crate::target;
+use glam::UVec4;
 use kernel_f32::kernel as scalar;
-use kernel_f32::walk::{self, Block, FAR_END, Node, Step, Tree};
+use kernel_f32::walk::{self, Block, FAR_END, Few, Node, Step, Tree};
 use scalar::NONE;
+use std::borrow::Borrow;
 
 /// No more rays than this leave a packet at a node, to walk on one by one: each meets all eight boxes at once.
 const FEW: u32 = 1;
+
+/// As many rays or fewer walk through a tree of which there is a list.
+const FEW_OF_LIST: u32 = 3;
 
 /// A child that some rays meet.
 #[derive(Clone, Copy, Debug)]
@@ -25,9 +31,14 @@ struct Waiting {
     enter: v::F,
 }
 
-/// Children that rays may still enter; kept from one packet to the next.
+/// Memory that is kept from one packet to the next.
 #[derive(Debug, Default)]
-pub(crate) struct Stack(Vec<Waiting>);
+pub(crate) struct Scratch {
+    /// Children that rays may still enter.
+    waiting: Vec<Waiting>,
+    /// Of a list, the corners in the frames of the rays.
+    corners: Vec<Corner>,
+}
 
 /// Rays, and what is worked out once for them.
 struct Packet<'r> {
@@ -48,10 +59,15 @@ struct Packet<'r> {
 /// What the rays of `mask` meet in `tree`, which is small. For each as `walk::trace`.
 #[target]
 pub(crate) fn trace(kernel: &mut Kernel<'_>, tree: &Tree, mask: v::B, ray: &Ray) -> Hit {
-    let mut stack = std::mem::take(&mut kernel.companion.stack);
+    let mut scratch = std::mem::take(&mut kernel.companion.scratch);
     let packet = Packet::new(kernel, tree, mask, ray);
-    let hit = packet.walk(kernel, tree, &mut stack.0, mask);
-    kernel.companion.stack = stack;
+    let hit = match tree.few() {
+        Some(few) if v::bits(mask).count_ones() > FEW_OF_LIST => {
+            packet.test_all(kernel, few, &mut scratch.corners, mask)
+        }
+        _ => packet.walk(kernel, tree, &mut scratch.waiting, mask),
+    };
+    kernel.companion.scratch = scratch;
     hit
 }
 
@@ -113,29 +129,80 @@ impl<'r> Packet<'r> {
         hit
     }
 
-    /// Pushes the children of `node` that rays of `active` meet, the nearest last. Boxes are met as in
-    /// `trace/box.wgsl`.
+    /// Tests all that is in a list.
+    #[target]
+    #[inline(never)]
+    fn test_all(
+        &self,
+        kernel: &mut Kernel<'_>,
+        few: &Few,
+        corners: &mut Vec<Corner>,
+        mask: v::B,
+    ) -> Hit {
+        let mut hit = kernel.ray_miss(mask, self.ray.t_max);
+        let mut left = mask;
+        let mut known = 0;
+        if corners.is_empty() {
+            corners.resize(walk::MOST_CORNERS, self.sheared.corner([0.0; 4]));
+        }
+        for leaf in &few.leaves {
+            let (mut active, _) = self.enter(&leaf.ends, left, hit.t);
+            if !v::any(active) {
+                continue;
+            }
+            let mut missing = leaf.corners & !known;
+            known |= missing;
+            while missing != 0 {
+                let k = missing.trailing_zeros() as usize;
+                missing &= missing - 1;
+                corners[k] = self.sheared.corner(few.corners[k]);
+            }
+            for triangle in &few.triangles[leaf.triangles.clone()] {
+                let [a, b, c] = triangle.corners.map(|k| &corners[usize::from(k)]);
+                let named = (triangle.index, triangle.ids);
+                let ended = self.triangle(kernel, named, &[a, b, c], active, &mut hit);
+                (active, left) = (v::but_b(active, ended), v::but_b(left, ended));
+            }
+        }
+        for leaf in &few.spheres {
+            let (met, _) = self.enter(&leaf.ends, left, hit.t);
+            if v::any(met) {
+                let ended = self.spheres(kernel, leaf.child, met, &mut hit);
+                left = v::but_b(left, ended);
+            }
+        }
+        hit
+    }
+
+    /// Which rays of `active` meet a box with these ends before `t_max`, and where; as in `trace/box.wgsl`.
+    #[target]
+    #[inline]
+    fn enter(&self, ends: &[[f32; 2]; 3], active: v::B, t_max: v::F) -> (v::B, v::F) {
+        let (o, inverse) = (self.ray.origin, self.inverse);
+        let plane = |end: f32, from, inverse| v::mul_f(v::sub_f(v::f(end), from), inverse);
+        let [x, y, z] = ends;
+        let (x0, x1) = (plane(x[0], o.x, inverse.x), plane(x[1], o.x, inverse.x));
+        let (y0, y1) = (plane(y[0], o.y, inverse.y), plane(y[1], o.y, inverse.y));
+        let (z0, z1) = (plane(z[0], o.z, inverse.z), plane(z[1], o.z, inverse.z));
+        let near = v::max_f(v::min_f(x0, x1), v::min_f(y0, y1));
+        let far = v::min_f(v::max_f(x0, x1), v::max_f(y0, y1));
+        let enter = v::max_f(near, v::max_f(v::min_f(z0, z1), self.t_min));
+        let leave = v::min_f(far, v::min_f(v::max_f(z0, z1), t_max));
+        (v::and_b(active, v::le_f(enter, v::mul_f(leave, v::f(FAR_END)))), enter)
+    }
+
+    /// Pushes the children of `node` that rays of `active` meet, the nearest last.
     #[target]
     #[inline]
     fn visit(&self, node: &Node, active: v::B, t_max: v::F, stack: &mut Vec<Waiting>) {
-        let (o, inverse) = (self.ray.origin, self.inverse);
         let bottom = stack.len();
         let mut keys = [0.0_f32; 8];
         for (k, child) in node.children.iter().enumerate() {
             if *child == NONE {
                 continue;
             }
-            let [x, y, z] = &node.ends;
-            let plane =
-                |end: &[f32; 8], from, inverse| v::mul_f(v::sub_f(v::f(end[k]), from), inverse);
-            let (x0, x1) = (plane(&x[0], o.x, inverse.x), plane(&x[1], o.x, inverse.x));
-            let (y0, y1) = (plane(&y[0], o.y, inverse.y), plane(&y[1], o.y, inverse.y));
-            let (z0, z1) = (plane(&z[0], o.z, inverse.z), plane(&z[1], o.z, inverse.z));
-            let near = v::max_f(v::min_f(x0, x1), v::min_f(y0, y1));
-            let far = v::min_f(v::max_f(x0, x1), v::max_f(y0, y1));
-            let enter = v::max_f(near, v::max_f(v::min_f(z0, z1), self.t_min));
-            let leave = v::min_f(far, v::min_f(v::max_f(z0, z1), t_max));
-            let met = v::and_b(active, v::le_f(enter, v::mul_f(leave, v::f(FAR_END))));
+            let ends = node.ends.map(|axis| axis.map(|ends| ends[k]));
+            let (met, enter) = self.enter(&ends, active, t_max);
             if v::any(met) {
                 let enter = v::select_f(met, enter, v::f(f32::INFINITY));
                 let key = v::least_f(enter);
@@ -164,20 +231,39 @@ impl<'r> Packet<'r> {
         let mut ended = v::b(false);
         for i in blocks.iter().flat_map(|block| block.triangles) {
             // The rest of a block that is not full.
-            let Some(rows) = kernel.tri_words.get(3 * i as usize..).and_then(<[_]>::first_chunk)
+            let Some(&[a, b, c]) =
+                kernel.tri_words.get(3 * i as usize..).and_then(<[_]>::first_chunk)
             else {
                 continue;
             };
-            if let Some((met, new)) = self.sheared.intersect(rows, active, hit.t) {
-                let counts = self.counts(kernel, (i, rows[0].w), met, &new, hit);
-                if v::any(counts) {
-                    let new = Hit { t: new.t, prim: v::u(i), b: new.b(), instance: v::u(NONE) };
-                    *hit = Hit::select(counts, &new, hit);
-                    ended = v::or_b(ended, self.ended(kernel, counts, hit));
-                }
-            }
+            let corner = |row: UVec4| self.sheared.corner(bytemuck::cast(row.to_array()));
+            let corners = [corner(a), corner(b), corner(c)];
+            let new = self.triangle(kernel, (i, [a.w, b.w, c.w]), &corners, active, hit);
+            ended = v::or_b(ended, new);
         }
         ended
+    }
+
+    /// Tests the triangle with this number and these ids; as `triangles`.
+    #[target]
+    #[inline]
+    fn triangle(
+        &self,
+        kernel: &mut Kernel<'_>,
+        (i, ids): (u32, [u32; 3]),
+        corners: &[impl Borrow<Corner>; 3],
+        active: v::B,
+        hit: &mut Hit,
+    ) -> v::B {
+        if let Some((met, new)) = self.sheared.intersect(corners, ids, active, hit.t) {
+            let counts = self.counts(kernel, (i, ids[0]), met, &new, hit);
+            if v::any(counts) {
+                let new = Hit { t: new.t, prim: v::u(i), b: new.b(), instance: v::u(NONE) };
+                *hit = Hit::select(counts, &new, hit);
+                return self.ended(kernel, counts, hit);
+            }
+        }
+        v::b(false)
     }
 
     /// Which of the new hits `met` of one triangle, whose number and the id of whose first corner are given, replace

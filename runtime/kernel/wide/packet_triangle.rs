@@ -5,7 +5,7 @@
 
 use crate::kernel::{Ray, TriangleShear, v};
 use crate::target;
-use glam::UVec4;
+use std::borrow::Borrow;
 
 /// Rays, and for each the frame in which it runs along z.
 pub(crate) struct Sheared {
@@ -37,7 +37,8 @@ impl Crossing {
 }
 
 /// A corner of a triangle in that frame.
-struct Corner {
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Corner {
     x: v::F,
     y: v::F,
     z: v::F,
@@ -65,18 +66,19 @@ impl Sheared {
         }
     }
 
-    /// The lanes of `active` whose rays may meet the triangle of which `rows` of the pack are the corners, before `t_max`
-    /// or there; and where.
+    /// The lanes of `active` whose rays may meet the triangle with these corners and their ids, before `t_max` or there;
+    /// and where.
     #[target]
     #[inline]
     pub(crate) fn intersect(
         &self,
-        rows: &[UVec4; 3],
+        corners: &[impl Borrow<Corner>; 3],
+        ids: [u32; 3],
         active: v::B,
         t_max: v::F,
     ) -> Option<(v::B, Crossing)> {
-        let [a, b, c] = &[self.corner(rows[0]), self.corner(rows[1]), self.corner(rows[2])];
-        let (inside, [w0, w1, w2]) = edges([a, b, c], rows, active)?;
+        let [a, b, c] = corners.each_ref().map(Borrow::borrow);
+        let (inside, [w0, w1, w2]) = edges([a, b, c], ids, active)?;
         let det = v::add_f(v::add_f(w0, w1), w2);
         let depth = v::add_f(v::add_f(v::mul_f(w0, a.z), v::mul_f(w1, b.z)), v::mul_f(w2, c.z));
         let (mut above, mut below) = (depth, det);
@@ -101,10 +103,10 @@ impl Sheared {
         v::any(met).then_some((met, Crossing { t, w1, w2, det }))
     }
 
+    /// A corner in the frame of each ray; the last number counts for nothing.
     #[target]
     #[inline]
-    fn corner(&self, row: UVec4) -> Corner {
-        let row = bytemuck::cast(row.to_array());
+    pub(crate) fn corner(&self, row: [f32; 4]) -> Corner {
         let from = |k: usize| v::sub_f(v::word_f(row, self.axes[k]), self.origin[k]);
         let (x, y, z) = (from(0), from(1), from(2));
         let slope = self.shear.slope;
@@ -121,11 +123,7 @@ impl Sheared {
 /// Swapped ends only change the sign of an edge function, twice, unless a ray meets the edge.
 #[target]
 #[inline]
-fn edges(
-    [a, b, c]: [&Corner; 3],
-    rows: &[UVec4; 3],
-    active: v::B,
-) -> Option<(v::B, [v::F; 3])> {
+fn edges([a, b, c]: [&Corner; 3], ids: [u32; 3], active: v::B) -> Option<(v::B, [v::F; 3])> {
     let weights = [edge(b, c), edge(c, a), edge(a, b)];
     let [w0, w1, w2] = weights;
     let zero = v::f(0.0);
@@ -141,7 +139,7 @@ fn edges(
     // Of numbers one of which is none, `low` and `high` say nothing.
     let sure = v::and_b(all, v::eq_f(sum, sum));
     if v::any(v::but_b(inside, sure)) {
-        return edges_in_order([a, b, c], rows, active);
+        return edges_in_order([a, b, c], ids, active);
     }
     Some((inside, weights))
 }
@@ -150,10 +148,10 @@ fn edges(
 #[target]
 fn edges_in_order(
     [a, b, c]: [&Corner; 3],
-    rows: &[UVec4; 3],
+    ids: [u32; 3],
     active: v::B,
 ) -> Option<(v::B, [v::F; 3])> {
-    let [p, q, r] = rows.map(|row| row.w);
+    let [p, q, r] = ids;
     let [(in0, w0), (in1, w1), (in2, w2)] =
         [side(b, c, q > r), side(c, a, r > p), side(a, b, p > q)];
     let outside = v::or_b(v::xor_b(in0, in1), v::xor_b(in1, in2));

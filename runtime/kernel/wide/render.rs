@@ -25,7 +25,7 @@ pub struct Companion<'a> {
     tree: Option<&'a Tree>,
     /// All rays are to be traced together, and not only those of the camera.
     together: bool,
-    pub(crate) stack: packet::Stack,
+    pub(crate) scratch: packet::Scratch,
 }
 
 /// What a tile is rendered with.
@@ -101,7 +101,7 @@ fn render_tile(instructions: Instructions, tile: Tile<'_>, is_over: &dyn Fn() ->
             avx2: avx2(instructions),
             tree,
             together,
-            stack: packet::Stack::default(),
+            scratch: packet::Scratch::default(),
         },
     };
     let frame = kernel.companion.scalar.load_frame();

@@ -11,6 +11,7 @@
 
 mod build;
 mod crossings;
+mod few;
 mod gather;
 mod lanes;
 mod node;
@@ -19,6 +20,7 @@ mod tree;
 mod triangles;
 
 pub use build::Geometry;
+pub use few::{Ends, Few, Leaf, Listed, MOST_CORNERS, SphereLeaf};
 pub use stack::FAR_END;
 pub use tree::{Block, Companion, Node, Step, Tree};
 

@@ -3,6 +3,7 @@
 //! Turns each tree of the pack, from the top down, into nodes of eight. What is below the top is made in parallel, in
 //! pieces that do not depend on the number of threads, and joined in their order.
 
+use super::few::{Content, Few};
 use super::gather::{Child, Item, Source};
 use super::tree::{BLOCK, Block, MOVING, Node, TWO_BLOCKS, Tree, WIDTH};
 use pack::abi::{CHILD_INNER, CHILD_SPHERES, ChildRef, Instance, NONE, Triangle, WideNode};
@@ -51,8 +52,10 @@ impl Tree {
             roots: instances.iter().map(|instance| roots[&instance.root]).collect(),
             need: 0,
             uncut,
+            few: None,
         };
         tree.need = stack_need(&tree);
+        tree.few = few(&tree, triangles);
         tree
     }
 }
@@ -230,6 +233,23 @@ impl Block {
         }
         Self { corners, triangles }
     }
+}
+
+/// All that is in `tree`, if that is little and stands still in the world. A tree of one leaf is as good as a list.
+fn few(tree: &Tree, triangles: &[Triangle]) -> Option<Few> {
+    let leaves = tree.nodes.iter().flat_map(|node| {
+        let children = node.children.into_iter().enumerate();
+        let leaves = children.filter(|(_, child)| *child != NONE && child & CHILD_INNER == 0);
+        leaves.map(|(k, child)| {
+            let ends = node.ends.map(|axis| axis.map(|ends| ends[k]));
+            if child & CHILD_SPHERES != 0 {
+                return (ends, Content::Spheres(child));
+            }
+            let indices = tree.blocks(child).iter().flat_map(|block| block.triangles);
+            (ends, Content::Triangles(indices.filter(|index| *index != NONE).collect()))
+        })
+    });
+    if tree.is_small() && !tree.nodes.is_empty() { Few::of(leaves, triangles) } else { None }
 }
 
 /// Entries that the stack needs, as `pack::bvh::stack_need` of the pack's own nodes.

@@ -4,6 +4,7 @@
 //! decides is only which triangles a ray is tested with, and in what order.
 
 use super::crossings::Crossings;
+use super::few::Few;
 use super::stack::Stack;
 use pack::abi::{CHILD_INNER, CHILD_INSTANCE, CHILD_SPHERES, NONE};
 
@@ -60,6 +61,8 @@ pub struct Tree {
     pub(super) need: usize,
     /// Nothing is cut out of a triangle.
     pub(super) uncut: bool,
+    /// All that is in it, if that is little.
+    pub(super) few: Option<Few>,
 }
 
 /// What a reference leads to.
@@ -87,6 +90,13 @@ impl Tree {
     #[must_use]
     pub fn is_small(&self) -> bool {
         self.nodes.len() <= SMALL && self.moving.is_empty() && self.roots.is_empty()
+    }
+
+    /// All that is in it, if that is little.
+    #[must_use]
+    #[inline(always)]
+    pub fn few(&self) -> Option<&Few> {
+        self.few.as_ref()
     }
 
     /// Nothing is cut out of a triangle.

@@ -1,0 +1,138 @@
+//! Lists of what is in the smallest trees.
+//!
+//! Turns a tree over few triangles into a list of its leaves and one of all corners, each once. In a room, rays that are
+//! traced together come to most of the tree: then a list costs less than nodes and a stack, and each corner is taken into
+//! the frames of the rays once, for all triangles that share it.
+
+use pack::abi::Triangle;
+use std::ops::Range;
+
+/// Triangles of a list, at most.
+const MOST: usize = 64;
+
+/// Leaves of a list, at most.
+const MOST_LEAVES: usize = 32;
+
+/// Corners of a list, at most.
+pub const MOST_CORNERS: usize = 64;
+
+/// Leaves whose boxes a ray through the tree meets on average, at least: as many as their areas together are larger than
+/// that of the box of the tree. Where it is fewer, nodes leave out more than they cost.
+const MET: f32 = 0.7;
+
+/// For each axis the lower and the upper end of a box.
+pub type Ends = [[f32; 2]; 3];
+
+/// A triangle of a list.
+#[derive(Clone, Copy, Debug)]
+pub struct Listed {
+    /// Which one of the pack.
+    pub index: u32,
+    /// Places in `Few::corners`.
+    pub corners: [u8; 3],
+    /// Ids of its corners.
+    pub ids: [u32; 3],
+}
+
+/// A leaf of triangles.
+#[derive(Debug)]
+pub struct Leaf {
+    /// Its box.
+    pub ends: Ends,
+    /// Which ones of `Few::corners` it has, a bit each.
+    pub corners: u64,
+    /// Places in `Few::triangles`.
+    pub triangles: Range<usize>,
+}
+
+/// A leaf of spheres.
+#[derive(Clone, Copy, Debug)]
+pub struct SphereLeaf {
+    /// Its box.
+    pub ends: Ends,
+    /// Its reference, as in the pack.
+    pub child: u32,
+}
+
+/// Everything in a tree.
+#[derive(Debug, Default)]
+pub struct Few {
+    /// Corners of triangles, no more than `MOST_CORNERS`; the last number counts for nothing.
+    pub corners: Vec<[f32; 4]>,
+    /// All triangles.
+    pub triangles: Vec<Listed>,
+    /// All leaves of triangles, the smallest first: what is behind others is large.
+    pub leaves: Vec<Leaf>,
+    /// All leaves of spheres.
+    pub spheres: Vec<SphereLeaf>,
+}
+
+/// What lies in a leaf.
+pub(super) enum Content {
+    /// Triangles that stand still.
+    Triangles(Vec<u32>),
+    /// Spheres: their reference.
+    Spheres(u32),
+}
+
+impl Few {
+    /// All that is in these leaves of a tree, of which some are over some of `triangles`, if that is little and met by
+    /// most rays.
+    pub(super) fn of(
+        leaves: impl Iterator<Item = (Ends, Content)>,
+        triangles: &[Triangle],
+    ) -> Option<Self> {
+        let mut few = Self::default();
+        let mut all = [[f32::INFINITY, f32::NEG_INFINITY]; 3];
+        let mut sum = 0.0;
+        for (ends, content) in leaves {
+            for (all, ends) in all.iter_mut().zip(ends) {
+                *all = [all[0].min(ends[0]), all[1].max(ends[1])];
+            }
+            sum += area(&ends);
+            match content {
+                Content::Triangles(indices) => few.add(ends, &indices, triangles)?,
+                Content::Spheres(child) => few.spheres.push(SphereLeaf { ends, child }),
+            }
+            if few.leaves.len() + few.spheres.len() > MOST_LEAVES {
+                return None;
+            }
+        }
+        few.leaves.sort_by_key(|leaf| area(&leaf.ends).to_bits());
+        (sum >= MET * area(&all)).then_some(few)
+    }
+
+    /// Adds a leaf of the triangles `indices`, unless it is too much.
+    fn add(&mut self, ends: Ends, indices: &[u32], triangles: &[Triangle]) -> Option<()> {
+        let (first, mut mask) = (self.triangles.len(), 0);
+        for index in indices {
+            let Triangle { v0, v1, v2, id0, id1, id2, .. } = triangles[*index as usize];
+            let mut corners = [0; 3];
+            for (place, [x, y, z]) in corners.iter_mut().zip([v0, v1, v2]) {
+                *place = self.place([x, y, z, 0.0])?;
+                mask |= 1 << *place;
+            }
+            self.triangles.push(Listed { index: *index, corners, ids: [id0, id1, id2] });
+        }
+        let end = self.triangles.len();
+        self.leaves.push(Leaf { ends, corners: mask, triangles: first..end });
+        (end <= MOST).then_some(())
+    }
+
+    /// The place of a corner, which may be new, unless there are too many.
+    fn place(&mut self, corner: [f32; 4]) -> Option<u8> {
+        let bits = |corner: &[f32; 4]| corner.map(f32::to_bits);
+        let known = self.corners.iter().position(|other| bits(other) == bits(&corner));
+        let place = known.unwrap_or_else(|| {
+            self.corners.push(corner);
+            self.corners.len() - 1
+        });
+        u8::try_from(place).ok().filter(|_| place < MOST_CORNERS)
+    }
+}
+
+/// Half the area of a box.
+fn area(ends: &Ends) -> f32 {
+    let [x, y, z] = ends.map(|[low, high]| (high - low).max(0.0));
+    x * y + y * z + z * x
+}
