@@ -136,3 +136,55 @@ fn area(ends: &Ends) -> f32 {
     let [x, y, z] = ends.map(|[low, high]| (high - low).max(0.0));
     x * y + y * z + z * x
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two triangles of a square of side 1.
+    fn square() -> [Triangle; 2] {
+        let at = |x: u8, y: u8| [f32::from(x), f32::from(y), 0.0];
+        let triangle = |[a, b, c]: [(u8, u8, u32); 3]| Triangle {
+            v0: at(a.0, a.1),
+            id0: a.2,
+            v1: at(b.0, b.1),
+            id1: b.2,
+            v2: at(c.0, c.1),
+            id2: c.2,
+        };
+        let [a, b, c, d] = [(0, 0, 0), (1, 0, 1), (1, 1, 2), (0, 1, 3)];
+        [triangle([a, b, c]), triangle([a, c, d])]
+    }
+
+    /// A box of which one corner is the origin.
+    fn up_to(x: f32, y: f32, z: f32) -> Ends {
+        [[0.0, x], [0.0, y], [0.0, z]]
+    }
+
+    #[test]
+    fn triangles_share_corners_and_small_leaves_are_first() {
+        let leaves = [
+            (up_to(1.0, 1.0, 0.0), Content::Triangles(vec![0, 1])),
+            (up_to(1.0, 0.5, 0.0), Content::Triangles(vec![0])),
+            (up_to(0.1, 0.1, 0.1), Content::Spheres(7)),
+        ];
+        let few = Few::of(leaves.into_iter(), &square()).expect("a list");
+        assert_eq!(few.corners.len(), 4);
+        let bits: Vec<u64> = few.leaves.iter().map(|leaf| leaf.corners).collect();
+        assert_eq!(bits, [0b111, 0b1111]);
+        let places: Vec<[u8; 3]> = few.triangles.iter().map(|listed| listed.corners).collect();
+        assert_eq!(places, [[0, 1, 2], [0, 2, 3], [0, 1, 2]]);
+        assert_eq!(few.spheres.len(), 1);
+    }
+
+    #[test]
+    fn there_is_no_list_of_much_or_of_what_rays_seldom_meet() {
+        let leaf = |n: usize| (up_to(1.0, 1.0, 0.0), Content::Triangles(vec![0; n]));
+        let of = |leaves: Vec<(Ends, Content)>| Few::of(leaves.into_iter(), &square());
+        let leaves = |n: usize| (0..n).map(|_| leaf(1)).collect();
+        assert!(of(vec![leaf(MOST)]).is_some() && of(vec![leaf(MOST + 1)]).is_none());
+        assert!(of(leaves(MOST_LEAVES)).is_some() && of(leaves(MOST_LEAVES + 1)).is_none());
+        let far = [[9.0, 10.0], [9.0, 10.0], [0.0, 0.0]];
+        assert!(of(vec![leaf(1), (far, Content::Triangles(vec![1]))]).is_none());
+    }
+}
