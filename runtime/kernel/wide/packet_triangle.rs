@@ -136,7 +136,7 @@ fn edges([a, b, c]: [&Corner; 3], ids: [u32; 3], active: v::B) -> Option<(v::B, 
     }
     let sum = v::add_f(v::add_f(w0, w1), w2);
     let all = v::or_b(v::gt_f(low, zero), v::lt_f(high, zero));
-    // Of numbers one of which is none, `low` and `high` say nothing.
+    // A weight that is no number may be missing from `low` and `high`; the sum has it.
     let sure = v::and_b(all, v::eq_f(sum, sum));
     if v::any(v::but_b(inside, sure)) {
         return edges_in_order([a, b, c], ids, active);
@@ -178,7 +178,7 @@ fn side(a: &Corner, b: &Corner, swap: bool) -> (v::B, v::F) {
     (inside, if swap { v::neg_f(e) } else { e })
 }
 
-/// The lanes in which the product of all three is positive, or no number.
+/// The lanes in which none or two of the three have a minus sign.
 #[target]
 #[inline]
 fn same_sign(a: v::F, b: v::F, c: v::F) -> v::B {

@@ -16,8 +16,8 @@ const MOST_LEAVES: usize = 32;
 /// Corners of a list, at most.
 pub const MOST_CORNERS: usize = 64;
 
-/// Leaves whose boxes a ray through the tree meets on average, at least: as many as their areas together are larger than
-/// that of the box of the tree. Where it is fewer, nodes leave out more than they cost.
+/// Leaves whose boxes a ray through the tree meets on average, at least: the sum of their areas over the area of the
+/// box of the tree. Where they are fewer, nodes leave out more than they cost.
 const MET: f32 = 0.7;
 
 /// For each axis the lower and the upper end of a box.
