@@ -2,14 +2,14 @@
 
 #import "bsdf/scatter.wgsl"
 #import "math/basis.wgsl"
-#import "math/sincos.wgsl"
+#import "math/disk.wgsl"
 #import "math/vector.wgsl"
 
 // A direction with density cos / pi around the shading normal. `u` in [0, 1 - 2^-24]^2.
 fn diffuse_direction(ns: vec3f, u: vec2f) -> vec3f {
-    let sc = sincos_2pi(u.y) * sqrt(u.x);
-    // u.x < 1, so the direction is at least 2^-12 above the surface.
-    let wi = vec3f(sc.y, sc.x, sqrt(1.0 - u.x));
+    let at = disk_concentric(u);
+    // at.r < 1, so the direction is at least 2^-12 above the surface.
+    let wi = vec3f(at.turn * at.r, sqrt(1.0 - at.r * at.r));
     return vector_unit(basis_world_from_local(basis_around(ns), wi));
 }
 

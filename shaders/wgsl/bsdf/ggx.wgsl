@@ -2,7 +2,7 @@
 // both directions unit and above the surface. `alpha` in 1e-3 ..= 1.
 // Trowbridge & Reitz 1975; Walter et al. 2007; height-correlated masking: Heitz 2014, JCGT 3(2).
 
-#import "math/sincos.wgsl"
+#import "math/disk.wgsl"
 #import "math/vector.wgsl"
 
 // Below this alpha a surface is smooth: single precision cannot resolve its lobe.
@@ -31,9 +31,9 @@ fn ggx_eval(wo: vec3f, wi: vec3f, alpha: f32) -> f32 {
 fn ggx_sample(wo: vec3f, alpha: f32, u: vec2f) -> vec3f {
     let i = vector_unit(vec3f(wo.xy * alpha, wo.z));
     let b = ggx_bound(wo, alpha) * i.z;
-    let z = (1.0 - u.y) * (1.0 + b) - b;
-    let sc = sincos_2pi(u.x) * sqrt(max(1.0 - z * z, 0.0));
-    let h = i + vec3f(sc.y, sc.x, z);
+    let at = disk_concentric(u);
+    let z = (1.0 - at.r * at.r) * (1.0 + b) - b;
+    let h = i + vec3f(at.turn * sqrt(max(1.0 - z * z, 0.0)), z);
     // h.z = i.z + z >= (1 - k) i.z > 0.
     let m = vector_unit_or(vec3f(h.xy * alpha, h.z), vec3f(0.0, 0.0, 1.0));
     return vector_unit(m * (2.0 * dot(wo, m)) - wo);

@@ -10,7 +10,7 @@
 // reciprocal, and with the lobe itself 1 in total for a white surface (Kulla & Conty 2017).
 
 #import "math/exp_log.wgsl"
-#import "math/sincos.wgsl"
+#import "math/disk.wgsl"
 
 // The fit at one width.
 struct GgxAlbedo {
@@ -63,11 +63,12 @@ fn ggx_albedo_missing(fit: GgxAlbedo, w: vec3f) -> f32 {
 // A direction with density proportional to cos / (cos^2 + a2), which is about M_i cos: narrow surfaces
 // send most of what is missing to grazing directions. `a2`: square of the width. `u` in [0, 1 - 2^-24]^2.
 fn ggx_albedo_sample(a2: f32, u: vec2f) -> vec3f {
-    let cos2 = a2 * (exp_log_exp2(u.x * exp_log_log2(1.0 + 1.0 / a2)) - 1.0);
+    let at = disk_concentric(u);
+    // In the middle of the disk 1.
+    let cos2 = a2 * (exp_log_exp2((1.0 - at.r * at.r) * exp_log_log2(1.0 + 1.0 / a2)) - 1.0);
     // At least 2^-12 above the surface.
     let c2 = clamp(cos2, 5.9604645e-8, 1.0);
-    let sc = sincos_2pi(u.y) * sqrt(1.0 - c2);
-    return vec3f(sc.y, sc.x, sqrt(c2));
+    return vec3f(at.turn * sqrt(1.0 - c2), sqrt(c2));
 }
 
 // Density of `ggx_albedo_sample`, per steradian, at cosine `c` > 0.

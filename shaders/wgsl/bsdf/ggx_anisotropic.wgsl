@@ -4,7 +4,7 @@
 // Heitz 2014, JCGT 3(2); remapping of roughness: Burley 2012, "Physically Based Shading at Disney".
 
 #import "bsdf/ggx.wgsl"
-#import "math/sincos.wgsl"
+#import "math/disk.wgsl"
 #import "math/vector.wgsl"
 
 // Widths of perceptual `roughness` and `anisotropy`, both 0 ..= 1: at 1 the lobe is ten times as wide
@@ -40,9 +40,9 @@ fn ggx_anisotropic_eval(wo: vec3f, wi: vec3f, alpha: vec2f) -> f32 {
 fn ggx_anisotropic_sample(wo: vec3f, alpha: vec2f, u: vec2f) -> vec3f {
     let i = vector_unit(vec3f(wo.xy * alpha, wo.z));
     let b = ggx_anisotropic_bound(wo, alpha) * i.z;
-    let z = (1.0 - u.y) * (1.0 + b) - b;
-    let sc = sincos_2pi(u.x) * sqrt(max(1.0 - z * z, 0.0));
-    let h = i + vec3f(sc.y, sc.x, z);
+    let at = disk_concentric(u);
+    let z = (1.0 - at.r * at.r) * (1.0 + b) - b;
+    let h = i + vec3f(at.turn * sqrt(max(1.0 - z * z, 0.0)), z);
     // h.z = i.z + z >= (1 - k) i.z > 0.
     let m = vector_unit_or(vec3f(h.xy * alpha, h.z), vec3f(0.0, 0.0, 1.0));
     return vector_unit(m * (2.0 * dot(wo, m)) - wo);

@@ -4,7 +4,7 @@
 // Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", EGSR.
 
 #import "bsdf/ggx.wgsl"
-#import "math/sincos.wgsl"
+#import "math/disk.wgsl"
 #import "math/vector.wgsl"
 
 // Smith's masking: the share of a facet that is seen from `w`, on either side of the surface.
@@ -19,10 +19,10 @@ fn ggx_transmission_seen(w: vec3f, alpha: f32) -> f32 {
 fn ggx_transmission_normal(wo: vec3f, alpha: f32, u: vec2f) -> vec3f {
     let i = vector_unit(vec3f(wo.xy * alpha, wo.z));
     // Height of the cap's point above the other end, so that z below and i.z need not be added again.
-    let top = (1.0 - u.y) * (1.0 + i.z);
+    let at = disk_concentric(u);
+    let top = (1.0 - at.r * at.r) * (1.0 + i.z);
     let z = top - i.z;
-    let sc = sincos_2pi(u.x) * sqrt(max(1.0 - z * z, 0.0));
-    let flat = i.xy + vec2f(sc.y, sc.x);
+    let flat = i.xy + at.turn * sqrt(max(1.0 - z * z, 0.0));
     return vector_unit_or(vec3f(flat * alpha, top), vec3f(0.0, 0.0, 1.0));
 }
 

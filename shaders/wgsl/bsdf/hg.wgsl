@@ -6,25 +6,31 @@
 // factors: 3.4e-7 absolute for every a in 0 ..= 0.999999, as `tests/tests/functions` checks.
 
 #import "math/basis.wgsl"
-#import "math/sincos.wgsl"
+#import "math/disk.wgsl"
 #import "math/vector.wgsl"
 
 // A direction with density `hg_pdf` around the unit vector `forward`. `g` in -0.999999 ..= 0.999999, `u` in
 // [0, 1 - 2^-24]^2.
 fn hg_sample(forward: vec3f, g: f32, u: vec2f) -> vec3f {
-    let a = abs(g);
+    let at = disk_concentric(u);
+    let axis = select(forward, -forward, g < 0.0);
+    let local = hg_local(abs(g), at.r * at.r, at.turn);
+    return vector_unit(basis_world_from_local(basis_around(axis), local));
+}
+
+// The direction than which a share `v` of all are more forward, 0 <= v <= 1, turned around z by (cos, sin) `turn`.
+// `a`: as above.
+fn hg_local(a: f32, v: f32, turn: vec2f) -> vec3f {
+    let u = 1.0 - v;
     let om = 1.0 - a;
-    let d = om + 2.0 * a * u.x;
+    let d = om + 2.0 * a * u;
     let k = om / d;
     // 1 - cos and 1 + cos.
-    let omc = 2.0 * k * k * (1.0 - u.x) * (1.0 + a * u.x);
+    let omc = 2.0 * k * k * v * (1.0 + a * u);
     let j = (1.0 + a) / d;
-    let opc = 2.0 * j * j * u.x * (om + a * u.x);
+    let opc = 2.0 * j * j * u * (om + a * u);
     let c = select(opc - 1.0, 1.0 - omc, omc < 1.0);
-    let s = sqrt(max(omc * opc, 0.0));
-    let sc = sincos_2pi(u.y) * s;
-    let axis = select(forward, -forward, g < 0.0);
-    return vector_unit(basis_world_from_local(basis_around(axis), vec3f(sc.y, sc.x, c)));
+    return vec3f(turn * sqrt(max(omc * opc, 0.0)), c);
 }
 
 // Density of `hg_sample` towards the unit vector `wi`, per steradian.

@@ -4,7 +4,7 @@
 
 #import "bsdf/scatter.wgsl"
 #import "math/exp_log.wgsl"
-#import "math/sincos.wgsl"
+#import "math/disk.wgsl"
 #import "math/vector.wgsl"
 
 // Below this radius the lobe is a mirror: narrower than a thousandth of a radian.
@@ -25,9 +25,10 @@ fn metal_sample(s: Scatter, wo: vec3f, u: vec2f, v: f32) -> Scattered {
 
 // The direction `r` moved by a point of a ball of radius `fuzz`, unit. `u`, `v`: as in `metal_sample`.
 fn metal_direction(r: vec3f, fuzz: f32, u: vec2f, v: f32) -> vec3f {
-    let z = 1.0 - 2.0 * u.x;
-    let sc = sincos_2pi(u.y) * sqrt(max(1.0 - z * z, 0.0));
-    let d = r + vec3f(sc.y, sc.x, z) * (fuzz * exp_log_cbrt(v));
+    let at = disk_concentric(u);
+    let z = 1.0 - 2.0 * at.r * at.r;
+    let on_sphere = vec3f(at.turn * sqrt(max(1.0 - z * z, 0.0)), z);
+    let d = r + on_sphere * (fuzz * exp_log_cbrt(v));
     // With a ball that reaches the surface point the sum may vanish.
     return select(vector_unit(d), r, dot(d, d) < 1e-12);
 }

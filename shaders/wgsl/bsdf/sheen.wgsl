@@ -13,7 +13,7 @@
 #import "bsdf/under_sheen.wgsl"
 #import "math/basis.wgsl"
 #import "math/exp_log.wgsl"
-#import "math/sincos.wgsl"
+#import "math/disk.wgsl"
 #import "math/vector.wgsl"
 #import "scene/layers.wgsl"
 #import "scene/plain.wgsl"
@@ -40,8 +40,10 @@ fn sheen_direction(s: Scatter, p: Principled, wo: vec3f, u: vec2f, v: f32) -> Sc
         let plain = dispatch_plain_direction(s, p, wo, u, min((v - share) / (1.0 - share), 0.99999994));
         return Scattered(plain.wi, plain.pdf, plain.weight / (1.0 - share), plain.eta2);
     }
-    let sc = sincos_2pi(u.y) * sqrt(max(1.0 - u.x * u.x, 0.0));
-    let wi = vector_unit(basis_world_from_local(basis_around(s.ns), vec3f(sc.y, sc.x, u.x)));
+    let at = disk_concentric(u);
+    let z = 1.0 - at.r * at.r;
+    let flat = at.turn * sqrt(max(1.0 - z * z, 0.0));
+    let wi = vector_unit(basis_world_from_local(basis_around(s.ns), vec3f(flat, z)));
     if (!scatter_above(s, wi)) {
         return scatter_absorb();
     }

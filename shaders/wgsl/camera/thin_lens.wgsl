@@ -2,13 +2,13 @@
 
 #import "abi/camera.wgsl"
 #import "camera/film_plane.wgsl"
-#import "math/sincos.wgsl"
+#import "math/disk.wgsl"
 #import "math/vector.wgsl"
 
 // A point uniform on a round lens, to the right and up from its middle: `u` in [0, 1)^2.
 fn thin_lens_disk(camera: Camera, u: vec2f) -> vec2f {
-    let sc = sincos_2pi(u.y) * (sqrt(u.x) * camera.lens_radius);
-    return sc.yx;
+    let at = disk_concentric(u);
+    return at.turn * (at.r * camera.lens_radius);
 }
 
 // The ray through `at`, pixels from the top left corner, and the point `p` of the lens.

@@ -5,7 +5,7 @@
 #import "abi/light.wgsl"
 #import "light/light_sample.wgsl"
 #import "math/basis.wgsl"
-#import "math/sincos.wgsl"
+#import "math/disk.wgsl"
 #import "math/vector.wgsl"
 #import "scene/constants.wgsl"
 #import "scene/records.wgsl"
@@ -14,9 +14,9 @@
 
 // A direction to the light; `u` in [0, 1 - 2^-24]^2.
 fn directional_light_sample(light: Light, u: vec2f) -> LightSample {
-    let x = u.x * light.edge2.x;
-    let sc = sincos_2pi(u.y) * sqrt(x * (2.0 - x));
-    let local = vec3f(sc.y, sc.x, 1.0 - x);
+    let at = disk_concentric(u);
+    let x = at.r * at.r * light.edge2.x;
+    let local = vec3f(at.turn * sqrt(x * (2.0 - x)), 1.0 - x);
     let wi = vector_unit(basis_world_from_local(basis_around(light.origin), local));
     return LightSample(wi, RAY_FAR, directional_light_pdf(light), true);
 }

@@ -4,7 +4,7 @@
 #import "abi/light.wgsl"
 #import "light/light_sample.wgsl"
 #import "math/basis.wgsl"
-#import "math/sincos.wgsl"
+#import "math/disk.wgsl"
 #import "math/vector.wgsl"
 
 // 1 - cos of the cone's half angle from `p`; 0 inside or on the light, where it is not sampled: there every
@@ -26,14 +26,14 @@ fn sphere_light_sample(light: Light, p: vec3f, u: vec2f) -> LightSample {
     if (omc <= 0.0) {
         return light_sample_none();
     }
-    let x = u.x * omc;
+    let at = disk_concentric(u);
+    let x = at.r * at.r * omc;
     let cos_t = 1.0 - x;
     let sin2_t = x * (2.0 - x);
-    let sc = sincos_2pi(u.y) * sqrt(sin2_t);
     let v = light.origin - p;
     let d2 = dot(v, v);
     let distance = sqrt(d2);
-    let wi = vector_unit(basis_world_from_local(basis_around(v / distance), vec3f(sc.y, sc.x, cos_t)));
+    let wi = vector_unit(basis_world_from_local(basis_around(v / distance), vec3f(at.turn * sqrt(sin2_t), cos_t)));
     let chord = light.edge1.x * light.edge1.x - d2 * sin2_t;
     let t = distance * cos_t - sqrt(max(chord, 0.0));
     return LightSample(wi, t, 1.0 / (2.0 * PI * omc), true);

@@ -52,8 +52,8 @@ pub fn sample(g: f32, n: usize) -> [Sampled; 2] {
     let mut kernel = bench.single();
     for _ in 0..n {
         let u = stream.unit24();
-        let cosines =
-            [(naive(g, u), false), (kernel.hg_sample(Vec3::Z, g, Vec2::new(u, 0.3)).z, true)];
+        let local = kernel.hg_local(g.abs(), 1.0 - u, Vec2::X);
+        let cosines = [(naive(g, u), false), (g.signum() * local.z, true)];
         for (sampled, (cos, backward)) in found.iter_mut().zip(cosines) {
             sampled.range = [sampled.range[0].min(cos), sampled.range[1].max(cos)];
             sampled.outside += usize::from(cos.abs() > 1.0 + 1e-5);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 use tests::kernel::Bench;
 use tests::statistics::stream::Stream;
 
@@ -25,6 +25,34 @@ fn sine_and_cosine_of_turns() {
     value.check("sincos_2pi", 8.9e-8);
     circle.check("sincos_2pi squared", 2.2e-7);
     twin.check("sincos_2pi in double precision", 5e-8);
+}
+
+/// Of each point of the square the distance to its middle, by the larger coordinate, is that of the disk; what the
+/// smaller one is of it, is the angle in eighths of a turn.
+#[test]
+fn squares_become_disks() {
+    let bench = Bench::new();
+    let (mut single, mut double) = (bench.single(), bench.double());
+    let (mut value, mut twin) = (Worst::default(), Worst::default());
+    let mut stream = Stream::new(29, 0);
+    let step = 2.0_f64.powi(-24);
+    let edges = [0.0, 0.25, 0.5 - step, 0.5, 0.75, 1.0 - step];
+    let corners = edges.iter().flat_map(|x| edges.map(|y| DVec2::new(*x, y)));
+    let inside = std::iter::repeat_with(|| stream.pair24().as_dvec2()).take(400_000);
+    for u in corners.chain(inside) {
+        let q = 2.0 * u - DVec2::splat(1.0 - step);
+        let r = q.abs().max_element();
+        let angle = if q.x.abs() > q.y.abs() { q.y / q.x } else { 2.0 - q.x / q.y } * TAU / 8.0;
+        let far = if q.x.abs() > q.y.abs() { q.x } else { q.y };
+        let truth = far * DVec2::new(angle.cos(), angle.sin());
+        let at = single.disk_concentric(u.as_vec2());
+        assert_eq!(f64::from(at.r), r);
+        value.add((at.turn.as_dvec2() * r - truth).abs().max_element(), u.x);
+        let at = double.disk_concentric(u);
+        twin.add((at.turn * at.r - truth).abs().max_element(), u.x);
+    }
+    value.check("disk_concentric", 1e-7);
+    twin.check("disk_concentric in double precision", 5e-8);
 }
 
 /// `n` values between `low` and `high`, even in the logarithm, with both ends.

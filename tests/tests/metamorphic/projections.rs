@@ -87,19 +87,19 @@ fn what_is_projected_goes_with_its_thing() {
     let thing = |place: &str| format!("shape = sphere(radius: 1m){place}");
     let still = "from = (2, 2, 3)m, to = (0, 0, 0)m";
     let still = compiled(&projected("box"), &thing(""), "(3, 2, 1)", still);
-    let still = Means::of(&still, 1000);
+    let still = Means::of(&still, 11_000);
     // A quarter turn about y: (x, y, z) goes to (z, y, -x).
     let turned = ", rotate = (0, 90, 0)deg, at = (5, 1, -2)m";
     let eye = "from = (8, 3, -4)m, to = (5, 1, -2)m";
     let turned = compiled(&projected("box"), &thing(turned), "(6, 3, -5)", eye);
-    assert_same_mean("turned", &Means::of(&turned, 7000), &still);
+    assert_same_mean("turned", &Means::of(&turned, 17_000), &still);
     let small = compiled(
         &projected("box"),
         "shape = sphere(radius: 25cm), scale = 4",
         "(3, 2, 1)",
         "from = (2, 2, 3)m, to = (0, 0, 0)m",
     );
-    assert_same_mean("enlarged", &Means::of(&small, 9000), &still);
+    assert_same_mean("enlarged", &Means::of(&small, 19_000), &still);
 }
 
 /// Where a surface faces two axes alike it is half of each plane's texture.

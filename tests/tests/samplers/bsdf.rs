@@ -213,7 +213,9 @@ fn ggx_directions_have_their_density() {
                 sample: |i| {
                     let u = single.sample_2d(key(test, i), single::PURPOSE_DIRECTION);
                     let wi = single.ggx_sample(wo.as_vec3(), alpha, u);
-                    (wi.z > 0.0).then(|| wi.as_dvec3().normalize())
+                    // Some three in a million at grazing incidence are lower, some of them in cells that the
+                    // horizon cuts below every point of the quadrature.
+                    (wi.z > 1e-5).then(|| wi.as_dvec3().normalize())
                 },
                 pdf: |d| double.ggx_pdf(wo, d, a),
             });
@@ -398,7 +400,8 @@ fn densities_are_those_of_double_precision() {
 fn near_rim(lobe: &Lobe, wo: Vec3, wi: Vec3) -> bool {
     let c = wi.as_dvec3().normalize().dot(lobe.mirror(wo.as_dvec3()));
     let a = f64::from(lobe.fuzz);
-    lobe.kind == MaterialKind::Metal && (1.0 - c * c > 0.99 * a * a || c < 0.05)
+    // There a direction that is off by 2^-24 changes the density by 50 times its share of `a`: 3e-6 / a.
+    lobe.kind == MaterialKind::Metal && (1.0 - c * c > 0.98 * a * a || c < 0.05)
 }
 
 /// The normals of GGX, projected, fill the unit disc: integral of D cos = 1.

@@ -67,8 +67,18 @@ fn a_rough_conductor_without_compensation_loses_ln_2() {
     assert!((e - (1.0 - std::f64::consts::LN_2)).abs() < 1e-4, "{e}");
 }
 
+/// The point of the unit square that `disk_concentric` moves `r` from the middle of the disk, `turn` turns around it.
+fn square_from_disk(turn: f64, r: f64) -> glam::DVec2 {
+    // The nearest axis, and eighths of a turn from it.
+    let axis = (4.0 * turn).round();
+    let along = r * 2.0 * (4.0 * turn - axis);
+    let (sin, cos) = (axis * std::f64::consts::FRAC_PI_2).sin_cos();
+    let q = glam::DVec2::new(r * cos - along * sin, r * sin + along * cos);
+    0.5 * (q + glam::DVec2::splat(1.0 - 2.0_f64.powi(-24)))
+}
+
 /// Share of light from `o`, local frame, that a white conductor returns. The first lobe: its value over its
-/// density, averaged over `n` x `2 n` points of the unit square that crowd where the lobe's tail is. The second:
+/// density, averaged over `n` x `2 n` points of the unit disk that crowd where the lobe's tail is. The second:
 /// by cosine and angle, crowded towards grazing, where smooth metals send it.
 fn returned(lobe: &Lobe, o: DVec3, n: usize) -> f64 {
     let bench = lobe.bench();
@@ -83,7 +93,7 @@ fn returned(lobe: &Lobe, o: DVec3, n: usize) -> f64 {
         let t = 1.0 - at(i, n);
         let (y, dy) = (1.0 - t.powi(4), 4.0 * t.powi(3));
         for j in 0..2 * n {
-            let u = glam::DVec2::new(at(j, 2 * n), y);
+            let u = square_from_disk(at(j, 2 * n), y.sqrt());
             let wi = kernel.ggx_anisotropic_sample(o, shape.alpha, u);
             if wi.z > 0.0 {
                 let f = kernel.ggx_anisotropic_eval(o, wi, shape.alpha);
