@@ -57,6 +57,32 @@ impl Shape {
     pub const HEMISPHERE: Self = Self { reach: FRAC_PI_2, n_rings: 20, ..Self::SPHERE };
 }
 
+/// Most times that a patch at the horizon is halved: slivers 2^-10 of a patch high are seen.
+const CUTS: usize = 5;
+
+/// Part of a cell, in the unit interval of rings and that of the sectors of its quadrant.
+#[derive(Clone, Copy, Debug)]
+struct Patch {
+    quadrant: usize,
+    /// Its middle.
+    ring: f64,
+    sector: f64,
+    /// Half of its sides.
+    half: [f64; 2],
+}
+
+impl Patch {
+    fn quarters(self) -> [Self; 4] {
+        let half = self.half.map(|h| h * 0.5);
+        [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)].map(|(r, s)| Self {
+            ring: self.ring + r * half[0],
+            sector: self.sector + s * half[1],
+            half,
+            ..self
+        })
+    }
+}
+
 /// Cells of directions.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
@@ -114,41 +140,70 @@ impl Grid {
     /// As [`Grid::integrate`], over the directions above the plane with unit normal `up` only. Where the
     /// plane cuts, shares are exact to first order, so cells at the horizon are as good as the others. `f`
     /// is asked above the plane only.
-    pub fn integrate_above(
+    pub fn integrate_above(&self, fine: usize, up: DVec3, f: impl FnMut(DVec3) -> f64) -> Vec<f64> {
+        self.integrate_cut(fine, up, 0, f)
+    }
+
+    /// As [`Grid::integrate_above`], to count samples by: patches that the plane may cut are halved up to
+    /// [`CUTS`] times, so that a cell that reaches above the plane by a hair expects its hair.
+    pub fn expect_above(&self, fine: usize, up: DVec3, f: impl FnMut(DVec3) -> f64) -> Vec<f64> {
+        self.integrate_cut(fine, up, CUTS, f)
+    }
+
+    fn integrate_cut(
         &self,
         fine: usize,
         up: DVec3,
+        cuts: usize,
         mut f: impl FnMut(DVec3) -> f64,
     ) -> Vec<f64> {
         let mut sums = vec![0.0; self.cells()];
         let (n, m) = (self.shape.n_rings * fine, self.shape.n_sectors * fine);
-        let area = 1.0 / (n as f64 * m as f64);
         for i in 0..n {
-            let (theta, d_theta) = self.rings.at((i as f64 + 0.5) / n as f64);
-            let (sin, cos) = theta.sin_cos();
             for j in 0..m {
-                let (phi, d_phi) = self.sectors.at((j as f64 + 0.5) / m as f64);
                 for quadrant in 0..4 {
-                    let (x, y) = self.quadrant(quadrant);
-                    let out = x * phi.cos() + y * phi.sin();
-                    let d = out * sin + self.axis * cos;
-                    // Half the cell's extent along both of its sides, measured along `up`.
-                    let along = (out * cos - self.axis * sin).dot(up) * d_theta / n as f64 * 0.5;
-                    let turned =
-                        (y * phi.cos() - x * phi.sin()).dot(up) * sin * d_phi / m as f64 * 0.5;
-                    let (a, b) = (along.abs(), turned.abs());
-                    let height = d.dot(up);
-                    let share = if up == DVec3::ZERO { 1.0 } else { share_above(height, a, b) };
-                    if share > 0.0 {
-                        let lift = ((a + b) * 0.25 - height).max(0.0);
-                        let d = if share < 1.0 { (d + up * lift).normalize() } else { d };
-                        let cell = (i / fine * self.shape.n_sectors + j / fine) * 4 + quadrant;
-                        sums[cell] += share * f(d) * sin * d_theta * d_phi * area;
-                    }
+                    let patch = Patch {
+                        quadrant,
+                        ring: (i as f64 + 0.5) / n as f64,
+                        sector: (j as f64 + 0.5) / m as f64,
+                        half: [0.5 / n as f64, 0.5 / m as f64],
+                    };
+                    let cell = (i / fine * self.shape.n_sectors + j / fine) * 4 + quadrant;
+                    sums[cell] += self.above(patch, up, cuts, &mut f);
                 }
             }
         }
         sums
+    }
+
+    /// Integral of `f` over the part of `patch` above the plane of `up`, cut at most `cuts` times.
+    fn above(&self, patch: Patch, up: DVec3, cuts: usize, f: &mut impl FnMut(DVec3) -> f64) -> f64 {
+        let (theta, d_theta) = self.rings.at(patch.ring);
+        let (phi, d_phi) = self.sectors.at(patch.sector);
+        let (sin, cos) = theta.sin_cos();
+        let (x, y) = self.quadrant(patch.quadrant);
+        let out = x * phi.cos() + y * phi.sin();
+        let d = out * sin + self.axis * cos;
+        // Half of the patch's sides, radians, and as measured along `up`.
+        let (high, wide) = (d_theta * patch.half[0], d_phi * patch.half[1]);
+        let a = (out * cos - self.axis * sin).dot(up).abs() * high;
+        let b = (y * phi.cos() - x * phi.sin()).dot(up).abs() * sin * wide;
+        let height = d.dot(up);
+        // A great circle leaves its tangent by half the square of the angle; as much again for the stretch.
+        if cuts > 0 && up != DVec3::ZERO && height.abs() < a + b + (high + wide).powi(2) {
+            return patch
+                .quarters()
+                .map(|quarter| self.above(quarter, up, cuts - 1, f))
+                .iter()
+                .sum();
+        }
+        let share = if up == DVec3::ZERO { 1.0 } else { share_above(height, a, b) };
+        if share == 0.0 {
+            return 0.0;
+        }
+        let lift = ((a + b) * 0.25 - height).max(0.0);
+        let d = if share < 1.0 { (d + up * lift).normalize() } else { d };
+        share * f(d) * sin * 4.0 * high * wide
     }
 
     /// `side` and `across`, turned to the quadrant.
