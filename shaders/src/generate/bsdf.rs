@@ -48,7 +48,7 @@ fn row(kind: MaterialKind) -> Row {
 pub(crate) fn mix(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: whether materials of this scene are mixed.\n\n");
     text += &imports([
-        "abi/material.wgsl",
+        "abi/material_head.wgsl",
         "sampler/key.wgsl",
         "scene/constants.wgsl",
         "surface/surface.wgsl",
@@ -61,7 +61,7 @@ pub(crate) fn mix(features: &FeatureSet) -> String {
     let _ = write!(
         text,
         "\n// Gives the surface `s` of material `m` one of those that `m` is made of.\n\
-         fn dispatch_mix(s: ptr<function, Surface>, m: ptr<function, Material>, key: SampleKey) {{\n    \
+         fn dispatch_mix(s: ptr<function, Surface>, m: ptr<function, MaterialHead>, key: SampleKey) {{\n    \
          switch ((*m).kind) {{\n{case}        default: {{}}\n    }}\n}}\n"
     );
     text

@@ -78,17 +78,8 @@ const THING_DIR: Function = Function {
             return pose_dir(object & ~MOVES, dir, time);\n",
 };
 
-const TRIANGLE_CARRY: Function = Function {
-    comment: "Takes the surface `s` of triangle `i` to where the triangle is at `time`.",
-    signature: "triangle_carry(s: ptr<function, Surface>, i: u32, time: f32)",
-    still: "",
-    straight: "    if ((load_triangle_id0(i) & MOVES) != 0u) {\n        \
-               surface_carry(s, motion_shift((*s).object, time));\n    }\n",
-    keyed: "    if ((load_triangle_id0(i) & MOVES) != 0u) {\n        pose_carry(s, time);\n    }\n",
-};
-
 const THING_CARRY: Function = Function {
-    comment: "Takes the surface `s` of a sphere or an instance with this word `object` to where it is at `time`.",
+    comment: "Takes the surface `s` of a thing with this word `object` to where it is at `time`.",
     signature: "thing_carry(s: ptr<function, Surface>, object: u32, time: f32)",
     still: "",
     straight: "    if ((object & MOVES) != 0u) {\n        \
@@ -121,14 +112,13 @@ const TURN_OF: Function = Function {
             var first = key;\n    first.bounce = 0u;\n    return pose_turn(i, v, dispatch_time(first));\n",
 };
 
-const FUNCTIONS: [Function; 11] = [
+const FUNCTIONS: [Function; 10] = [
     TRIANGLE,
     SPHERE,
     TRIANGLE_ORIGIN,
     THING_ORIGIN,
     TRIANGLE_DIR,
     THING_DIR,
-    TRIANGLE_CARRY,
     THING_CARRY,
     TURN,
     TURN_BACK,

@@ -10,7 +10,7 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
     let mut text =
         String::from("// Generated: camera, sky, shapes and direct light of this scene.\n\n");
     let mut modules = vec![
-        "abi/material.wgsl",
+        "abi/material_head.wgsl",
         "bsdf/scatter.wgsl",
         "camera/film_plane.wgsl",
         "kernel/state.wgsl",
@@ -146,15 +146,15 @@ fn surface(features: &FeatureSet) -> String {
     let mut body = String::new();
     if features.spheres {
         let mut sphere = String::from(
-            "    let i = hit.prim & ~PRIM_SPHERE;\n    \
-             let start = dispatch_thing_origin(load_sphere_object(i), origin, time);\n    \
-             let back = dispatch_thing_dir(load_sphere_object(i), dir, time);\n    \
-             var s = sphere_surface(i, start, back, hit.t);\n",
+            "    let sphere = load_sphere(hit.prim & ~PRIM_SPHERE);\n    \
+             let start = dispatch_thing_origin(sphere.object, origin, time);\n    \
+             let back = dispatch_thing_dir(sphere.object, dir, time);\n    \
+             var s = sphere_surface(sphere, start, back, hit.t);\n",
         );
         if !features.textures.is_empty() || features.tangents {
             sphere += "    s.uv = sphere_uv(select(-s.ng, s.ng, s.front));\n";
         }
-        sphere += "    dispatch_thing_carry(&s, load_sphere_object(i), time);\n    return s;\n";
+        sphere += "    dispatch_thing_carry(&s, sphere.object, time);\n    return s;\n";
         if features.triangles {
             let inner = sphere.replace("    ", "        ");
             let _ = write!(body, "    if ((hit.prim & PRIM_SPHERE) != 0u) {{\n{inner}    }}\n");
@@ -168,9 +168,12 @@ fn surface(features: &FeatureSet) -> String {
         let _ = write!(
             body,
             "    if (dispatch_is_placed(hit)) {{\n        return dispatch_placed_surface(hit, dir, time);\n    }}\n    \
-             let back = dispatch_triangle_dir(hit.prim, dir, time);\n    \
-             var s = {function}(hit.prim, hit.b, back);\n    \
-             dispatch_triangle_carry(&s, hit.prim, time);\n    return s;\n"
+             let tri = load_triangle(hit.prim);\n    \
+             let shade = load_tri_shade(hit.prim);\n    \
+             let thing = triangle_thing(tri, shade);\n    \
+             let back = dispatch_thing_dir(thing, dir, time);\n    \
+             var s = {function}(tri, shade, hit.b, back);\n    \
+             dispatch_thing_carry(&s, thing, time);\n    return s;\n"
         );
     }
     format!(
@@ -214,7 +217,7 @@ fn shading_normal(features: &FeatureSet) -> String {
     };
     format!(
         "\n// Tilts the shading normal of `s`, seen along `dir`, as the material says.\n\
-         fn dispatch_shading_normal(s: ptr<function, Surface>, m: Material, dir: vec3f) {{\n{map}}}\n"
+         fn dispatch_shading_normal(s: ptr<function, Surface>, m: MaterialHead, dir: vec3f) {{\n{map}}}\n"
     )
 }
 
@@ -258,7 +261,7 @@ pub(crate) fn projection(features: &FeatureSet) -> String {
 pub(crate) fn brushing(features: &FeatureSet) -> String {
     let mut text =
         String::from("// Generated: whether this scene has brushed principled surfaces.\n\n");
-    text += &imports(["abi/material.wgsl", "surface/brushing.wgsl", "surface/surface.wgsl"]);
+    text += &imports(["abi/material_head.wgsl", "surface/brushing.wgsl", "surface/surface.wgsl"]);
     let body = if features.principled_anisotropy {
         "    if (kind == MATERIAL_PRINCIPLED) {\n        return brushing_at(s);\n    }\n"
     } else {

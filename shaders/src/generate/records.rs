@@ -57,6 +57,31 @@ const TABLES: &[Table] = &[
     section("TextureOp", "texture_op", "texel_word", "abi/texture_op.wgsl"),
 ];
 
+/// The beginning of a record, a struct and a loader of its own: what is asked every time, where the rest is asked
+/// seldom and field by field.
+struct Head {
+    record: &'static str,
+    name: &'static str,
+    stem: &'static str,
+    module: &'static str,
+    n_words: usize,
+}
+
+const HEADS: [Head; 1] = [Head {
+    record: "Material",
+    name: "MaterialHead",
+    stem: "material_head",
+    module: "abi/material_head.wgsl",
+    n_words: 6,
+}];
+
+impl Head {
+    fn fields<'a>(&self, record: &'a Record) -> &'a [Field] {
+        let n = record.fields.iter().take_while(|field| field.offset < 16 * self.n_words).count();
+        &record.fields[..n]
+    }
+}
+
 /// Records that the kernel writes: name, beginning of the function's name, module; the others are in [`TABLES`].
 const WRITTEN: [(&str, &str, &str); 2] =
     [("FilmPixel", "film", "abi/film.wgsl"), ("AovSample", "aov", "abi/aov.wgsl")];
@@ -66,22 +91,27 @@ const WRITTEN: [(&str, &str, &str); 2] =
 pub(crate) fn structs() -> Vec<(&'static str, String)> {
     let written = WRITTEN.map(|(record, _, module)| (record, module));
     let modules = TABLES.iter().map(|table| (table.record, table.module)).chain(written);
-    modules
-        .filter_map(|(name, module)| {
-            let record = abi::records().into_iter().find(|record| record.name == name)?;
-            Some((module, struct_text(&record)))
-        })
-        .collect()
+    let records = abi::records();
+    let find = |name: &str| records.iter().find(|record| record.name == name);
+    let whole = modules.filter_map(|(name, module)| {
+        let record = find(name)?;
+        Some((module, struct_text(name, record.doc, record.fields)))
+    });
+    let heads = HEADS.iter().filter_map(|head| {
+        let doc = format!(" The first words of a `{}`: what every vertex asks.", head.record);
+        Some((head.module, struct_text(head.name, &[&doc], head.fields(find(head.record)?))))
+    });
+    whole.chain(heads).collect()
 }
 
 /// The struct as it would be written by hand; padding explains itself.
-fn struct_text(record: &Record) -> String {
+fn struct_text(name: &str, doc: &[&str], fields: &[Field]) -> String {
     let mut text = String::new();
-    for line in record.doc {
+    for line in doc {
         let _ = writeln!(text, "//{line}");
     }
-    let _ = writeln!(text, "struct {} {{", record.name);
-    for field in record.fields {
+    let _ = writeln!(text, "struct {name} {{");
+    for field in fields {
         for line in field.doc.iter().filter(|_| !field.name.starts_with("_pad")) {
             let _ = writeln!(text, "    //{line}");
         }
@@ -96,11 +126,18 @@ pub(crate) fn text() -> String {
         String::from("// Generated: loaders of the records, from their field tables.\n\n");
     let mut modules: Vec<&str> = TABLES.iter().map(|table| table.module).collect();
     modules.extend(WRITTEN.map(|(_, _, module)| module));
+    modules.extend(HEADS.iter().map(|head| head.module));
     modules.push("scene/bindings.wgsl");
     text += &super::wgsl::imports(modules);
-    for Record { name, fields, size, .. } in abi::records() {
+    for record in abi::records() {
+        let Record { name, fields, size, .. } = record;
         if let Some(table) = TABLES.iter().find(|table| table.record == name) {
-            text += &loaders(table, fields, size / 16);
+            text += &loader(table, (name, table.stem), fields, [size / 16; 2]);
+            for head in HEADS.iter().filter(|head| head.record == name) {
+                let n_words = [head.n_words, size / 16];
+                text += &loader(table, (head.name, head.stem), head.fields(&record), n_words);
+            }
+            text += &field_loaders(table, fields, size / 16);
         } else if let Some((_, stem, _)) = WRITTEN.iter().find(|written| written.0 == name) {
             text += &store(name, stem, fields, size / 16);
         }
@@ -108,36 +145,65 @@ pub(crate) fn text() -> String {
     text
 }
 
-fn loaders(table: &Table, fields: &[Field], n_words: usize) -> String {
-    let Table { record, stem, .. } = table;
-    let parameter = if table.single { "" } else { "i: u32" };
-    let mut text = format!("\nfn load_{stem}({parameter}) -> {record} {{\n");
+/// `load_<stem>(i)`: the struct `name` of `fields`, which are in the first of its `n_words`, of as many as the second
+/// says.
+fn loader(
+    table: &Table,
+    (name, stem): (&str, &str),
+    fields: &[Field],
+    [n_words, stride]: [usize; 2],
+) -> String {
+    let mut text = format!("\nfn load_{stem}({}) -> {name} {{\n", parameter(table));
+    let first = first(table, stride);
+    if let Some(at) = &first {
+        let _ = writeln!(text, "    let at = {at};");
+    }
     for w in 0..n_words {
-        let _ = writeln!(text, "    let w{w} = {};", word(table, n_words, w));
+        let _ = writeln!(text, "    let w{w} = {};", word(table, first.as_ref().map(|_| "at"), w));
     }
     let values: Vec<String> =
         fields.iter().map(|field| decode(field, &format!("w{}", field.offset / 16))).collect();
     let _ =
-        writeln!(text, "    return {record}(\n        {},\n    );\n}}", values.join(",\n        "));
+        writeln!(text, "    return {name}(\n        {},\n    );\n}}", values.join(",\n        "));
+    text
+}
+
+/// `load_<stem>_<field>(i)` of every field.
+fn field_loaders(table: &Table, fields: &[Field], n_words: usize) -> String {
+    let mut text = String::new();
+    let first = first(table, n_words);
     for field in fields.iter().filter(|field| !field.name.starts_with("_pad")) {
-        let value = decode(field, &word(table, n_words, field.offset / 16));
-        let (name, ty) = (field.name, field.ty.wgsl());
+        let value = decode(field, &word(table, first.as_deref(), field.offset / 16));
+        let (stem, name, ty) = (table.stem, field.name, field.ty.wgsl());
         let _ = writeln!(
             text,
-            "\nfn load_{stem}_{name}({parameter}) -> {ty} {{\n    return {value};\n}}"
+            "\nfn load_{stem}_{name}({}) -> {ty} {{\n    return {value};\n}}",
+            parameter(table)
         );
     }
     text
 }
 
-/// The expression that reads word `w` of the record with index `i`.
-fn word(table: &Table, n_words: usize, w: usize) -> String {
-    if table.record == "Frame" {
-        return format!("frame_words[{w}]");
+fn parameter(table: &Table) -> &'static str {
+    if table.single { "" } else { "i: u32" }
+}
+
+/// The expression for the first word of the record with index `i`, of `stride` words; a `Frame` has an array alone.
+fn first(table: &Table, stride: usize) -> Option<String> {
+    let index = format!("i * {stride}u");
+    match table.heap_at {
+        Some(at) if table.single => Some(format!("load_frame_{at}()")),
+        Some(at) => Some(format!("load_frame_{at}() + {index}")),
+        None => (!table.single).then_some(index),
     }
-    let base = table.heap_at.map_or(String::new(), |at| format!("load_frame_{at}() + "));
-    let index = if table.single { String::new() } else { format!("i * {n_words}u + ") };
-    format!("{}({base}{index}{w}u)", table.word)
+}
+
+/// The expression that reads word `w` of the record whose first is `at`.
+fn word(table: &Table, at: Option<&str>, w: usize) -> String {
+    match at {
+        Some(at) => format!("{}({at} + {w}u)", table.word),
+        None => format!("{}[{w}]", table.word),
+    }
 }
 
 /// The expression that takes `field` out of the word that `word` reads.

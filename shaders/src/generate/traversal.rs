@@ -210,7 +210,10 @@ pub(crate) fn placed(features: &FeatureSet) -> String {
          \n// In the world, the `tangent` of a triangle in `instance`, or in none.\n\
          fn dispatch_placed_tangent(instance: u32, tangent: vec4f) -> vec4f {{\n{}}}\n",
         with("hit.instance != NONE", "false"),
-        with("instance_surface(hit, dir, time)", "triangle_flat_surface(hit.prim, hit.b, dir)"),
+        with(
+            "instance_surface(hit, dir, time)",
+            "triangle_flat_surface(load_triangle(hit.prim), load_tri_shade(hit.prim), hit.b, dir)"
+        ),
         either("material", "own"),
         either("tangent", "tangent"),
     );

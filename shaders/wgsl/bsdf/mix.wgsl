@@ -1,7 +1,7 @@
 // One of two materials at each vertex, by chance: on average the sum of both, each with its share. One of the two is
 // evaluated and not both, as in pbrt-v4 (Pharr, Jakob, Humphreys 2023, 10.5, "MixMaterial").
 
-#import "abi/material.wgsl"
+#import "abi/material_head.wgsl"
 #import "bsdf/scatter.wgsl"
 #import "sampler/key.wgsl"
 #import "scene/constants.wgsl"
@@ -11,11 +11,11 @@
 #import "surface/surface.wgsl"
 
 // Gives `s` and `m` the material that scatters there. Parts of a mix come before it in the table: the loop ends.
-fn mix_choose(s: ptr<function, Surface>, m: ptr<function, Material>, key: SampleKey) {
+fn mix_choose(s: ptr<function, Surface>, m: ptr<function, MaterialHead>, key: SampleKey) {
     var u = sample_1d(key, PURPOSE_MIX);
     loop {
         if ((*m).kind != MATERIAL_MIX) { break; }
-        let share = min((*m).weight * texture_fetch((*m).color_texture, (*s).uv).x, 1.0);
+        let share = min(load_material_weight((*s).material) * texture_fetch((*m).color_texture, (*s).uv).x, 1.0);
         // The same number again, stretched over the part that it fell into.
         if (u < share) {
             u = u / share;
@@ -24,7 +24,7 @@ fn mix_choose(s: ptr<function, Surface>, m: ptr<function, Material>, key: Sample
             u = (u - share) / (1.0 - share);
             (*s).material = (*m).priority & 0xffffu;
         }
-        *m = load_material((*s).material);
+        *m = load_material_head((*s).material);
     }
 }
 

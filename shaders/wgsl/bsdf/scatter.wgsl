@@ -1,6 +1,6 @@
 // What a scattering model needs of a surface point, read once per vertex, and what it answers.
 
-#import "abi/material.wgsl"
+#import "abi/material_head.wgsl"
 #import "math/vector.wgsl"
 #import "sampler/key.wgsl"
 #import "scene/brushing.wgsl"
@@ -61,7 +61,7 @@ struct Evaluated {
 }
 
 // The parameters of material `m` at `s`; `key`: the vertex.
-fn scatter_at(m: Material, s: Surface, key: SampleKey) -> Scatter {
+fn scatter_at(m: MaterialHead, s: Surface, key: SampleKey) -> Scatter {
     let color = m.color * texture_fetch(m.color_texture, s.uv).xyz;
     let mr = texture_fetch(m.metallic_roughness_texture, s.uv);
     let brushing = dispatch_brushing(s, m.kind);

@@ -86,7 +86,7 @@ fn aov_surface(path: ptr<function, Path>, found: ptr<function, AovSample>, hit: 
     let origin = dispatch_origin((*path).point, (*path).ray_offset, (*path).start, (*path).dir);
     var s = dispatch_surface(hit, origin, (*path).dir, (*path).time);
     let declared = s.material;
-    var m = load_material(declared);
+    var m = load_material_head(declared);
     dispatch_mix(&s, &m, (*path).key);
     if (dispatch_pass(path, s, m.flags, ray_skip(hit))) {
         return;

@@ -16,7 +16,7 @@
 // What the path's shadow ray keeps behind the sheet with surface `at`, which it has met in `hit`.
 fn sheet_through(path: ptr<function, Path>, at: Surface, hit: Hit) -> vec3f {
     var s = at;
-    let m = load_material(s.material);
+    let m = load_material_head(s.material);
     let dir = (*path).shadow_dir;
     dispatch_tangent(&s, hit, m.flags, (*path).time);
     dispatch_projection(&s, m.flags, (*path).key, (*path).time);

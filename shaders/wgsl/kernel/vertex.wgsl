@@ -1,6 +1,6 @@
 // One vertex of a path: what it emits, what light reaches it directly, where the path goes on.
 
-#import "abi/material.wgsl"
+#import "abi/material_head.wgsl"
 #import "bsdf/phase.wgsl"
 #import "bsdf/scatter.wgsl"
 #import "kernel/indirect.wgsl"
@@ -42,7 +42,7 @@ struct Vertex {
 fn vertex_surface(path: ptr<function, Path>, hit: Hit, v: ptr<function, Vertex>) -> bool {
     let origin = dispatch_origin((*path).point, (*path).ray_offset, (*path).start, (*path).dir);
     var s = dispatch_surface(hit, origin, (*path).dir, (*path).time);
-    var m = load_material(s.material);
+    var m = load_material_head(s.material);
     dispatch_mix(&s, &m, (*path).key);
     if (dispatch_pass(path, s, m.flags, ray_skip(hit))) {
         return false;
@@ -121,7 +121,7 @@ fn vertex_leave(path: ptr<function, Path>, next: Scattered, pdf: f32) {
 
 // Adds what the surface emits towards the path, weighted against the chance that the previous vertex had
 // to sample it as a light.
-fn vertex_emit(path: ptr<function, Path>, s: Surface, m: Material) {
+fn vertex_emit(path: ptr<function, Path>, s: Surface, m: MaterialHead) {
     let radiance = emission_radiance(m.emission, m.flags, m.emission_texture, s.uv, s.front);
     if (vector_max(radiance) > 0.0 && links_glow(s.object, receiver_links((*path).receiver))) {
         let seen = dispatch_tint(radiance, s.material, m.flags, s.light, (*path).dir);

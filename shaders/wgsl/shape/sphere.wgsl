@@ -37,9 +37,8 @@ fn sphere_normal(sphere: Sphere, origin: vec3f, dir: vec3f, t: f32) -> vec3f {
     return vector_unit_or(origin + dir * t - sphere.center, -dir);
 }
 
-// The surface of sphere `i` at distance `t` of a ray.
-fn sphere_surface(i: u32, origin: vec3f, dir: vec3f, t: f32) -> Surface {
-    let sphere = load_sphere(i);
+// The surface of `sphere` at distance `t` of a ray.
+fn sphere_surface(sphere: Sphere, origin: vec3f, dir: vec3f, t: f32) -> Surface {
     let out = sphere_normal(sphere, origin, dir, t);
     // Back onto the sphere: 1e3 times nearer to it than `origin + t dir`.
     let p = sphere.center + out * sphere.radius;

@@ -4,6 +4,7 @@
 // number with opposite sign, fused multiply-add or not. Measured on a closed mesh of 2,208
 // triangles with 60,000 rays aimed at its edges and vertices, a third of them exact to the bit: one hit each.
 
+#import "abi/tri_shade.wgsl"
 #import "abi/triangle.wgsl"
 #import "math/vector.wgsl"
 #import "math/octahedral.wgsl"
@@ -104,9 +105,8 @@ fn triangle_normal(tri: Triangle) -> vec3f {
     return vector_unit_or(vector_cross(tri.v1 - tri.v0, tri.v2 - tri.v0), vec3f(0.0, 0.0, 1.0));
 }
 
-// The surface at barycentric weights `b` = (b1, b2) of triangle `i`, seen along `dir`; not interpolated.
-fn triangle_flat_surface(i: u32, b: vec2f, dir: vec3f) -> Surface {
-    let tri = load_triangle(i);
+// The surface at barycentric weights `b` = (b1, b2) of triangle `tri`, seen along `dir`; not interpolated.
+fn triangle_flat_surface(tri: Triangle, shade: TriShade, b: vec2f, dir: vec3f) -> Surface {
     let flat = triangle_spread(tri) == vec3f(0.0);
     // What all corners share is not mixed, and stays exact.
     let p = select(tri.v0 * (1.0 - b.x - b.y) + tri.v1 * b.x + tri.v2 * b.y, tri.v0, flat);
@@ -117,31 +117,34 @@ fn triangle_flat_surface(i: u32, b: vec2f, dir: vec3f) -> Surface {
         // right side of it, however thin that side is.
         s.ray_offset = 1.1920929e-7 * vector_max(select(vec3f(0.0), abs(p), flat)); // 2^-23
     }
-    s.uv = triangle_uv(i, b);
-    s.material = load_tri_shade_material(i);
-    s.light = load_tri_shade_light(i);
-    s.object = load_tri_shade_object(i) & ~TRI_SMOOTH;
+    s.uv = triangle_mix_uv(shade, b);
+    s.material = shade.material;
+    s.light = shade.light;
+    s.object = shade.object & ~TRI_SMOOTH;
     return s;
 }
 
 // As `triangle_flat_surface`, with the interpolated normal where the triangle has one.
-fn triangle_surface(i: u32, b: vec2f, dir: vec3f) -> Surface {
-    var s = triangle_flat_surface(i, b, dir);
-    if ((load_tri_shade_object(i) & TRI_SMOOTH) != 0u) {
-        let n = triangle_smooth_normal(load_tri_shade_normals(i), b, s.ng);
+fn triangle_surface(tri: Triangle, shade: TriShade, b: vec2f, dir: vec3f) -> Surface {
+    var s = triangle_flat_surface(tri, shade, b, dir);
+    if ((shade.object & TRI_SMOOTH) != 0u) {
+        let n = triangle_smooth_normal(shade.normals, b, s.ng);
         s.ns = surface_shading_normal(s.ng, n, dir);
-        s.bulge = triangle_bulge(i, b, s);
+        s.bulge = triangle_bulge(tri, shade.normals, b, s);
     }
     return s;
 }
 
-// From the surface point `s` at weights `b` of triangle `i` to the smooth surface that the corners' normals span:
+// The object of a triangle and whether it moves, as `Sphere::object` has them.
+fn triangle_thing(tri: Triangle, shade: TriShade) -> u32 {
+    return (shade.object & ~TRI_SMOOTH) | (tri.id0 & MOVES);
+}
+
+// From the surface point `s` at weights `b` of triangle `tri` to the smooth surface that the corners' normals span:
 // the point is lifted to the plane through each corner at a right angle to its normal, where that is above it, and
 // the three points are mixed. 0 where the smooth surface is flat or hollow.
 // Hanika 2021, "Hacking the Shadow Terminator", Ray Tracing Gems II, ch. 4.
-fn triangle_bulge(i: u32, b: vec2f, s: Surface) -> vec3f {
-    let tri = load_triangle(i);
-    let normals = load_tri_shade_normals(i);
+fn triangle_bulge(tri: Triangle, normals: vec3u, b: vec2f, s: Surface) -> vec3f {
     let q = tri.v0 * (1.0 - b.x - b.y) + tri.v1 * b.x + tri.v2 * b.y;
     let l0 = triangle_lift(q - tri.v0, octahedral_decode(normals.x), s.ng) * (1.0 - b.x - b.y);
     let l1 = triangle_lift(q - tri.v1, octahedral_decode(normals.y), s.ng) * b.x;
@@ -178,9 +181,14 @@ fn triangle_before(i: u32, dir: vec3f, t: f32) -> f32 {
     return max(t * 0.9999995 - ulps / cosine, 0.0); // 1 - 2^-21
 }
 
-// Texture coordinates at barycentric weights `b` = (b1, b2) of triangle `i`.
+// Texture coordinates at barycentric weights `b` = (b1, b2).
+fn triangle_mix_uv(shade: TriShade, b: vec2f) -> vec2f {
+    return shade.uv0 * (1.0 - b.x - b.y) + shade.uv1 * b.x + shade.uv2 * b.y;
+}
+
+// As `triangle_mix_uv`, of triangle `i`.
 fn triangle_uv(i: u32, b: vec2f) -> vec2f {
-    return load_tri_shade_uv0(i) * (1.0 - b.x - b.y) + load_tri_shade_uv1(i) * b.x + load_tri_shade_uv2(i) * b.y;
+    return triangle_mix_uv(load_tri_shade(i), b);
 }
 
 // Barycentric weights (b1, b2) of point `p` in the plane of triangle `i`, also outside of it.

@@ -114,7 +114,8 @@ fn kernel_hits(place: &Place3, lid: [DVec3; 3], b: Vec2, dir: Vec3, scale: f64) 
         record(3, lid.map(|c| c * scale)),
     ]);
     let mut kernel = bench.single();
-    let s = kernel.triangle_flat_surface(0, b, -place.normal.as_vec3());
+    let (tri, shade) = (kernel.load_triangle(0), kernel.load_tri_shade(0));
+    let s = kernel.triangle_flat_surface(tri, shade, b, -place.normal.as_vec3());
     let origin = kernel.ray_offset_origin(s.p, s.ng * s.ray_offset, dir);
     let ray = |prim| single::Ray { skip: skip(prim), ..kernel::ray(origin, dir) };
     let hit = kernel.trace(ray(0)).prim;

@@ -49,7 +49,8 @@ fn a_triangle_is_not_hit_by_rays_that_leave_it() {
         for _ in 0..30 {
             let (x, y) = (stream.unit24(), stream.unit24());
             let b = if x + y > 1.0 { Vec2::new(1.0 - x, 1.0 - y) } else { Vec2::new(x, y) };
-            let s = kernel.triangle_flat_surface(0, b, stream.direction().as_vec3());
+            let (tri, shade) = (kernel.load_triangle(0), kernel.load_tri_shade(0));
+            let s = kernel.triangle_flat_surface(tri, shade, b, stream.direction().as_vec3());
             let side = if stream.unit() < 0.5 { 1.0 } else { -1.0 };
             let dir = leaving(s.ng.as_dvec3() * side, &mut stream).as_vec3();
             let origin = start(&mut kernel, &s, dir);
@@ -106,7 +107,8 @@ fn planes_across_an_axis_are_left_and_met_however_near_they_are() {
         for _ in 0..20 {
             let (x, y) = (stream.unit24(), stream.unit24());
             let b = if x + y > 1.0 { Vec2::new(1.0 - x, 1.0 - y) } else { Vec2::new(x, y) };
-            let s = kernel.triangle_flat_surface(0, b, stream.direction().as_vec3());
+            let (tri, shade) = (kernel.load_triangle(0), kernel.load_tri_shade(0));
+            let s = kernel.triangle_flat_surface(tri, shade, b, stream.direction().as_vec3());
             let out = leaving(-inwards, &mut stream).as_vec3();
             let origin = start(&mut kernel, &s, out);
             copies += usize::from(kernel.trace(ray(origin, out, NONE)).prim != NONE);
@@ -144,8 +146,10 @@ fn planes_across_an_axis_do_not_meet_what_falls_away_at_their_edges() {
             // Next to the edge between b and c: the first weight is nearly nothing.
             let first = if stream.unit() < 0.5 { 1e-6 } else { stream.unit24() };
             let second = (1.0 - first) * stream.unit24();
+            let (tri, shade) = (kernel.load_triangle(0), kernel.load_tri_shade(0));
             let s = kernel.triangle_flat_surface(
-                0,
+                tri,
+                shade,
                 Vec2::new(1.0 - first - second, second),
                 -out.as_vec3(),
             );
@@ -188,9 +192,9 @@ fn a_convex_solid_does_not_shadow_itself() {
             // Half of the points are next to an edge.
             let x = if stream.unit() < 0.5 { 1e-6 } else { stream.unit24() };
             let b = Vec2::new(x, (1.0 - x) * stream.unit24());
-            let tri = kernel.load_triangle(face);
+            let (tri, shade) = (kernel.load_triangle(face), kernel.load_tri_shade(face));
             let out = kernel.triangle_normal(tri);
-            let s = kernel.triangle_flat_surface(face, b, -out);
+            let s = kernel.triangle_flat_surface(tri, shade, b, -out);
             assert!(s.front, "faces look outwards");
             let dir = leaving(out.as_dvec3(), &mut stream).as_vec3();
             let origin = start(&mut kernel, &s, dir);
@@ -229,7 +233,8 @@ fn a_sphere_is_left_outwards_and_crossed_inwards() {
             let aim = (center - from).normalize();
             let hit = kernel.trace(ray(from, aim, NONE));
             assert_eq!(hit.prim, single::PRIM_SPHERE);
-            let s = kernel.sphere_surface(0, from, aim, hit.t);
+            let sphere = kernel.load_sphere(0);
+            let s = kernel.sphere_surface(sphere, from, aim, hit.t);
             let off = (s.p.as_dvec3() - center.as_dvec3()).length() / radius - 1.0;
             assert!(off.abs() < 1e-6 + 1e-7 / radius, "{off} radii off the surface");
             let out = leaving(s.ng.as_dvec3(), &mut stream).as_vec3();
@@ -260,7 +265,8 @@ fn surfaces_face_the_ray() {
     let mut stream = Stream::new(89, 0);
     for _ in 0..20_000 {
         let dir = stream.direction().as_vec3();
-        let s = kernel.triangle_flat_surface(0, Vec2::splat(0.3), dir);
+        let (tri, shade) = (kernel.load_triangle(0), kernel.load_tri_shade(0));
+        let s = kernel.triangle_flat_surface(tri, shade, Vec2::splat(0.3), dir);
         assert_eq!(s.front, dir.z <= 0.0);
         assert!(s.ng.dot(dir) <= 0.0 && s.ns == s.ng);
         // A shading normal of any direction is made one that the ray sees from outside.
