@@ -266,6 +266,26 @@ mod tests {
     }
 
     #[test]
+    fn cells_that_hardly_reach_above_the_plane_expect_something() {
+        let grid = narrow();
+        let mut stream = Stream::new(11, 0);
+        let mut missed = 0;
+        for _ in 0..100 {
+            // A plane that passes a hair below a corner of cells.
+            let (theta, _) = grid.rings.at((1 + stream.index(29)) as f64 / 30.0);
+            let (phi, _) = grid.sectors.at(stream.index(4) as f64 / 4.0);
+            let out = grid.side * phi.cos() + grid.across * phi.sin();
+            let corner = out * theta.sin() + grid.axis * theta.cos();
+            let up = stream.direction().cross(corner).normalize() + corner * 1e-5;
+            let near = (corner + stream.direction() * 2e-6).normalize();
+            let cell = grid.cell(near).expect("the grid is the whole sphere");
+            missed += usize::from(grid.integrate_above(16, up, |_| 1.0)[cell] == 0.0);
+            assert!(grid.expect_above(16, up, |_| 1.0)[cell] > 0.0, "{near} above {up}");
+        }
+        assert!(missed > 0, "the cuts make no difference");
+    }
+
+    #[test]
     fn a_direction_is_in_the_cell_that_it_is_integrated_in() {
         let grid = narrow();
         let mut wrong = 0;
