@@ -70,7 +70,7 @@ const TRIANGLE_DIR: Function = Function {
 };
 
 const THING_DIR: Function = Function {
-    comment: "As `dispatch_triangle_dir`, for a sphere or an instance with this word `object`.",
+    comment: "As `dispatch_triangle_dir`, for a thing with this word `object`.",
     signature: "thing_dir(object: u32, dir: vec3f, time: f32) -> vec3f",
     still: "    return dir;\n",
     straight: "    return dir;\n",

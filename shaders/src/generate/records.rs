@@ -145,8 +145,7 @@ pub(crate) fn text() -> String {
     text
 }
 
-/// `load_<stem>(i)`: the struct `name` of `fields`, which are in the first of its `n_words`, of as many as the second
-/// says.
+/// `load_<stem>(i)`: the struct `name` of `fields`, which lie in the first `n_words` words of a record of `stride`.
 fn loader(
     table: &Table,
     (name, stem): (&str, &str),
