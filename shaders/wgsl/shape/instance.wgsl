@@ -1,7 +1,6 @@
 // What a hit on a triangle of an instance looks like in the world.
 
 #import "abi/instance.wgsl"
-#import "abi/tri_shade.wgsl"
 #import "abi/triangle.wgsl"
 #import "math/octahedral.wgsl"
 #import "math/vector.wgsl"

@@ -6,7 +6,6 @@
 #import "math/vector.wgsl"
 #import "math/atan.wgsl"
 #import "scene/constants.wgsl"
-#import "scene/records.wgsl"
 #import "surface/surface.wgsl"
 
 // Distances of the two hits, the nearer first; both -1 on a miss. `leaving`: the ray starts on this very
