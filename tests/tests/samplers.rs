@@ -30,6 +30,8 @@ mod sheet;
 mod sky;
 #[path = "samplers/sobol.rs"]
 mod sobol;
+#[path = "samplers/sobol_light.rs"]
+mod sobol_light;
 #[path = "samplers/specular.rs"]
 mod specular;
 #[path = "samplers/uniform.rs"]

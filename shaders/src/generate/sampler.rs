@@ -11,35 +11,25 @@ pub(crate) fn text(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: the sampler of this scene.\n\n");
     text += &imports(["sampler/key.wgsl", "scene/constants.wgsl", "scene/records.wgsl"]);
     text += &imports(files.iter().map(String::as_str));
-    for (name, result, none) in [("1d", "f32", "0.0"), ("2d", "vec2f", "vec2f(0.0)")] {
-        let cases: Vec<(String, String)> = features
-            .samplers
-            .iter()
-            .map(|kind| {
-                let stem = kind.stem();
-                (tag("SAMPLER", &stem), format!("{stem}_{name}(key, purpose)"))
-            })
-            .collect();
-        let _ = write!(
-            text,
-            "\n// Numbers for `purpose`, in [0, 1 - 2^-24].\n\
-             fn sample_{name}(key: SampleKey, purpose: u32) -> {result} {{\n{}}}\n",
-            switch("load_frame_sampler()", &cases, none)
-        );
-    }
-    let cases: Vec<(String, String)> = features
-        .samplers
-        .iter()
-        .map(|kind| {
-            let stem = kind.stem();
-            (tag("SAMPLER", &stem), format!("{stem}_of(key, purpose, id)"))
-        })
-        .collect();
+    let number = |name: &str, arguments: &str, none: &str| {
+        let case = |stem: String| (tag("SAMPLER", &stem), format!("{stem}_{name}({arguments})"));
+        let cases: Vec<_> = features.samplers.iter().map(|kind| case(kind.stem())).collect();
+        switch("load_frame_sampler()", &cases, none)
+    };
     let _ = write!(
         text,
-        "\n// A number for `purpose`, in [0, 1 - 2^-24], independent of those for any other `id`.\n\
+        "\n// A number for `purpose`, in [0, 1 - 2^-24].\n\
+         fn sample_1d(key: SampleKey, purpose: u32) -> f32 {{\n{}}}\n\
+         \n// Two numbers for `purpose`, in [0, 1 - 2^-24].\n\
+         fn sample_2d(key: SampleKey, purpose: u32) -> vec2f {{\n{}}}\n\
+         \n// Two numbers for a point of a light, in [0, 1 - 2^-24].\n\
+         fn sample_light(key: SampleKey) -> vec2f {{\n{}}}\n\
+         \n// A number for `purpose`, in [0, 1 - 2^-24], independent of those for any other `id`.\n\
          fn sample_of(key: SampleKey, purpose: u32, id: u32) -> f32 {{\n{}}}\n",
-        switch("load_frame_sampler()", &cases, "0.0")
+        number("1d", "key, purpose", "0.0"),
+        number("2d", "key, purpose", "vec2f(0.0)"),
+        number("light", "key", "vec2f(0.0)"),
+        number("of", "key, purpose, id", "0.0"),
     );
     text
 }

@@ -9,7 +9,6 @@
 #import "light/light_sample.wgsl"
 #import "light/sky.wgsl"
 #import "math/vector.wgsl"
-#import "sampler/key.wgsl"
 #import "scene/constants.wgsl"
 #import "scene/dispatch_light.wgsl"
 #import "scene/dispatch_bsdf.wgsl"
@@ -36,7 +35,7 @@ fn direct_sample(
         return;
     }
     let key = (*path).key;
-    let point = sample_2d(key, PURPOSE_LIGHT_POINT);
+    let point = sample_light(key);
     let choice = dispatch_choose(n_lights, p, receiver, point.x);
     if (choice.pmf <= 0.0) {
         return;

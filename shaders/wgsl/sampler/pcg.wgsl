@@ -3,6 +3,7 @@
 // 128 bits, so two different (pixel, sample, dimension, seed) never share their number stream.
 
 #import "sampler/key.wgsl"
+
 // One number in [0, 1 - 2^-24].
 fn pcg_1d(key: SampleKey, purpose: u32) -> f32 {
     return f32(pcg_words(key, purpose).x >> 8u) * 5.9604645e-8; // 2^-24
@@ -12,6 +13,11 @@ fn pcg_1d(key: SampleKey, purpose: u32) -> f32 {
 fn pcg_2d(key: SampleKey, purpose: u32) -> vec2f {
     let v = pcg_words(key, purpose);
     return vec2f(f32(v.x >> 8u), f32(v.y >> 8u)) * 5.9604645e-8; // 2^-24
+}
+
+// Two numbers in [0, 1 - 2^-24] for a point of a light.
+fn pcg_light(key: SampleKey) -> vec2f {
+    return pcg_2d(key, PURPOSE_LIGHT_POINT);
 }
 
 // One number in [0, 1 - 2^-24] of a series of its own for each `id`.

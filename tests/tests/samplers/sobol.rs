@@ -14,19 +14,45 @@ use crate::uniform::{BOUNCES, PURPOSES};
 /// does so once in 1.7 million.
 const FAR: f64 = 5.0;
 
-fn sobol() -> Bench {
+pub(crate) fn sobol() -> Bench {
     Bench::new().sampler(SamplerKind::Sobol)
 }
 
 /// Which of 2^k equal parts of [0, 1) holds `x`.
-fn part(x: f32, k: u32) -> u32 {
+pub(crate) fn part(x: f32, k: u32) -> u32 {
     (x * (1_u32 << k) as f32) as u32
 }
 
-/// Points of 2^k samples from `first` on, a multiple of 2^k.
-fn points(kernel: &mut Kernel<'_>, key: SampleKey, purpose: u32, n: u32) -> Vec<[f32; 2]> {
+/// Two numbers that are drawn together.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Pair {
+    /// Those of this purpose.
+    Of(u32),
+    /// Those for a point of a light.
+    Light,
+    /// Those that the light's go with.
+    BeforeLight,
+}
+
+impl Pair {
+    fn draw(self, kernel: &mut Kernel<'_>, key: SampleKey) -> [f32; 2] {
+        let numbers = match (self, key.bounce) {
+            (Self::Of(purpose), _) => kernel.sample_2d(key, purpose),
+            (Self::Light, _) => kernel.sample_light(key),
+            (Self::BeforeLight, 0) => kernel.sample_2d(key, single::PURPOSE_PIXEL),
+            (Self::BeforeLight, bounce) => {
+                let last = SampleKey { bounce: bounce - 1, ..key };
+                kernel.sample_2d(last, single::PURPOSE_DIRECTION)
+            }
+        };
+        numbers.to_array()
+    }
+}
+
+/// Points of `n` samples from that of `key` on.
+pub(crate) fn points(kernel: &mut Kernel<'_>, key: SampleKey, pair: Pair, n: u32) -> Vec<[f32; 2]> {
     let at = |i| SampleKey { sample: key.sample + i, ..key };
-    (0..n).map(|i| kernel.sample_2d(at(i), purpose).to_array()).collect()
+    (0..n).map(|i| pair.draw(kernel, at(i))).collect()
 }
 
 /// Every box of area 2^-k with aligned sides holds one of 2^k points, for every pair, at every aligned
@@ -35,13 +61,13 @@ fn points(kernel: &mut Kernel<'_>, key: SampleKey, purpose: u32, n: u32) -> Vec<
 fn every_elementary_box_holds_one_point() {
     let bench = sobol();
     let mut kernel = bench.single();
-    for purpose in PURPOSES {
+    for pair in PURPOSES.map(Pair::Of).into_iter().chain([Pair::Light]) {
         for bounce in BOUNCES {
             for k in [0, 1, 2, 3, 4, 7, 10] {
                 let n = 1 << k;
                 for sample in [0, 5 << k, 1 << 24, u32::MAX - (n - 1)] {
                     let key = SampleKey { pixel: 0x0010_0321 + k, sample, bounce, seed: SEED };
-                    let points = points(&mut kernel, key, purpose, n);
+                    let points = points(&mut kernel, key, pair, n);
                     for columns in 0..=k {
                         let mut seen = vec![false; n as usize];
                         for [x, y] in &points {
@@ -49,7 +75,7 @@ fn every_elementary_box_holds_one_point() {
                             let cell = part(*x, columns) << rows | part(*y, rows);
                             seen[cell as usize] = true;
                         }
-                        let name = format!("purpose {purpose}, bounce {bounce}, from {sample}");
+                        let name = format!("{pair:?}, bounce {bounce}, from {sample}");
                         assert!(seen.iter().all(|seen| *seen), "{name}: 2^{columns} of 2^{k}");
                     }
                 }
@@ -138,10 +164,11 @@ fn pairs_of_one_pixel_are_shuffled_against_each_other() {
     let mut kernel = bench.single();
     let digit = |x: f32, k: u32| if part(x, k) & 1 == 1 { 1.0 } else { -1.0 };
     for (a, b) in [
-        (single::PURPOSE_DIRECTION, single::PURPOSE_LOBE),
-        (single::PURPOSE_LIGHT_POINT, single::PURPOSE_LIGHT_CHOICE),
-        (single::PURPOSE_PIXEL, single::PURPOSE_LENS),
-        (single::PURPOSE_DIRECTION, single::PURPOSE_ROULETTE),
+        (Pair::Of(single::PURPOSE_DIRECTION), Pair::Of(single::PURPOSE_LOBE)),
+        (Pair::Light, Pair::Of(single::PURPOSE_LIGHT_CHOICE)),
+        (Pair::Light, Pair::Of(single::PURPOSE_DIRECTION)),
+        (Pair::Of(single::PURPOSE_PIXEL), Pair::Of(single::PURPOSE_LENS)),
+        (Pair::Of(single::PURPOSE_DIRECTION), Pair::Of(single::PURPOSE_ROULETTE)),
     ] {
         let mut sums = [[(Mean::default(), Mean::default()); 4]; 4];
         for pixel in 0..20_000 {
@@ -162,7 +189,10 @@ fn pairs_of_one_pixel_are_shuffled_against_each_other() {
                 let expected = if k == l { 1.0 + 2.0_f64.powi(1 - k) } else { 1.0 };
                 let off =
                     [mean.value() / mean.error(), (square.value() - expected) / square.error()];
-                assert!(off.iter().all(|z| z.abs() < FAR), "{a} {b}, digits {k} {l}: {off:.1?}");
+                assert!(
+                    off.iter().all(|z| z.abs() < FAR),
+                    "{a:?} {b:?}, digits {k} {l}: {off:.1?}"
+                );
             }
         }
     }
@@ -179,8 +209,7 @@ const DISC: Integrand =
 
 /// Error of the mean over the first `n` samples.
 fn error(kernel: &mut Kernel<'_>, (f, truth): Integrand, key: SampleKey, n: u32) -> f64 {
-    let purpose = single::PURPOSE_LIGHT_POINT;
-    let points = points(kernel, key, purpose, n);
+    let points = points(kernel, key, Pair::Light, n);
     points.iter().map(|[x, y]| f((*x).into(), (*y).into())).sum::<f64>() / f64::from(n) - truth
 }
 

@@ -24,11 +24,12 @@ pub(crate) const BOUNCES: [u32; 3] = [0, 1, 1000];
 /// First sample indices: the start, beyond what single precision counts, up to the last index of all.
 const FIRST: [u32; 3] = [0, (1 << 24) + 1, u32::MAX - M as u32 + 1];
 /// Ways to pair two numbers that must not depend on each other.
-const PAIRS: [Pair; 9] = [
+const PAIRS: [Pair; 10] = [
     Pair::Purposes(single::PURPOSE_DIRECTION, single::PURPOSE_RADIUS),
     Pair::Purposes(single::PURPOSE_LIGHT_CHOICE, single::PURPOSE_LIGHT_POINT),
     Pair::Purposes(single::PURPOSE_PIXEL, single::PURPOSE_LENS),
     Pair::Purposes(single::PURPOSE_LOBE, single::PURPOSE_ROULETTE),
+    Pair::LightAndDirection,
     Pair::NextSample,
     Pair::NextBounce,
     Pair::NextColumn,
@@ -40,7 +41,7 @@ const WALKS: [Walk; 3] = [Walk::Pixels, Walk::Bounces, Walk::Seeds];
 
 /// Chi-square tests here.
 pub(crate) const CHECKS: usize = SamplerKind::ALL.len()
-    * (PURPOSES.len() * BOUNCES.len() * FIRST.len()
+    * ((PURPOSES.len() + 1) * BOUNCES.len() * FIRST.len()
         + PAIRS.len()
         + WALKS.len() * WALK_SAMPLES.len());
 
@@ -54,6 +55,8 @@ const WALK_SAMPLES: [u32; 3] = [0, 3, u32::MAX];
 #[derive(Clone, Copy, Debug)]
 enum Pair {
     Purposes(u32, u32),
+    /// At one vertex.
+    LightAndDirection,
     NextSample,
     NextBounce,
     NextColumn,
@@ -70,14 +73,18 @@ impl Pair {
             _ => (single::PURPOSE_DIRECTION, single::PURPOSE_DIRECTION),
         };
         let other = match self {
-            Self::Purposes(..) => key,
+            Self::Purposes(..) | Self::LightAndDirection => key,
             Self::NextSample => SampleKey { sample: sample + 1, ..key },
             Self::NextBounce => SampleKey { bounce: 2, ..key },
             Self::NextColumn => SampleKey { pixel: 78, ..key },
             Self::NextRow => SampleKey { pixel: 77 + (1 << 16), ..key },
             Self::NextSeed => SampleKey { seed: SEED + 1, ..key },
         };
-        [kernel.sample_1d(key, purpose), kernel.sample_1d(other, other_purpose)]
+        let first = match self {
+            Self::LightAndDirection => kernel.sample_light(key).x,
+            _ => kernel.sample_1d(key, purpose),
+        };
+        [first, kernel.sample_1d(other, other_purpose)]
     }
 }
 
@@ -115,20 +122,27 @@ fn every_purpose_bounce_and_range_is_uniform() {
         let bench = Bench::new().sampler(sampler);
         let mut kernel = bench.single();
         for purpose in PURPOSES {
-            for bounce in BOUNCES {
-                for first in FIRST {
-                    let mut counts = Counts::uniform(SIDE * SIDE, M);
-                    for i in 0..M as u32 {
-                        let sample = first + i;
-                        let key = SampleKey { pixel: 0x0102_0304, sample, bounce, seed: SEED };
-                        let u = kernel.sample_2d(key, purpose);
-                        assert_eq!(kernel.sample_1d(key, purpose), u.x);
-                        counts.add(cell(u.x, u.y));
-                    }
-                    let name = format!("{sampler:?} {purpose}, bounce {bounce}, from {first}");
-                    check(&name, &counts);
-                }
+            every_range_is_uniform(&format!("{sampler:?} {purpose}"), |key| {
+                let u = kernel.sample_2d(key, purpose);
+                assert_eq!(kernel.sample_1d(key, purpose), u.x);
+                u
+            });
+        }
+        every_range_is_uniform(&format!("{sampler:?} light"), |key| kernel.sample_light(key));
+    }
+}
+
+/// Checks the pairs of `draw`.
+fn every_range_is_uniform(name: &str, mut draw: impl FnMut(SampleKey) -> glam::Vec2) {
+    for bounce in BOUNCES {
+        for first in FIRST {
+            let mut counts = Counts::uniform(SIDE * SIDE, M);
+            for i in 0..M as u32 {
+                let key = SampleKey { pixel: 0x0102_0304, sample: first + i, bounce, seed: SEED };
+                let u = draw(key);
+                counts.add(cell(u.x, u.y));
             }
+            check(&format!("{name}, bounce {bounce}, from {first}"), &counts);
         }
     }
 }
