@@ -22,7 +22,7 @@ pub(crate) fn text(features: &FeatureSet) -> String {
          fn sample_1d(key: SampleKey, purpose: u32) -> f32 {{\n{}}}\n\
          \n// Two numbers for `purpose`, in [0, 1 - 2^-24].\n\
          fn sample_2d(key: SampleKey, purpose: u32) -> vec2f {{\n{}}}\n\
-         \n// Two numbers for a point of a light, in [0, 1 - 2^-24].\n\
+         \n// Two numbers for a point on a light, in [0, 1 - 2^-24].\n\
          fn sample_light(key: SampleKey) -> vec2f {{\n{}}}\n\
          \n// A number for `purpose`, in [0, 1 - 2^-24], independent of those for any other `id`.\n\
          fn sample_of(key: SampleKey, purpose: u32, id: u32) -> f32 {{\n{}}}\n",

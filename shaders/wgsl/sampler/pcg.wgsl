@@ -15,7 +15,7 @@ fn pcg_2d(key: SampleKey, purpose: u32) -> vec2f {
     return vec2f(f32(v.x >> 8u), f32(v.y >> 8u)) * 5.9604645e-8; // 2^-24
 }
 
-// Two numbers in [0, 1 - 2^-24] for a point of a light.
+// Two numbers in [0, 1 - 2^-24] for a point on a light.
 fn pcg_light(key: SampleKey) -> vec2f {
     return pcg_2d(key, PURPOSE_LIGHT_POINT);
 }

@@ -6,7 +6,8 @@
 // so are pixels and seeds, because each has its own scrambles; every single point is uniform.
 // Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4).
 //
-// But the pair for a point of a light goes with the one that led to the vertex, see `sobol_light`.
+// The pair for a point on a light is the exception: it is stratified jointly with the pair that led to the vertex,
+// see `sobol_light`.
 
 #import "sampler/key.wgsl"
 #import "sampler/pcg.wgsl"
@@ -31,8 +32,8 @@ fn sobol_2d(key: SampleKey, purpose: u32) -> vec2f {
     return vec2f(sobol_unit(first), sobol_unit(second));
 }
 
-// Two numbers in [0, 1 - 2^-24] for a point of a light, spread evenly together with those for the direction in
-// which the last vertex was left, or on the first vertex with those for the point of the pixel.
+// Two numbers in [0, 1 - 2^-24] for a point on a light, stratified jointly with those for the direction that was
+// sampled at the last vertex, or at the first vertex with those for the position in the pixel.
 //
 // In an aligned block of 4^k sample indices the four numbers put one point into every box of volume 4^-k whose
 // sides are aligned powers of four: a (0,4)-sequence in base 4. It is Faure's over the field of four elements
@@ -50,7 +51,7 @@ fn sobol_light(key: SampleKey) -> vec2f {
     return vec2f(sobol_unit(first), sobol_unit(second));
 }
 
-// Seed of the order of the samples of the pair that the light's goes with.
+// Seed that orders the samples of the pair before the light's, and so the light's.
 fn sobol_light_order(key: SampleKey) -> u32 {
     if (key.bounce == 0u) {
         return sobol_seeds(key, PURPOSE_PIXEL).x;

@@ -145,7 +145,7 @@ impl Grid {
     }
 
     /// As [`Grid::integrate_above`], to count samples by: patches that the plane may cut are halved up to
-    /// five times, so that a cell that reaches above the plane by a hair expects its hair.
+    /// `CUTS` times, so that a cell that reaches above the plane by a hair expects its hair.
     pub fn expect_above(&self, fine: usize, up: DVec3, f: impl FnMut(DVec3) -> f64) -> Vec<f64> {
         self.integrate_cut(fine, up, CUTS, f)
     }

@@ -28,9 +28,9 @@ pub(crate) fn part(x: f32, k: u32) -> u32 {
 pub(crate) enum Pair {
     /// Those of this purpose.
     Of(u32),
-    /// Those for a point of a light.
+    /// Those for a point on a light.
     Light,
-    /// Those that the light's go with.
+    /// Those that the light's are stratified with.
     BeforeLight,
 }
 

@@ -1,5 +1,5 @@
-//! What Sobol's numbers for a point of a light promise together with those that they go with: the four are a
-//! (0,4)-sequence in base 4.
+//! What Sobol's numbers for a point on a light promise together with those of the pair before them: the four are
+//! a (0,4)-sequence in base 4.
 
 use runtime::kernel::f32::{self as single, SampleKey};
 use tests::console;
@@ -11,7 +11,7 @@ use crate::sobol::{Pair, part, points, sobol};
 use crate::uniform::BOUNCES;
 
 /// Every box of volume 4^-k whose sides are aligned powers of four holds one of 4^k points, whose four
-/// numbers are those for a point of a light and those before them, at every aligned range of samples.
+/// numbers are those for a point on a light and those before them, at every aligned range of samples.
 #[test]
 fn every_box_of_four_sides_holds_one_point() {
     let bench = sobol();
