@@ -35,6 +35,14 @@ function serve(args) {
   return { child, url };
 }
 
+async function stop(child) {
+  child.removeAllListeners("exit");
+  if (child.exitCode !== null) return;
+  const ended = new Promise((done) => child.on("exit", done));
+  child.kill("SIGINT");
+  await ended;
+}
+
 async function open(browser, url, height = 760) {
   const page = await browser.newPage({ viewport: { width: 1280, height } });
   page.on("pageerror", (error) => console.log(`page: ${error}`));
@@ -65,11 +73,22 @@ async function clickPixel(page, x, y) {
   await page.mouse.click(left, top);
 }
 
-async function grows(page) {
-  await until(page, () => film && film.samples > 0);
-  const first = await inPage(page, () => film.samples);
-  await until(page, (first) => film.samples > first && film.width === 320, first);
-  check((await mean(page)) > 10, "a picture appears, and its samples rise");
+// Of more samples than any machine renders while somebody looks: the picture must not be done before the page is there.
+async function grows(browser) {
+  const { child, url } = serve(["room.rts", "--spp", "1000000"]);
+  try {
+    const page = await open(browser, await url);
+    await until(page, () => film && film.width === 320 && film.samples > 0);
+    const first = await inPage(page, () => film.samples);
+    await until(page, (first) => film.samples > first, first);
+    check((await mean(page)) > 10, "a picture appears, and its samples rise");
+    await page.close();
+  } finally {
+    await stop(child);
+  }
+}
+
+async function ends(page) {
   await done(page);
   check((await page.textContent("#samples")) === "64 / 64", "it comes to its end");
 }
@@ -332,6 +351,7 @@ try {
     await picture(browser, await served.url);
   } else {
     writeFileSync(join(work, "room.rts"), room);
+    await grows(browser);
     served = serve(["room.rts"]);
     const url = await served.url;
     const wrong = await browser.newPage();
@@ -339,7 +359,7 @@ try {
     check(answer.status() === 403 && (await wrong.textContent("body")).trim() === "forbidden", "a wrong secret gets nothing");
     await wrong.close();
     let page = await open(browser, url);
-    await grows(page);
+    await ends(page);
     await looks(page);
     await picks(page);
     await layers(page);
@@ -353,7 +373,6 @@ try {
     await page.screenshot({ path: join(work, "room.png") });
   }
 } finally {
-  served?.child.removeAllListeners("exit");
-  served?.child.kill("SIGINT");
+  if (served) await stop(served.child);
   await browser.close();
 }
