@@ -651,6 +651,7 @@ materials! {
             /// Share of the second, 0 ..= 1.
             amount: Scalar = [fields::MIX_AMOUNT],
         }
+        also: [projection::PROJECTION],
         traits: {}
     }
 }

@@ -194,7 +194,7 @@ pub const CASES: &[Case] = &[
         "projected textures",
         &[GRADIENT, SPHERE_LIGHT, PAINT, BUMPS, WRAPPED, BALL, BOX, MIRRORED, FLOOR],
     ),
-    case("textures projected on instances", &[SKY, PAINT, BUMPS, WRAPPED, BEADS, FLOOR]),
+    case("textures projected on instances", &[SKY, PAINT, BUMPS, CARVED, BEADS, FLOOR]),
     Case {
         camera: SHUTTER,
         ..case(
@@ -656,6 +656,9 @@ material m: principled {
   specular.color = paint.rgb
 }\n";
 const WRAPPED: &str = "material m: principled { color = mix(paint.rgb, linear(0.8), checker(3)), roughness = 0.4, normal = bumps.rgb, projection = box }\n";
+const CARVED: &str = "material wrapped: principled { color = mix(paint.rgb, linear(0.8), checker(3)), roughness = 0.4, normal = bumps.rgb, projection = box }
+material veined: diffuse { color = linear(0.9) * noise(4), projection = solid }
+material m: mix { a = wrapped, b = veined, amount = checker(5), projection = solid }\n";
 const STAINED: &str = "material m: principled { transmission = wear.g, color = paint.rgb, roughness = 0, projection = z }
 instance pane { shape = rectangle(size: (2, 2)m), material = m, at = (0, 1.2, 0)m, rotate = [0ms: (80, 0, 0)deg, 20ms: (80, 60, 0)deg] }\n";
 const CLAY_FLOOR: &str = "material clay: diffuse { color = linear(0.7, 0.4, 0.2) }

@@ -160,7 +160,7 @@ const CASES: &[Case] = &[
         without: "",
         busy: "MATERIAL projection = box, metallic = 0.5 * checker(3)\n",
         bits: bit::OBJECTS,
-        words: &["projection_apply(", "projection_axis("],
+        words: &["projection_apply(", "projection_on(", "projection_axis("],
     },
     Case {
         name: "anisotropy of 0",

@@ -13,15 +13,18 @@ pub enum TextureProjection {
     Box,
     /// Along an axis of the object: 0 x, 1 y, 2 z.
     Axis(usize),
+    /// Through the object: along z, where z is the third coordinate of patterns that have one.
+    Solid,
 }
 
 /// Each with its word.
-const ALL: [(TextureProjection, &str); 5] = [
+const ALL: [(TextureProjection, &str); 6] = [
     (TextureProjection::Uv, "uv"),
     (TextureProjection::Box, "box"),
     (TextureProjection::Axis(0), "x"),
     (TextureProjection::Axis(1), "y"),
     (TextureProjection::Axis(2), "z"),
+    (TextureProjection::Solid, "solid"),
 ];
 
 const WORDS: &[Word] = &[
@@ -30,6 +33,7 @@ const WORDS: &[Word] = &[
     ("x", "straight through, along the x axis of the object"),
     ("y", "along its y axis"),
     ("z", "along its z axis"),
+    ("solid", "carved from it: `noise` and `checker` in three dimensions, all else as `z`"),
 ];
 
 pub(super) const PROJECTION: Field = Field::new(

@@ -56,12 +56,13 @@ pub(crate) fn mix(features: &FeatureSet) -> String {
     let mut case = "";
     if features.materials.contains(&MaterialKind::Mix) {
         text += &imports(["bsdf/mix.wgsl"]);
-        case = "        case MATERIAL_MIX: { mix_choose(s, m, key); }\n";
+        case = "        case MATERIAL_MIX: { mix_choose(s, m, key, time); }\n";
     }
     let _ = write!(
         text,
         "\n// Gives the surface `s` of material `m` one of those that `m` is made of.\n\
-         fn dispatch_mix(s: ptr<function, Surface>, m: ptr<function, MaterialHead>, key: SampleKey) {{\n    \
+         fn dispatch_mix(\n    \
+         s: ptr<function, Surface>, m: ptr<function, MaterialHead>, key: SampleKey, time: f32\n) {{\n    \
          switch ((*m).kind) {{\n{case}        default: {{}}\n    }}\n}}\n"
     );
     text

@@ -37,6 +37,8 @@ pub(crate) fn text(features: &FeatureSet) -> String {
         named("FLAG_PROJECT_X", material_flag::PROJECT_X),
         named("FLAG_PROJECT_Y", material_flag::PROJECT_Y),
         named("FLAG_PROJECT_Z", material_flag::PROJECT_Z),
+        named("FLAG_PROJECT_BOX", material_flag::PROJECT_BOX),
+        named("FLAG_PROJECT_SOLID", material_flag::PROJECT_SOLID),
         named("FLAG_INTERIOR", material_flag::INTERIOR),
         named("FLAG_THROUGH", material_flag::THROUGH),
         named("TRI_SMOOTH", TRI_SMOOTH),

@@ -243,16 +243,21 @@ pub(crate) fn place(features: &FeatureSet) -> String {
 pub(crate) fn projection(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: whether this scene projects textures.\n\n");
     text += &imports(["sampler/key.wgsl", "scene/constants.wgsl", "surface/surface.wgsl"]);
-    let mut body = "";
+    let (mut body, mut at) = ("", "");
     if features.projection {
         text += &imports(["surface/projection.wgsl"]);
         body = "    if ((flags & FLAG_PROJECT) != 0u) {\n        \
                 projection_apply(s, flags, key, time);\n    }\n";
+        at = "    if ((flags & FLAG_PROJECT) != 0u) {\n        \
+              return projection_at(s, flags, key, time);\n    }\n";
     }
     let _ = write!(
         text,
         "\n// Gives `s`, on a material with these flags, other texture coordinates, if the material says so.\n\
-         fn dispatch_projection(s: ptr<function, Surface>, flags: u32, key: SampleKey, time: f32) {{\n{body}}}\n"
+         fn dispatch_projection(s: ptr<function, Surface>, flags: u32, key: SampleKey, time: f32) {{\n{body}}}\n\
+         \n// The texture coordinates u, v and w of `s` on a material with these flags.\n\
+         fn dispatch_projected(s: Surface, flags: u32, key: SampleKey, time: f32) -> vec3f {{\n{at}    \
+         return vec3f(s.uv, s.w);\n}}\n"
     );
     text
 }

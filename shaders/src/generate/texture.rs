@@ -18,14 +18,14 @@ pub(crate) fn texture(features: &FeatureSet) -> String {
             "texture/bilinear.wgsl",
         ]);
         (
-            "    if (i == NONE) {\n        return vec4f(1.0);\n    }\n    return texture_lookup(i, uv);\n",
+            "    if (i == NONE) {\n        return vec4f(1.0);\n    }\n    return texture_lookup(i, uv, w);\n",
             "    return bilinear_at(load_texture(i), place);\n",
         )
     };
     let _ = write!(
         text,
-        "\n// Texture `i` at `uv`, linear; 1 in every channel where `i` is `NONE`.\n\
-         fn texture_fetch(i: u32, uv: vec2f) -> vec4f {{\n{body}}}\n\
+        "\n// Texture `i` at `uv`, linear; 1 in every channel where `i` is `NONE`. `w`: as in `Surface`.\n\
+         fn texture_fetch(i: u32, uv: vec2f, w: f32) -> vec4f {{\n{body}}}\n\
          \n// Texture `i`, an image, at `place`, 0 ..= 1 from its top left corner, linear.\n\
          fn texture_fetch_at(i: u32, place: vec2f) -> vec4f {{\n{at}}}\n"
     );
@@ -36,12 +36,12 @@ pub(crate) fn texture(features: &FeatureSet) -> String {
 pub(crate) fn lookup(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: whether textures of this scene are computed.\n\n");
     let computed = features.textures.contains(&TextureFormat::Expression);
-    let module = if computed { "expression" } else { "bilinear" };
+    let (module, at) = if computed { ("expression", "uv, w") } else { ("bilinear", "uv") };
     text += &imports([format!("texture/{module}.wgsl").as_str()]);
     let _ = write!(
         text,
-        "\n// Texture `i` at `uv`, linear.\n\
-         fn texture_lookup(i: u32, uv: vec2f) -> vec4f {{\n    return {module}_fetch(i, uv);\n}}\n"
+        "\n// Texture `i` at `uv`, linear; patterns with a third coordinate also at `w`.\n\
+         fn texture_lookup(i: u32, uv: vec2f, w: f32) -> vec4f {{\n    return {module}_fetch(i, {at});\n}}\n"
     );
     text
 }

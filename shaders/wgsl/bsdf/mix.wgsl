@@ -5,17 +5,20 @@
 #import "bsdf/scatter.wgsl"
 #import "sampler/key.wgsl"
 #import "scene/constants.wgsl"
+#import "scene/projection.wgsl"
 #import "scene/records.wgsl"
 #import "scene/sampler.wgsl"
 #import "scene/texture.wgsl"
 #import "surface/surface.wgsl"
 
 // Gives `s` and `m` the material that scatters there. Parts of a mix come before it in the table: the loop ends.
-fn mix_choose(s: ptr<function, Surface>, m: ptr<function, MaterialHead>, key: SampleKey) {
+fn mix_choose(s: ptr<function, Surface>, m: ptr<function, MaterialHead>, key: SampleKey, time: f32) {
     var u = sample_1d(key, PURPOSE_MIX);
     loop {
         if ((*m).kind != MATERIAL_MIX) { break; }
-        let share = min(load_material_weight((*s).material) * texture_fetch((*m).color_texture, (*s).uv).x, 1.0);
+        let at = dispatch_projected(*s, (*m).flags, key, time);
+        let amount = texture_fetch((*m).color_texture, at.xy, at.z).x;
+        let share = min(load_material_weight((*s).material) * amount, 1.0);
         // The same number again, stretched over the part that it fell into.
         if (u < share) {
             u = u / share;

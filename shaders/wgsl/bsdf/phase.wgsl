@@ -18,7 +18,7 @@ fn phase_scatter(i: u32, key: SampleKey) -> Scatter {
     let none = vec3f(0.0);
     return Scatter(
         none, none, none, PHASE_KIND, i,
-        none, 0.0, vec2f(0.0), Place(none, 0u), 0.0,
+        none, 0.0, vec2f(0.0), 0.0, Place(none, 0u), 0.0,
         0.0, 0.0,
         1.0, 0.0, true, key,
     );

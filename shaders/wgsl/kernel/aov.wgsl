@@ -87,7 +87,7 @@ fn aov_surface(path: ptr<function, Path>, found: ptr<function, AovSample>, hit: 
     var s = dispatch_surface(hit, origin, (*path).dir, (*path).time);
     let declared = s.material;
     var m = load_material_head(declared);
-    dispatch_mix(&s, &m, (*path).key);
+    dispatch_mix(&s, &m, (*path).key, (*path).time);
     if (dispatch_pass(path, s, m.flags, ray_skip(hit))) {
         return;
     }

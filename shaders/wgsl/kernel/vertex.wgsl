@@ -43,7 +43,7 @@ fn vertex_surface(path: ptr<function, Path>, hit: Hit, v: ptr<function, Vertex>)
     let origin = dispatch_origin((*path).point, (*path).ray_offset, (*path).start, (*path).dir);
     var s = dispatch_surface(hit, origin, (*path).dir, (*path).time);
     var m = load_material_head(s.material);
-    dispatch_mix(&s, &m, (*path).key);
+    dispatch_mix(&s, &m, (*path).key, (*path).time);
     if (dispatch_pass(path, s, m.flags, ray_skip(hit))) {
         return false;
     }

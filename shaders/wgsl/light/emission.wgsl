@@ -9,5 +9,5 @@ fn emission_radiance(emission: vec3f, flags: u32, image: u32, uv: vec2f, front: 
     if (!front && (flags & FLAG_EMIT_BOTH_SIDES) == 0u) {
         return vec3f(0.0);
     }
-    return emission * texture_fetch(image, uv).xyz;
+    return emission * texture_fetch(image, uv, 0.0).xyz;
 }

@@ -72,7 +72,7 @@ impl Means {
     }
 
     /// How many standard errors the pictures differ by where they differ most.
-    fn distance(&self, other: &Self) -> f64 {
+    pub(crate) fn distance(&self, other: &Self) -> f64 {
         assert_eq!(self.0.len(), other.0.len());
         let z = |(a, b): (&Estimate, &Estimate)| {
             if a == b { 0.0 } else { (a.mean - b.mean).abs() / a.error.hypot(b.error) }

@@ -102,6 +102,39 @@ fn what_is_projected_goes_with_its_thing() {
     assert_same_mean("enlarged", &Means::of(&small, 19_000), &still);
 }
 
+/// What a thing and a mix of two materials on it are carved from goes with them, too.
+#[test]
+fn what_is_carved_goes_with_its_thing() {
+    let compiled = |thing: &str, eye: &str| {
+        let [width, height] = SIZE;
+        let text = format!(
+            "rts 1
+material veined: diffuse {{ color = mix(linear(0.1), linear(0.9), noise(3)), projection = solid }}
+material grey: diffuse {{ color = linear(0.4) }}
+material m: mix {{ a = veined, b = grey, amount = checker(2), projection = solid }}
+sky day: constant {{ color = linear(1) }}
+instance thing {{ {thing}, material = m }}
+camera eye: perspective {{ {eye}, fov.vertical = 40deg }}
+film f {{ size = ({width}, {height})px }}
+render main: path {{ camera = eye, film = f, samples = 128, depth = 2, seed = 1 }}
+"
+        );
+        scene::compile(&text)
+    };
+    let ball = "shape = sphere(radius: 1m)";
+    let still = Means::of(&compiled(ball, "from = (2, 2, 3)m, to = (0, 0, 0)m"), 23_000);
+    // A quarter turn about y: (x, y, z) goes to (z, y, -x).
+    let turned = format!("{ball}, rotate = (0, 90, 0)deg, at = (5, 1, -2)m");
+    let turned = compiled(&turned, "from = (8, 3, -4)m, to = (5, 1, -2)m");
+    assert_same_mean("turned", &Means::of(&turned, 29_000), &still);
+    let small = "shape = sphere(radius: 25cm), scale = 4";
+    let small = compiled(small, "from = (2, 2, 3)m, to = (0, 0, 0)m");
+    assert_same_mean("enlarged", &Means::of(&small, 31_000), &still);
+    // Another part of the block.
+    let other = compiled(ball, "from = (2, 2, -3)m, to = (0, 0, 0)m");
+    assert!(Means::of(&other, 37_000).distance(&still) > 20.0);
+}
+
 /// Where a surface faces two axes alike it is half of each plane's texture.
 #[test]
 fn planes_blend_where_they_meet() {
@@ -120,8 +153,10 @@ render main: path {{ camera = eye, film = f, samples = 256, depth = 2 }}
 "
         )
     };
-    // On the plane across x a square of the board, which is a metre wide, is 1, and on that across y it is 0.
-    for (projection, expected) in [("x", 0.8), ("y", 0.0), ("box", 0.4)] {
+    // On the planes across x and z a square of the board, which is a metre wide, is 1, and on that across y it is 0; so
+    // is the cube that the surface cuts.
+    let cases = [("x", 0.8), ("y", 0.0), ("z", 0.8), ("box", 0.4), ("solid", 0.0)];
+    for (projection, expected) in cases {
         let compiled = scene::compile(&text(projection));
         let found: Vec<f64> = film(&compiled).means().iter().map(|rgb| rgb[1]).collect();
         let Estimate { mean, error } = Estimate::of(&found);

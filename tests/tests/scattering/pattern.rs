@@ -164,6 +164,7 @@ fn single_surface(s: &double::Surface) -> single::Surface {
         bulge: s.bulge.as_vec3(),
         ns: s.ns.as_vec3(),
         uv: s.uv.as_vec2(),
+        w: s.w as f32,
         ray_offset: s.ray_offset as f32,
         material: s.material,
         light: s.light,

@@ -35,10 +35,11 @@ impl MaterialTable<'_> {
         if record.textures().iter().any(|texture| *texture != NONE) {
             record.flags |= match material.projection {
                 TextureProjection::Uv => 0,
-                TextureProjection::Box => material_flag::PROJECT | material_flag::OBJECT,
+                TextureProjection::Box => material_flag::PROJECT_BOX | material_flag::OBJECT,
                 TextureProjection::Axis(0) => material_flag::PROJECT_X | material_flag::OBJECT,
                 TextureProjection::Axis(1) => material_flag::PROJECT_Y | material_flag::OBJECT,
                 TextureProjection::Axis(_) => material_flag::PROJECT_Z | material_flag::OBJECT,
+                TextureProjection::Solid => material_flag::PROJECT_SOLID | material_flag::OBJECT,
             };
         }
         record

@@ -82,8 +82,11 @@ fn pattern(of: &TexturePattern) -> TextureOp {
         placed(kind, matrix, [0.0; 2])
     };
     match *of {
+        // As many along w as along u: both are level where v is up.
         TexturePattern::Checker([u, v]) => {
-            placed(TextureOpKind::Checker, [u, 0.0, 0.0, v], [0.0; 2])
+            let mut op = placed(TextureOpKind::Checker, [u, 0.0, 0.0, v], [0.0; 2]);
+            op.q[2] = u as f32;
+            op
         }
         TexturePattern::Bricks { count: [u, v], mortar } => {
             // As wide between the ends of bricks as between rows: half of it belongs to each brick.
@@ -95,8 +98,9 @@ fn pattern(of: &TexturePattern) -> TextureOp {
         TexturePattern::Gradient(angle) => along(TextureOpKind::Gradient, 1.0, angle),
         TexturePattern::Wave { count, angle } => along(TextureOpKind::Wave, count, angle),
         TexturePattern::Noise { count, octaves } => {
-            let matrix = [count, 0.0, 0.0, count];
-            TextureOp { arg: octaves, ..placed(TextureOpKind::Noise, matrix, [0.0; 2]) }
+            let mut op = placed(TextureOpKind::Noise, [count, 0.0, 0.0, count], [0.0; 2]);
+            (op.arg, op.q[2]) = (octaves, count as f32);
+            op
         }
     }
 }

@@ -169,15 +169,18 @@ pub mod material_flag {
     pub const EMIT_PROFILE: u32 = 1024;
     /// The camera does not see it: what comes straight from there goes straight on.
     pub const UNSEEN: u32 = 512;
-    /// Textures are projected along the x axis of the object, and not looked up at texture coordinates. With the other
-    /// two: along the one that the surface faces.
+    /// Textures are projected along the x axis of the object, and not looked up at texture coordinates.
     pub const PROJECT_X: u32 = 2048;
     /// Along the y axis.
     pub const PROJECT_Y: u32 = 4096;
     /// Along the z axis.
     pub const PROJECT_Z: u32 = 8192;
+    /// Along the axis that the surface faces.
+    pub const PROJECT_BOX: u32 = PROJECT_X | PROJECT_Y | PROJECT_Z;
+    /// Along the z axis, which is the third coordinate of patterns that have one.
+    pub const PROJECT_SOLID: u32 = 16384;
     /// Any of these.
-    pub const PROJECT: u32 = PROJECT_X | PROJECT_Y | PROJECT_Z;
+    pub const PROJECT: u32 = PROJECT_BOX | PROJECT_SOLID;
     /// Every bit.
     pub const ALL: u32 = PROJECT
         | EMIT_BOTH_SIDES

@@ -16,7 +16,8 @@ pub const MAX_TEXTURE_OPS: u32 = 64;
 
 tags! {
     /// What a `TextureOp` does. *Place* is a point of the texture: `p` as a 2 x 2 matrix, row by row, times uv, plus
-    /// the first half of `q`. The numbers are part of the pack format.
+    /// the first half of `q`. Textures that fill an object have a third coordinate, w; it is 0 on all others. The
+    /// numbers are part of the pack format.
     pub enum TextureOpKind {
         /// Leaves `p`.
         Constant = 0,
@@ -36,7 +37,7 @@ tags! {
         Clamp = 7,
         /// A texel of a normal map whose x and y, encoded as 0 to 1, are turned by the matrix `p`.
         Tilt = 8,
-        /// 0 and 1 in squares of 1 x 1.
+        /// 0 and 1 in cubes of 1 x 1 x 1, at the place and `q.z` times w.
         Checker = 9,
         /// 1 in bricks of 1 x 1, every other row shifted by a half; 0 in the mortar: what is nearer than
         /// `q.z` to an end or `q.w` to the upper or lower edge.
@@ -45,7 +46,7 @@ tags! {
         Gradient = 11,
         /// `(1 - cos(2 pi x)) / 2`.
         Wave = 12,
-        /// Fractal noise of `arg` octaves, the first with cells of 1 x 1; mean 1/2.
+        /// Fractal noise of `arg` octaves, the first with cells of 1 x 1 x 1, at the place and `q.z` times w; mean 1/2.
         Noise = 13,
     }
 }
