@@ -133,7 +133,7 @@ fn strips_and_fans_and_missing_indices() {
     document.mesh(&json!({"attributes": {"POSITION": positions}, "mode": 1}));
     let mesh = load(&document);
     assert_eq!(mesh.report.zero_area.count, 0, "sewing triangles of strips are no surface");
-    assert_eq!(mesh.report.warnings[0].message, "1 primitives of points or lines are left out");
+    assert_eq!(mesh.report.warnings[0].message, "points and lines are left out (1 primitive)");
 }
 
 #[test]

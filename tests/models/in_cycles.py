@@ -17,7 +17,12 @@ def load(path):
     """Blender turns +Y up into its own +Z up; PLY and STL say no frame, and are taken as they are here."""
     match Path(path).suffix.lower():
         case ".glb" | ".gltf":
-            bpy.ops.import_scene.gltf(filepath=path)
+            # Nodes as they are stored, as `rtc` shows them, and not a moment of an animation.
+            bpy.ops.import_scene.gltf(filepath=path, guess_original_bind_pose=False)
+            for thing in bpy.data.objects:
+                thing.animation_data_clear()
+                if thing.type == "ARMATURE":
+                    thing.data.pose_position = "REST"
         case ".obj":
             bpy.ops.wm.obj_import(filepath=path)
         case ".ply":
@@ -39,10 +44,13 @@ def smooth(angle):
             bpy.ops.object.shade_smooth_by_angle(angle=math.radians(angle))
 
 
-def paint():
-    """What has no material is the grey that `rtc` takes."""
-    nodes = Nodes("grey")
-    nodes.link("Surface", "ShaderNodeBsdfDiffuse", Color=(0.5, 0.5, 0.5, 1))
+def paint(is_gltf):
+    """What has no material is as `rtc` has it: a grey, in glTF the white metal of the specification."""
+    nodes = Nodes("nothing")
+    if is_gltf:
+        nodes.link("Surface", "ShaderNodeBsdfPrincipled", **{"Base Color": (1, 1, 1, 1), "Metallic": 1, "Roughness": 1})
+    else:
+        nodes.link("Surface", "ShaderNodeBsdfDiffuse", Color=(0.5, 0.5, 0.5, 1))
     for thing in bpy.data.objects:
         if thing.type == "MESH" and not any(slot.material for slot in thing.material_slots):
             thing.data.materials.clear()
@@ -80,7 +88,7 @@ def main():
     if not job["is_gltf"]:
         # What has no normals is flat in glTF.
         smooth(job["crease"])
-    paint()
+    paint(job["is_gltf"])
     camera(job)
     sky(job["hdr"])
     settings(job["size"], job["spp"], 0, job["threads"], job["depth"], job["out"])

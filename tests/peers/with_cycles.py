@@ -159,7 +159,7 @@ def sky(radiance):
     bpy.context.scene.world = space
 
 
-def settings(size, spp, seed, threads, depth, out, part):
+def settings(size, spp, seed, threads, depth, out, part=()):
     render, cycles = bpy.context.scene.render, bpy.context.scene.cycles
     render.engine = "CYCLES"
     render.resolution_x, render.resolution_y = size

@@ -84,4 +84,19 @@ impl ImportReport {
             self.n_untold += 1;
         }
     }
+
+    /// Adds a warning about `count` things of a kind, named as one and as several; none about no things.
+    pub(super) fn warn_of(
+        &mut self,
+        place: &str,
+        what: &str,
+        count: u64,
+        [one, several]: [&str; 2],
+    ) {
+        match count {
+            0 => {}
+            1 => self.warn(place, format!("{what} (1 {one})")),
+            n => self.warn(place, format!("{what} ({n} {several})")),
+        }
+    }
 }

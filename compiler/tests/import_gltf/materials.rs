@@ -83,8 +83,8 @@ fn layers_of_a_material_are_read_from_their_extensions() {
     assert_eq!(
         said,
         [
-            "1 materials have coats with normal maps of their own, which are not used",
-            "1 materials are solid glass, whose colour, roughness, coat and opaque part are not used",
+            "normal maps of coats are not used (1 material)",
+            "colour, roughness, coat and opaque part of solid glass are not used (1 material)",
         ]
     );
     // Half of the red is left after two metres.
@@ -148,7 +148,7 @@ fn brushed_materials_keep_their_wider_width() {
     let mesh = load_with(json!({"pbrMetallicRoughness": {"roughnessFactor": 0.5}, "extensions":
         {"KHR_materials_sheen": sheen, "KHR_materials_anisotropy": {"anisotropyStrength": 0.5}}}));
     assert_eq!((mesh.materials[0].sheen, mesh.materials[0].sheen_map), ([0.0; 3], None));
-    let message = "1 materials have sheen and are coated or brushed; their sheen is left out";
+    let message = "sheen is left out of what is coated or brushed (1 material)";
     assert_eq!(mesh.report.warnings[0].message, message);
     let plain = brushed(json!({"anisotropyRotation": 1}), 0.5);
     assert_eq!((plain.materials[0].anisotropy, plain.materials[0].roughness), (0.0, 0.5));

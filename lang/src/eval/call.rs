@@ -64,6 +64,13 @@ impl Evaluator<'_> {
             let note = format!("`{}` is the name in {from}", name.text);
             return self.fault(error.at(name.span, "not known").with_note(note).with_fix(fix));
         }
+        let declared = |kind: &Kind| kind.name() == name.text;
+        if let Some(kind) = [Kind::Asset, Kind::Texture].into_iter().find(declared) {
+            let (word, types) = (kind.name(), schema::types_of(kind));
+            let example = types.first().map_or(word, |first| first.name);
+            let help = format!("it begins a declaration: `{word} name = {example}(...)`");
+            return self.fault(error.at(name.span, "not a function").with_help(help));
+        }
         let functions = FUNCTIONS.iter().map(|function| function.name);
         let shapes = schema::types_of(Kind::Shape).iter().map(|shape| shape.name);
         self.fault(did_you_mean(error, name, functions.chain(shapes)))

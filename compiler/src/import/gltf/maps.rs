@@ -56,35 +56,26 @@ pub(super) struct Notes {
 impl Notes {
     pub(super) fn report(&self, file: &str, report: &mut ImportReport) {
         let notes = [
-            (self.coat_normals, "have coats with normal maps of their own, which are not used"),
-            (self.coats_on_maps, "have coats that follow the normal map of what is under them"),
+            (self.coat_normals, "normal maps of coats are not used"),
+            (self.coats_on_maps, "coats follow the normal map of what is under them"),
             (
                 self.tinted_glass,
-                "are solid glass, whose colour, roughness, coat and opaque part are not used",
+                "colour, roughness, coat and opaque part of solid glass are not used",
             ),
-            (
-                self.absorbing,
-                "absorb light inside and are mostly opaque; their absorption is left out",
-            ),
+            (self.absorbing, "absorption inside is left out of what is mostly opaque"),
             (
                 self.brushed_by_maps,
-                "are brushed by textures; what is between round and brushed, or smooth and rough, is approximate",
+                "brushing by a texture is approximate between round and brushed, or smooth and rough",
             ),
             (
                 self.too_brushed,
-                "have highlights more than ten times as long as wide; here ten times is the most",
+                "highlights more than ten times as long as wide are ten times as long",
             ),
-            (
-                self.sheen_over_others,
-                "have sheen and are coated or brushed; their sheen is left out",
-            ),
-            (
-                self.uv_sets,
-                "look up their images at different UVs; all use those of the first image",
-            ),
+            (self.sheen_over_others, "sheen is left out of what is coated or brushed"),
+            (self.uv_sets, "images of one material at different UVs all use those of the first"),
         ];
-        for (count, what) in notes.into_iter().filter(|(count, _)| *count > 0) {
-            report.warn(file, format!("{count} materials {what}"));
+        for (count, what) in notes {
+            report.warn_of(file, what, count, ["material", "materials"]);
         }
     }
 }

@@ -114,11 +114,11 @@ impl Table {
         }
         reader.take(n_bytes, document.file)?;
         let what = [
-            "primitives of points or lines are left out",
-            "primitives have tangents for their normal maps; those of the UVs are used instead",
+            "points and lines are left out",
+            "tangents for normal maps come from the UVs, not from the file",
         ];
-        for (count, what) in left_out.into_iter().zip(what).filter(|(count, _)| *count > 0) {
-            report.warn(document.file, format!("{count} {what}"));
+        for (count, what) in left_out.into_iter().zip(what) {
+            report.warn_of(document.file, what, count, ["primitive", "primitives"]);
         }
         Ok(Self { used: used.into_values().collect(), unnamed, variant, uses })
     }
