@@ -5,6 +5,8 @@
 
 #[path = "scattering/energy.rs"]
 mod energy;
+#[path = "scattering/facets.rs"]
+mod facets;
 #[path = "scattering/layers.rs"]
 mod layers;
 #[path = "scattering/matte.rs"]
