@@ -28,16 +28,17 @@ FORMATS = {".glb": "gltf", ".gltf": "gltf", ".obj": "obj", ".ply": "ply", ".stl"
 CREASE = 60
 # Above this share of the light of a tile, on average, the page says why.
 LIMIT = 0.05
-WHITE_METAL = "white rough metal, see below"
+ROUGH_METAL = "rough metal, see below"
 # By name of the model.
 REASONS = {
     "GolfBall": "its coat has a normal map of its own, which is not used here",
-    "box_sparse": WHITE_METAL,
+    "box_sparse": ROUGH_METAL,
     "hp-mixed-reality": "black plastic, see below",
-    "pico-4u": "noise in both: reflections of reflections of the sun",
-    "sphere": WHITE_METAL,
-    "torus": WHITE_METAL,
+    "pico-4u": "noise in both: smooth surfaces reflect the sun onto each other",
+    "sphere": ROUGH_METAL,
+    "torus": ROUGH_METAL,
     "cornellbox_suzanne": "its material library is not there: grey of 0.5 here, white in Blender",
+    "cakeBirthday": ROUGH_METAL,
     "fuze": "`Ks 1` doubles the reflectance at normal incidence in Blender (Specular IOR Level 1); here it is that of index 1.5",
 }
 
@@ -54,9 +55,9 @@ of the specification; rigs stand as they are stored. The models are in no reposi
 - **Mean, largest difference**: of the luminance of tiles of {tile} x {tile} pixels, over that of the tile in Cycles. Only
   tiles that show the model count.
 - **Noise**: the mean difference that noise alone would give.
-- Black plastic is up to a tenth darker here: gloss follows Schlick's formula, as glTF specifies, of which a refractive
-  index of 1.5 in uniform light reflects 8.6 %; Cycles has Fresnel's, of which it is 9.2 %.
-- White rough metal, glTF's default: light that facets reflect more than once has a lobe of its own here (Kulla & Conty
+- Dark plastic is darker here: its gloss follows Schlick's formula, as glTF specifies, and not Fresnel's. Of light that comes
+  at 60 degrees a refractive index of 1.5 reflects 7.0 % here and 8.9 % in Cycles.
+- Rough metal, glTF's default: light that facets reflect more than once has a lobe of its own here (Kulla & Conty
   2017); Cycles makes the first reflection stronger. Beside light that walks from facet to facet (Heitz et al. 2016) the
   former is 2 % to 8 % off, the latter 10 % to 31 %: `cargo test -p tests --test scattering facets -- --nocapture`.
 

@@ -155,7 +155,7 @@ const EYE: [&str; 1] = ["keys_camera("];
 /// Words of the texts for light linking, likewise.
 const LINKED: [&str; 4] = ["struct Receiver", "Receiver(", "receiver.", "load_frame_link_at()"];
 /// Words of the text for textures that are projected, likewise.
-const PROJECTED: [&str; 1] = ["projection_apply("];
+const PROJECTED: [&str; 2] = ["projection_apply(", "projection_at("];
 /// Words of the text for either.
 const TIME: [&str; 1] = ["load_frame_camera_key_at() == NONE"];
 
