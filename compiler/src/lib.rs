@@ -8,6 +8,7 @@ mod atmosphere;
 pub mod bvh;
 pub mod cache;
 pub mod cli;
+mod counted;
 pub mod depfile;
 pub mod import;
 pub mod input;

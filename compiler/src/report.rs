@@ -16,6 +16,8 @@ use std::io::{BufWriter, IsTerminal, Write};
 use lang::diagnostic::Diagnostic;
 use lang::source::SourceSet;
 
+use crate::counted::counted;
+
 /// How diagnostics look.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum ErrorFormat {
@@ -156,13 +158,9 @@ fn hidden(n_errors: usize, n_warnings: usize, max: usize) -> Option<String> {
 }
 
 fn summary(n_errors: usize, n_warnings: usize) -> Option<String> {
-    let count = |n: usize, what: &str| match n {
-        0 => None,
-        1 => Some(format!("1 {what}")),
-        n => Some(format!("{n} {what}s")),
-    };
-    let counts = [count(n_errors, "error"), count(n_warnings, "warning")];
-    let counts: Vec<String> = counts.into_iter().flatten().collect();
+    let counts = [(n_errors, "error", "errors"), (n_warnings, "warning", "warnings")];
+    let counts = counts.into_iter().filter(|(n, ..)| *n > 0);
+    let counts: Vec<String> = counts.map(|(n, one, several)| counted(n, one, several)).collect();
     (!counts.is_empty()).then(|| counts.join(", "))
 }
 

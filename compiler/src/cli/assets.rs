@@ -11,6 +11,7 @@ use super::args::SceneArgs;
 use super::bounds::{options, place, rounded};
 use super::compile::failed;
 use crate::cache::Cache;
+use crate::counted::counted;
 use crate::import::{FileCamera, FileLight, FileView, LightKind, MeshFacts, PartFacts};
 use crate::lower::Bounds;
 use crate::pipeline;
@@ -48,8 +49,11 @@ fn describe(text: &mut String, name: &str, path: &str, facts: &MeshFacts) {
     let whole = Bounds::union(facts.parts.iter().filter_map(bounds));
     let n_triangles: usize = facts.parts.iter().map(|part| part.n_triangles).sum();
     let size = whole.as_ref().map_or("nothing".to_owned(), place);
-    let _ =
-        writeln!(text, "asset {name}  \"{path}\"\n  {}  {size}", count(n_triangles, "triangle"));
+    let _ = writeln!(
+        text,
+        "asset {name}  \"{path}\"\n  {}  {size}",
+        counted(n_triangles, "triangle", "triangles")
+    );
     let material =
         |part: &PartFacts| match part.material.and_then(|i| facts.materials.get(i as usize)) {
             Some(material) => format!("material \"{}\"", shown(&material.name)),
@@ -57,16 +61,21 @@ fn describe(text: &mut String, name: &str, path: &str, facts: &MeshFacts) {
         };
     let rows = facts.parts.iter().map(|part| {
         let size = bounds(part).as_ref().map_or("nothing".to_owned(), place);
-        let triangles = count(part.n_triangles, "triangle");
+        let triangles = counted(part.n_triangles, "triangle", "triangles");
         [format!("part \"{}\"", shown(&part.name)), material(part), triangles, size]
     });
     table(text, &rows.collect::<Vec<_>>());
     let rows = facts.materials.iter().enumerate().map(|(index, material)| {
         let of_it = |part: &&PartFacts| part.material.is_some_and(|i| i as usize == index);
         let parts: Vec<&PartFacts> = facts.parts.iter().filter(of_it).collect();
-        let triangles = parts.iter().map(|part| part.n_triangles).sum();
+        let triangles: usize = parts.iter().map(|part| part.n_triangles).sum();
         let name = format!("material \"{}\"", shown(&material.name));
-        [name, count(parts.len(), "part"), count(triangles, "triangle"), String::new()]
+        [
+            name,
+            counted(parts.len(), "part", "parts"),
+            counted(triangles, "triangle", "triangles"),
+            String::new(),
+        ]
     });
     table(text, &rows.collect::<Vec<_>>());
     let mut names = Names::default();
@@ -86,10 +95,6 @@ fn describe(text: &mut String, name: &str, path: &str, facts: &MeshFacts) {
         let name = names.of(&camera.name, "eye");
         let _ = writeln!(text, "    {}", camera_text(camera, &name, size, middle));
     }
-}
-
-fn count(n: usize, one: &str) -> String {
-    if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") }
 }
 
 /// A name of a file: control characters never reach a terminal.

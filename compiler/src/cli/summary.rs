@@ -16,14 +16,14 @@ pub(super) fn done(output: &Path, compiled: &Compiled, time: Duration) -> String
     let counters = &compiled.lowered.counters;
     let size = std::fs::metadata(output).map_or(0, |meta| meta.len());
     let mut things = Vec::new();
-    for (count, what) in [
-        (counters.triangles, "triangles"),
-        (counters.spheres, "spheres"),
-        (counters.lights, "lights"),
-        (compiled.lowered.textures.len() as u64, "textures"),
+    for (count, one, several) in [
+        (counters.triangles, "triangle", "triangles"),
+        (counters.spheres, "sphere", "spheres"),
+        (counters.lights, "light", "lights"),
+        (compiled.lowered.textures.len() as u64, "texture", "textures"),
     ] {
         if count > 0 {
-            things.push(format!("{} {what}", grouped(count)));
+            things.push(format!("{} {}", grouped(count), if count == 1 { one } else { several }));
         }
     }
     if counters.instances > 0 {

@@ -40,6 +40,7 @@ use super::image_set::ImageSet;
 use super::mesh::{MeshFile, keep};
 use super::report::ImportReport;
 use super::studio::Studio;
+use crate::counted::counted;
 use ::gltf::json::{Accessor, Material, Root, deserialize, mesh, scene};
 use files::ShowPath as _;
 use lang::scene::GltfChoice;
@@ -207,11 +208,10 @@ fn warn_about(document: &Document<'_>, choice: &GltfChoice, report: &mut ImportR
 
 /// Says that lights and cameras are left out, and where they are to be had.
 fn warn_about_studio(studio: &Studio, document: &Document<'_>, report: &mut ImportReport) {
-    let counted = [(studio.lights.len(), "light"), (studio.cameras.len(), "camera")];
-    let found = counted.into_iter().filter(|(count, _)| *count > 0);
-    let named =
-        |(n, one): (usize, &str)| if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") };
-    let list: Vec<String> = found.map(named).collect();
+    let counts =
+        [(studio.lights.len(), "light", "lights"), (studio.cameras.len(), "camera", "cameras")];
+    let found = counts.into_iter().filter(|(n, ..)| *n > 0);
+    let list: Vec<String> = found.map(|(n, one, several)| counted(n, one, several)).collect();
     if !list.is_empty() {
         let n = studio.lights.len() + studio.cameras.len();
         let (verb, them) = if n == 1 { ("is", "it") } else { ("are", "them") };

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use crate::counted::counted;
+
 /// Warnings of one file that are kept; more of them tell nobody more.
 const MAX_WARNINGS: usize = 100;
 
@@ -93,10 +95,8 @@ impl ImportReport {
         count: u64,
         [one, several]: [&str; 2],
     ) {
-        match count {
-            0 => {}
-            1 => self.warn(place, format!("{what} (1 {one})")),
-            n => self.warn(place, format!("{what} ({n} {several})")),
+        if count > 0 {
+            self.warn(place, format!("{what} ({})", counted(count, one, several)));
         }
     }
 }

@@ -5,6 +5,7 @@ use lang::material::Traits as _;
 use lang::scene::{Instance, Parts, Scene, Shape};
 
 use super::files::Files;
+use crate::counted::counted;
 use crate::import::{ImportError, Topology, topology};
 use crate::stage::{KeyOf, Stages};
 
@@ -74,12 +75,12 @@ fn filling<'a>(scene: &'a Scene, instance: &Instance) -> Option<Filling<'a>> {
 }
 
 fn holes(found: &Topology) -> String {
-    let count = |n: u64, one: &str| if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") };
     let near = found.boundary_near.map_or(String::new(), |p| {
         format!(", near ({:.3}, {:.3}, {:.3})m of the file", p[0], p[1], p[2])
     });
     let (edges, loops) = (found.boundary_edges, found.boundary_loops);
-    format!("{} in {}{near}", count(edges, "boundary edge"), count(loops, "loop"))
+    let edges = counted(edges, "boundary edge", "boundary edges");
+    format!("{edges} in {}{near}", counted(loops, "loop", "loops"))
 }
 
 fn open(instance: &Instance, filling: &Filling<'_>, what: String) -> Diagnostic {

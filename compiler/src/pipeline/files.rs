@@ -20,6 +20,7 @@ use serde::de::DeserializeOwned;
 use super::options::Options;
 use super::session::Session;
 use crate::atmosphere;
+use crate::counted::counted;
 use crate::import::{
     Environment, EnvironmentFacts, ErrorKind, Image, ImageFacts, ImportError, ImportReport,
     MeshFacts, MeshFile, load_environment, load_gltf, load_image, load_obj, load_ply, load_stl,
@@ -482,28 +483,25 @@ fn report(report: &ImportReport, span: Span, diagnostics: &mut Vec<Diagnostic>) 
             None => warning,
         });
     };
-    let plural = |n: u64, one: &str, many: &str| {
-        if n == 1 { format!("1 {one}") } else { format!("{n} {many}") }
-    };
     let zero = &report.zero_area;
     if zero.count > 0 {
-        let what = plural(zero.count, "triangle without area was", "triangles without area were");
+        let what = counted(zero.count, "triangle without area was", "triangles without area were");
         warn("W0520", "zero_area", format!("{what} left out"), &zero.first);
     }
     let needles = &report.needles;
     if needles.count > 0 {
-        let what = plural(needles.count, "triangle is", "triangles are");
+        let what = counted(needles.count, "triangle is", "triangles are");
         let message =
             format!("{what} a needle, more than 1e5 times as long as high: expect noise there");
         warn("W0521", "needles", message, &needles.first);
     }
     let normals = &report.zero_normals;
     if normals.count > 0 {
-        let what = plural(normals.count, "normal has", "normals have");
+        let what = counted(normals.count, "normal has", "normals have");
         warn("W0522", "zero_normals", format!("{what} no length and was replaced"), &normals.first);
     }
     if report.clamped_texels > 0 {
-        let what = plural(report.clamped_texels, "texel channel was", "texel channels were");
+        let what = counted(report.clamped_texels, "texel channel was", "texel channels were");
         warn(
             "W0523",
             "clamped_texels",

@@ -6,6 +6,7 @@
 use super::super::error::excerpt;
 use super::super::report::ImportReport;
 use super::document::Document;
+use crate::counted::counted;
 use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -45,17 +46,16 @@ pub(super) fn warn(
             continue;
         }
         let name = excerpt(name.as_bytes());
-        report.warn(document.file, format!("{name} is left out{}", counted(places)));
+        report.warn(document.file, format!("{name} is left out{}", of_things(places)));
     }
 }
 
 /// ` of 2 materials and 1 node`, or nothing if it is in none of the lists.
-fn counted(places: &BTreeSet<Option<(usize, usize)>>) -> String {
+fn of_things(places: &BTreeSet<Option<(usize, usize)>>) -> String {
     let count = |list| places.iter().flatten().filter(|(own, _)| *own == list).count();
     let counts = LISTS.iter().enumerate().map(|(list, (all, one))| match count(list) {
-        1 => Some(format!("1 {one}")),
-        n if n > 0 => Some(format!("{n} {all}")),
-        _ => None,
+        0 => None,
+        n => Some(counted(n, one, all)),
     });
     let counts: Vec<String> = counts.flatten().collect();
     if counts.is_empty() { String::new() } else { format!(" of {}", counts.join(" and ")) }
