@@ -34,12 +34,13 @@ impl Sums {
     }
 
     /// Which replicate is next, and which of its samples: at most `most`, and none of a batch after the next. All
-    /// replicates of a round get the same.
+    /// replicates of a round get the same, and no round more than all before it, so that the error is told on the way
+    /// of even the fastest picture.
     pub(super) fn next(&self, most: u32) -> (u32, SampleRange) {
         let start = self.counts.iter().copied().min().unwrap_or(0);
         let (replicate, _) = (0..).zip(self.counts).find(|(_, n)| *n == start).unwrap_or_default();
         let end = self.counts.iter().copied().max().filter(|end| *end > start);
-        let end = end.unwrap_or(start + most.clamp(1, BATCH - start % BATCH));
+        let end = end.unwrap_or(start + most.clamp(1, start.clamp(1, BATCH - start % BATCH)));
         (replicate, SampleRange { start, end })
     }
 
@@ -120,16 +121,25 @@ mod tests {
     #[test]
     fn replicates_take_turns_and_share_their_rounds() {
         let mut sums = Sums::new([2, 1]).unwrap();
-        let mut turns = Vec::new();
-        for most in [1, 9, 9, 9, 7, 2, 2, 2, 100] {
+        for most in [1, 9, 9, 9, 1, 2, 2, 2, 100] {
             let (replicate, samples) = sums.next(most);
-            turns.push((replicate, samples.start, samples.end));
             sums.add(&film(1.0, samples.count()), replicate);
         }
-        let first = [(0, 0, 1), (1, 0, 1), (2, 0, 1), (3, 0, 1)];
-        let second = [(0, 1, 8), (1, 1, 8), (2, 1, 8), (3, 1, 8)];
-        // No range leaves its batch.
-        assert_eq!(turns, [&first[..], &second, &[(0, 8, 16)]].concat());
+        assert_eq!(sums.counts, [4, 2, 2, 2]);
+    }
+
+    #[test]
+    fn no_round_is_larger_than_all_before_it_or_leaves_its_batch() {
+        let mut sums = Sums::new([2, 1]).unwrap();
+        let mut ends = Vec::new();
+        while sums.samples() < 4 * 4 * BATCH {
+            let (replicate, samples) = sums.next(u32::MAX);
+            assert_eq!(samples.start / BATCH, (samples.end - 1) / BATCH);
+            sums.add(&film(1.0, samples.count()), replicate);
+            ends.extend((replicate == 3).then_some(samples.end));
+        }
+        let doubled = (0..).map(|i| 1 << i).take_while(|end| *end < BATCH);
+        assert_eq!(ends, doubled.chain((1..=4).map(|i| i * BATCH)).collect::<Vec<_>>());
     }
 
     #[test]
