@@ -66,6 +66,7 @@ pub(crate) const OTHER_HIT: f32 = 1e-3;
 struct Section {
     words: Vec<UVec4>,
     start: usize,
+    end: usize,
 }
 
 impl Section {
@@ -75,11 +76,12 @@ impl Section {
         let mut words = vec![UVec4::ZERO; (bytes.len() + Self::PAGE) / size_of::<UVec4>()];
         let start = words.as_ptr().align_offset(Self::PAGE);
         bytemuck::cast_slice_mut(&mut words[start..])[..bytes.len()].copy_from_slice(bytes);
-        Self { words, start }
+        let end = start + bytes.len().div_ceil(size_of::<UVec4>());
+        Self { words, start, end }
     }
 
     fn words(&self) -> &[UVec4] {
-        &self.words[self.start..]
+        &self.words[self.start..self.end]
     }
 }
 
