@@ -10,9 +10,9 @@
 #![expect(clippy::inline_always, reason = "what is not inlined is not compiled for the processor")]
 
 mod build;
+mod collapse;
 mod crossings;
 mod few;
-mod gather;
 mod lanes;
 mod node;
 mod stack;

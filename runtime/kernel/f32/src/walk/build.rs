@@ -3,12 +3,12 @@
 //! Turns each tree of the pack, from the top down, into nodes of eight. What is below the top is made in parallel, in
 //! pieces that do not depend on the number of threads, and joined in their order.
 
+use super::collapse::{Child, Item, Plan, Source};
 use super::few::{Content, Few};
-use super::gather::{Child, Item, Source};
 use super::tree::{BLOCK, Block, MOVING, Node, TWO_BLOCKS, Tree, WIDTH};
 use pack::abi::{CHILD_INNER, CHILD_SPHERES, ChildRef, Instance, NONE, Triangle, WideNode};
 use rayon::prelude::*;
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::BTreeMap;
 
 /// Pieces that are made in parallel, about.
 const PIECES: usize = 256;
@@ -37,12 +37,15 @@ impl Tree {
         let mut top = Piece::default();
         let mut roots: BTreeMap<u32, u32> = BTreeMap::new();
         for word in std::iter::once(root).chain(instances.iter().map(|instance| instance.root)) {
-            roots.entry(word).or_insert_with(|| top.root(&source, word));
+            roots.entry(word).or_insert_with(|| top.root(&source, word, PIECES));
         }
-        top.grow(&source, PIECES);
-        let grown = |(place, word)| (place, Piece::of(&source, word));
+        let whole = |(place, word)| {
+            let mut piece = Piece::default();
+            piece.root(&source, word, usize::MAX);
+            (place, piece)
+        };
         let pieces: Vec<(Place, Piece)> =
-            std::mem::take(&mut top.waiting).into_par_iter().map(grown).collect();
+            std::mem::take(&mut top.waiting).into_par_iter().map(whole).collect();
         let Piece { nodes, blocks, moving, .. } = join(top, pieces);
         let mut tree = Tree {
             nodes,
@@ -69,61 +72,57 @@ struct Piece {
     nodes: Vec<Node>,
     blocks: Vec<Block>,
     moving: Vec<u32>,
-    /// Inner nodes of the pack that have not been made yet, and where their number is to go.
-    waiting: VecDeque<(Place, u32)>,
+    /// Inner nodes of the pack that are left to others, and where their numbers are to go.
+    waiting: Vec<(Place, u32)>,
 }
 
 impl Piece {
-    /// All of the tree below the inner node `word` of the pack.
-    fn of(source: &Source<'_>, word: u32) -> Self {
-        let mut piece = Self::default();
-        piece.root(source, word);
-        while let Some((place, word)) = piece.waiting.pop_back() {
-            piece.fill(source, place, word);
-        }
-        piece
-    }
-
-    /// Makes nodes, those above first, until so many are left for others, or none.
-    fn grow(&mut self, source: &Source<'_>, others: usize) {
-        while self.waiting.len() < others {
-            let Some((place, word)) = self.waiting.pop_front() else { return };
-            self.fill(source, place, word);
-        }
-    }
-
-    fn fill(&mut self, source: &Source<'_>, (parent, slot): Place, word: u32) {
-        self.nodes[parent].children[slot] = self.root(source, word);
-    }
-
-    /// Makes what the word of the pack refers to; the children of a node wait.
-    fn root(&mut self, source: &Source<'_>, word: u32) -> u32 {
+    /// Makes what the word of the pack refers to, until so many inner nodes are left for others.
+    fn root(&mut self, source: &Source<'_>, word: u32, others: usize) -> u32 {
         let ChildRef::Inner(inner) = ChildRef::decode(word) else {
-            return self.end(source, &source.child(word, [[0.0; 3]; 2]).item);
+            return self.end(source, &source.item(word));
         };
-        let children = source.gather(inner);
+        let plan = Plan::new(source, inner, others);
+        let root = number(self.nodes.len()) | CHILD_INNER;
+        let mut open = Vec::new();
+        let mut children = plan.top();
+        loop {
+            let at = self.node(source, &children);
+            let nodes = children.iter().enumerate().filter_map(|(slot, child)| match child.item {
+                Item::Node(subtree) => Some(((at, slot), subtree)),
+                _ => None,
+            });
+            open.extend(nodes);
+            let Some(((parent, slot), subtree)) = open.pop() else { return root };
+            self.nodes[parent].children[slot] = number(self.nodes.len()) | CHILD_INNER;
+            children = plan.children(subtree);
+        }
+    }
+
+    /// A node with the leaves among its children. Those that are nodes of the pack wait.
+    fn node(&mut self, source: &Source<'_>, children: &[Child]) -> usize {
         let at = self.nodes.len();
-        self.nodes.push(Node::of(&children));
+        self.nodes.push(Node::of(children));
         for (slot, child) in children.iter().enumerate() {
-            if let Item::Inner(index) = child.item {
-                self.waiting.push_back(((at, slot), index | CHILD_INNER));
-            } else {
-                self.nodes[at].children[slot] = self.end(source, &child.item);
+            match child.item {
+                Item::Node(_) => {}
+                Item::Inner(index) => self.waiting.push(((at, slot), index | CHILD_INNER)),
+                _ => self.nodes[at].children[slot] = self.end(source, &child.item),
             }
         }
-        number(at) | CHILD_INNER
+        at
     }
 
     /// A leaf.
     fn end(&mut self, source: &Source<'_>, item: &Item) -> u32 {
         match *item {
-            Item::Inner(_) => NONE,
+            Item::Node(_) | Item::Inner(_) => NONE,
             Item::Other(word) => word,
             Item::Moving(word) => {
                 self.moving.push(word);
                 number(self.moving.len() - 1) | MOVING
             }
-            Item::Few { triangles, n } => self.block(source, &triangles[..n]),
+            Item::Few(few) => self.block(source, few.triangles()),
             Item::Many { first, count } => {
                 let all: Vec<u32> = (first..first + count).collect();
                 let (one, two) = all.split_at(BLOCK);
@@ -165,7 +164,7 @@ fn join(mut top: Piece, below: Vec<(Place, Piece)>) -> Piece {
         nodes: concatenated(&pieces, |piece| &piece.nodes, place),
         blocks: concatenated(&pieces, |piece| &piece.blocks, |_, block| *block),
         moving: concatenated(&pieces, |piece| &piece.moving, |_, word| *word),
-        waiting: VecDeque::new(),
+        waiting: Vec::new(),
     }
 }
 

@@ -6,11 +6,19 @@ use super::tree::{Node, Tree};
 use crate::kernel::Ray;
 use glam::Vec3;
 
+/// By how much of the distance to the origin of space a box grows: four times the rounding of a product.
+const SLACK: f32 = 1.0 / (1 << 22) as f32;
+
+/// Products of origins and inverses beyond this are not relied on.
+const FAR_OUT: f32 = 1e30;
+
 /// What is worked out once a ray, in each frame that it enters.
 pub(super) struct Walker<L: Lanes> {
     lanes: L,
-    origin: [L::Eight; 3],
     inverse: [L::Eight; 3],
+    /// What is added to a plane times `inverse`: for one that is entered, and for one that is left.
+    near: [L::Eight; 3],
+    far: [L::Eight; 3],
     /// For each axis 1 if the ray runs against it, so that it meets upper ends first.
     back: [usize; 3],
     t_min: L::Eight,
@@ -20,12 +28,18 @@ impl<L: Lanes> Walker<L> {
     #[inline(always)]
     pub(super) fn new(lanes: L, ray: &Ray, inverse: Vec3, t_min: f32) -> Self {
         let all = |v: Vec3| [lanes.splat(v.x), lanes.splat(v.y), lanes.splat(v.z)];
+        let start = ray.origin * -inverse;
+        // Far out of space, in the frame of a tiny instance, an axis decides nothing rather than overflow.
+        let lost = start.abs().cmpgt(Vec3::splat(FAR_OUT));
+        let slack = Vec3::select(lost, Vec3::INFINITY, start.abs() * SLACK);
+        let start = Vec3::select(lost, Vec3::ZERO, start);
         let against = |x: f32| usize::from(x < 0.0);
         let back = [against(inverse.x), against(inverse.y), against(inverse.z)];
         Self {
             lanes,
-            origin: all(ray.origin),
             inverse: all(inverse),
+            near: all(start - slack),
+            far: all(start + slack),
             back,
             t_min: lanes.splat(t_min),
         }
@@ -76,19 +90,95 @@ impl<L: Lanes> Walker<L> {
         Some(near.child)
     }
 
-    /// One bit for each child that the ray meets, and where it enters their boxes. Ize 2013, "Robust BVH Ray
-    /// Traversal", JCGT 2(2), as in `trace/box.wgsl`.
+    /// One bit for each child that the ray meets, and where it enters their boxes, or a little before. Ize 2013, "Robust
+    /// BVH Ray Traversal", JCGT 2(2), as in `trace/box.wgsl`, but that an origin far away does not cancel to the last bit.
     #[inline(always)]
     fn meet(&self, node: &Node, t_max: f32) -> (u32, [f32; 8]) {
         let l = self.lanes;
-        let plane = |axis: usize, end: usize| {
-            let row = l.load(&node.ends[axis][end & 1]);
-            l.mul(l.sub(row, self.origin[axis]), self.inverse[axis])
+        let plane = |axis: usize, end: usize, add: &[L::Eight; 3]| {
+            l.mul_add(l.load(&node.ends[axis][end & 1]), self.inverse[axis], add[axis])
         };
-        let near = |axis: usize| plane(axis, self.back[axis]);
-        let far = |axis: usize| plane(axis, 1 - self.back[axis]);
+        let near = |axis: usize| plane(axis, self.back[axis], &self.near);
+        let far = |axis: usize| plane(axis, 1 - self.back[axis], &self.far);
         let enter = l.max(l.max(near(0), near(1)), l.max(near(2), self.t_min));
         let leave = l.min(l.min(far(0), far(1)), l.min(far(2), l.splat(t_max)));
         (l.at_most(enter, l.mul(leave, l.splat(FAR_END))), l.array(enter))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::lanes::Halves;
+    use super::super::tree::WIDTH;
+    use super::*;
+    use pack::abi::NONE;
+
+    /// Farther from a box than this no ray may meet it, in a space where nothing is farther away than 1.
+    const NEAR: f32 = 3e-6;
+
+    /// From -1 to 1, the same for the same state.
+    fn random(state: &mut u32) -> f32 {
+        *state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (*state >> 8) as f32 / (1 << 23) as f32 - 1.0
+    }
+
+    fn vector(state: &mut u32) -> Vec3 {
+        Vec3::new(random(state), random(state), random(state))
+    }
+
+    /// How long the ray is in all slabs; negative if it misses the box.
+    fn inside(ray: &Ray, lo: Vec3, hi: Vec3) -> f64 {
+        let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
+        for axis in 0..3 {
+            let [lo, hi, from, dir] =
+                [lo[axis], hi[axis], ray.origin[axis], ray.dir[axis]].map(f64::from);
+            let (a, b) = ((lo - from) / dir, (hi - from) / dir);
+            (enter, leave) = (enter.max(a.min(b)), leave.min(a.max(b)));
+        }
+        leave - enter
+    }
+
+    /// Asks for boxes of which a corner is near the ray, at most twice `NEAR` away; counts those that are met, and
+    /// those that are not.
+    fn count<L: Lanes>(lanes: L) -> [usize; 2] {
+        let (mut state, mut counts) = (1, [0; 2]);
+        for _ in 0..5_000 {
+            let dir = vector(&mut state).normalize();
+            let ray = Ray { origin: vector(&mut state), dir, ..Ray::default() };
+            let walker = Walker::new(lanes, &ray, Vec3::ONE / ray.dir, 0.0);
+            let mut node = Node { ends: [[[0.0; WIDTH]; 2]; 3], children: [NONE; WIDTH] };
+            let boxes = [(); WIDTH].map(|()| {
+                let off = vector(&mut state) * (NEAR * (1.0 + random(&mut state)));
+                let corner = ray.origin + ray.dir * random(&mut state).abs() + off;
+                let other = corner + vector(&mut state) * 1e-5;
+                (corner.min(other), corner.max(other))
+            });
+            for (slot, (lo, hi)) in boxes.iter().enumerate() {
+                for axis in 0..3 {
+                    (node.ends[axis][0][slot], node.ends[axis][1][slot]) = (lo[axis], hi[axis]);
+                }
+            }
+            let (met, _) = walker.meet(&node, f32::INFINITY);
+            for (slot, &(lo, hi)) in boxes.iter().enumerate() {
+                let is_met = met >> slot & 1 == 1;
+                assert!(is_met || inside(&ray, lo, hi) < 0.0, "missed: {ray:?} {lo} {hi}");
+                let grown = inside(&ray, lo - NEAR, hi + NEAR);
+                assert!(!is_met || grown >= 0.0, "far from: {ray:?} {lo} {hi}");
+                counts[usize::from(!is_met)] += 1;
+            }
+        }
+        counts
+    }
+
+    #[test]
+    fn boxes_on_the_way_are_met_and_those_beside_it_are_not() {
+        let check = |[met, missed]: [usize; 2]| {
+            assert!(met > 10_000 && missed > 1_000, "{met} {missed}");
+        };
+        check(count(Halves));
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx2) = pulp::x86::V3::try_new() {
+            check(count(avx2));
+        }
     }
 }
