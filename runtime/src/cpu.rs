@@ -220,7 +220,7 @@ pub(crate) fn render_item(
         pixels.par_chunks_mut(4 * w as usize).zip(strips).all(|(pixels, top)| {
             let size = [w, (y + h - top).min(4)];
             let tile = Rect { y: top, h: size[1], ..item.tile };
-            let frame = setup.frame(&WorkItem { tile, ..*item });
+            let frame = setup.picture_frame(&WorkItem { tile, ..*item });
             let film = bytemuck::cast_slice_mut(pixels);
             render_f32(Inputs::new(setup, &frame), size, film, &is_over)
         })
@@ -251,7 +251,7 @@ fn next_block(
     let n = usize::try_from(item.tile.pixels()).expect("a block is small");
     pixels.clear();
     pixels.resize(n, FilmPixel::default());
-    let frame = setup.frame(&item);
+    let frame = setup.picture_frame(&item);
     let inputs = Inputs::new(setup, &frame);
     let film = bytemuck::cast_slice_mut(pixels);
     let size = [item.tile.w, item.tile.h];

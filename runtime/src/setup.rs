@@ -12,6 +12,7 @@ use crate::wide::Wide;
 use glam::UVec4;
 use pack::Kind;
 use pack::abi::{Camera, Frame, NONE, albedo_tables};
+use pack::features as bit;
 
 /// Sections that the kernel binds as they are, with their binding numbers.
 #[cfg(feature = "gpu")]
@@ -188,6 +189,14 @@ impl Setup<'_> {
         }
     }
 
+    /// The same for a picture by the full kernel, which is told where nothing asks for texture coordinates.
+    pub(crate) fn picture_frame(&self, item: &WorkItem) -> Frame {
+        let frame = self.frame(item);
+        let has_tangents = self.features() & bit::TANGENTS != 0;
+        let texture_at = self.scene.table(Kind::TEXTURE, frame.texture_at);
+        Frame { texture_at: if has_tangents { frame.texture_at } else { texture_at }, ..frame }
+    }
+
     /// The uniform of all samples of a job at once.
     pub(crate) fn frame_of(&self, job: &Job) -> Frame {
         self.frame(&WorkItem { replicate: 0, tile: job.crop, samples: job.samples, probe: false })
@@ -262,7 +271,6 @@ impl Setup<'_> {
     }
 
     /// Bits of `pack::features`.
-    #[cfg(feature = "gpu")]
     pub(crate) fn features(&self) -> u64 {
         self.scene.pack().features()
     }

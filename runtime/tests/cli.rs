@@ -44,7 +44,7 @@ fn without_flags_it_does_the_whole_job() {
     assert_eq!(text(&output.stdout), "wrote marbles.exr\nwrote marbles.png\n");
     let log = text(&output.stderr);
     assert!(
-        log.contains("marbles.pack: 72x40, samples 0..32, 2 triangles, 4 spheres, 1 lights"),
+        log.contains("marbles.pack: 72x40, samples 0..32; triangles: 2, spheres: 4, lights: 1"),
         "{log}"
     );
     assert!(log.contains("device: CPU kernel (f32, "), "{log}");

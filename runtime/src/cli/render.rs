@@ -448,7 +448,7 @@ fn headline(path: &Path, scene: &Scene, job: &Job) -> String {
     let triangles = scene.pack().records::<pack::abi::Triangle>().len();
     let spheres = scene.pack().records::<pack::abi::Sphere>().len();
     format!(
-        "{}: {w}x{h}{crop}, samples {}, {triangles} triangles, {spheres} spheres, {} lights",
+        "{}: {w}x{h}{crop}, samples {}; triangles: {triangles}, spheres: {spheres}, lights: {}",
         path.shown(),
         job.samples,
         scene.settings().n_lights,

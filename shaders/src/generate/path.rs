@@ -152,7 +152,9 @@ fn surface(features: &FeatureSet) -> String {
              var s = sphere_surface(sphere, start, back, hit.t);\n",
         );
         if !features.textures.is_empty() || features.tangents {
-            sphere += "    s.uv = sphere_uv(select(-s.ng, s.ng, s.front));\n";
+            // On a CPU the full kernel is told whether anything asks for them.
+            sphere += "    if (load_frame_texture_at() != NONE) {\n        \
+                       s.uv = sphere_uv(select(-s.ng, s.ng, s.front));\n    }\n";
         }
         sphere += "    dispatch_thing_carry(&s, sphere.object, time);\n    return s;\n";
         if features.triangles {
