@@ -5,8 +5,9 @@
 //! way into an instance) is left to the generated functions, as is every question about a hit: which of two counts,
 //! whether it is cut out, whether it ends a shadow ray. It does not know how a kernel is bound, and renders nothing.
 //!
-//! The same source is compiled for the baseline and for AVX2, between which the processor decides; no product is fused
-//! with a sum in either. What is compiled for AVX2 is what is inlined into it, hence `inline(always)` in all of it.
+//! The same source is compiled for the baseline and for AVX2, between which the processor decides; in tests of triangles
+//! no product is fused with a sum in either. What is compiled for AVX2 is what is inlined into it, hence `inline(always)`
+//! in all of it.
 #![expect(clippy::inline_always, reason = "what is not inlined is not compiled for the processor")]
 
 mod build;

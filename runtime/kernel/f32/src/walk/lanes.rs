@@ -1,7 +1,7 @@
 //! Eight numbers at once, by whatever instructions the processor has.
 //!
-//! Each operation is IEEE 754's in every lane, so that the bits do not depend on who does it. Of two numbers of which one
-//! is not a number, which does not happen here, `min` and `max` give either.
+//! Each operation is IEEE 754's in every lane, so that the bits do not depend on who does it; only `mul_add` may round once
+//! or twice. Of two numbers of which one is not a number, which does not happen here, `min` and `max` give either.
 
 use bytemuck::cast;
 use wide::f32x4;

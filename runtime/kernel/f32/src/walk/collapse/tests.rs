@@ -1,3 +1,5 @@
+//! Collapses beside all others that there are, and plans that end early.
+
 use super::*;
 use pack::abi::NONE;
 
