@@ -132,8 +132,8 @@ impl Source<'_> {
 }
 
 impl Plan {
-    /// That of the tree below inner node `index` of the pack. It has nodes of the pack, those above first, until
-    /// so many are left, or none.
+    /// Collapses the tree below inner node `index` of the pack. Takes the pack's nodes breadth first until more than
+    /// `left` wait; these stay `Item::Inner`.
     pub(super) fn new(source: &Source<'_>, index: u32, left: usize) -> Self {
         let mut opened = vec![index];
         // Where the children of each begin.

@@ -6,10 +6,10 @@ use super::tree::{Node, Tree};
 use crate::kernel::Ray;
 use glam::Vec3;
 
-/// By how much of the distance to the origin of space a box grows: four times the rounding of a product.
+/// How much boxes grow, relative to the ray's origin: four times the rounding of its product with the inverse direction.
 const SLACK: f32 = 1.0 / (1 << 22) as f32;
 
-/// Products of origins and inverses beyond this are not relied on.
+/// Beyond this, a product of origin and inverse direction may be near to overflow.
 const FAR_OUT: f32 = 1e30;
 
 /// What is worked out once a ray, in each frame that it enters.
@@ -29,15 +29,15 @@ impl<L: Lanes> Walker<L> {
     pub(super) fn new(lanes: L, ray: &Ray, inverse: Vec3, t_min: f32) -> Self {
         let all = |v: Vec3| [lanes.splat(v.x), lanes.splat(v.y), lanes.splat(v.z)];
         let start = ray.origin * -inverse;
-        // Far out of space, in the frame of a tiny instance, an axis decides nothing rather than overflow.
+        // So far out, as in the frame of a tiny instance, an axis rules out nothing.
         let lost = start.abs().cmpgt(Vec3::splat(FAR_OUT));
         let slack = Vec3::select(lost, Vec3::INFINITY, start.abs() * SLACK);
-        let start = Vec3::select(lost, Vec3::ZERO, start);
+        let [start, scale] = [start, inverse].map(|v| Vec3::select(lost, Vec3::ZERO, v));
         let against = |x: f32| usize::from(x < 0.0);
         let back = [against(inverse.x), against(inverse.y), against(inverse.z)];
         Self {
             lanes,
-            inverse: all(inverse),
+            inverse: all(scale),
             near: all(start - slack),
             far: all(start + slack),
             back,
@@ -90,8 +90,8 @@ impl<L: Lanes> Walker<L> {
         Some(near.child)
     }
 
-    /// One bit for each child that the ray meets, and where it enters their boxes, or a little before. Ize 2013, "Robust
-    /// BVH Ray Traversal", JCGT 2(2), as in `trace/box.wgsl`, but that an origin far away does not cancel to the last bit.
+    /// One bit for each child that the ray meets, and where it enters their boxes, or a little before: Ize 2013, "Robust
+    /// BVH Ray Traversal", JCGT 2(2), as in `trace/box.wgsl`, with boxes that are larger by `SLACK`.
     #[inline(always)]
     fn meet(&self, node: &Node, t_max: f32) -> (u32, [f32; 8]) {
         let l = self.lanes;
@@ -168,6 +168,26 @@ mod tests {
             }
         }
         counts
+    }
+
+    /// Whether a ray whose origin times inverse direction overflows meets a box ahead, and one beside it along x.
+    fn far_out<L: Lanes>(lanes: L) -> [bool; 2] {
+        let (origin, dir) = (Vec3::new(0.0, 3e19, -1.0), Vec3::new(0.0, -1e-20, 1.0));
+        let ray = Ray { origin, dir, ..Ray::default() };
+        let walker = Walker::new(lanes, &ray, Vec3::new(1e20, -1e20, 1.0), 0.0);
+        let mut node = Node { ends: [[[-1.0; WIDTH], [1.0; WIDTH]]; 3], children: [NONE; WIDTH] };
+        (node.ends[0][0][1], node.ends[0][1][1]) = (2.0, 3.0);
+        let (met, _) = walker.meet(&node, f32::INFINITY);
+        [met & 1 == 1, met & 2 == 2]
+    }
+
+    #[test]
+    fn what_overflows_rules_out_nothing() {
+        assert_eq!(far_out(Halves), [true, false]);
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx2) = pulp::x86::V3::try_new() {
+            assert_eq!(far_out(avx2), [true, false]);
+        }
     }
 
     #[test]
