@@ -66,6 +66,7 @@ fn trace_one_by_one(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::R
     let mut hits = [scalar::Hit::ZERO; v::LANES];
     let Companion { scalar, avx2, .. } = &mut kernel.companion;
     let rays = Rays::of(ray);
+    walk_is_inlined();
     let mut left = v::bits(mask);
     while left != 0 {
         let lane = left.trailing_zeros() as usize % v::LANES;
@@ -74,6 +75,12 @@ fn trace_one_by_one(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::R
     }
     kernel::Hit::of(&hits)
 }
+
+/// What the walk of a lone ray is made of: who lacks one of these would call each of its instructions, and not having
+/// them does not compile.
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn walk_is_inlined() {}
 
 /// Renders the tile. Whether it came to the end of it, which it does unless `is_over` says so after some pixels.
 #[expect(unsafe_code, reason = "who has the first argument has the instructions")]

@@ -71,7 +71,7 @@ macro_rules! in_lanes {
     };
 }
 
-in_lanes!(avx2, "avx2.rs", "wide/avx2.rs", "avx2,bmi1,bmi2,lzcnt,popcnt");
+in_lanes!(avx2, "avx2.rs", "wide/avx2.rs", "avx2,fma,bmi1,bmi2,lzcnt,popcnt");
 in_lanes!(
     avx512,
     "avx512.rs",

@@ -8,7 +8,7 @@ use proc_macro::TokenStream;
 /// Compiles a function for AVX2.
 #[proc_macro_attribute]
 pub fn avx2(_: TokenStream, function: TokenStream) -> TokenStream {
-    compiled_for("avx2,bmi1,bmi2,lzcnt,popcnt", function)
+    compiled_for("avx2,fma,bmi1,bmi2,lzcnt,popcnt", function)
 }
 
 /// Compiles a function for the AVX-512 of x86-64-v4.

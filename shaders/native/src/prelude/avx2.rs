@@ -27,7 +27,7 @@ macro_rules! lanes {
     ($($(#[$doc:meta])* fn $name:ident($($arg:ident: $ty:ty),*) -> $out:ty $body:block)*) => {$(
         $(#[$doc])*
         #[inline]
-        #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+        #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
         pub fn $name($($arg: $ty),*) -> $out $body
     )*};
 }
@@ -238,7 +238,7 @@ lanes! {
 
 /// Elements that are not all the same.
 #[inline(never)]
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+#[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 fn gather(array: &[UVec4], index: U) -> V4<U> {
     let rows: &[[u32; 4]] = bytemuck::cast_slice(array);
     let Some(last) = rows.len().checked_sub(1) else { return at_same(array, 0) };

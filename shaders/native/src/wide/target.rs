@@ -15,7 +15,7 @@ impl Lanes {
     /// The attribute with the instructions that every function may use.
     pub(crate) fn attribute(self) -> &'static str {
         match self {
-            Self::Avx2 => "#[target_feature(enable = \"avx2,bmi1,bmi2,lzcnt,popcnt\")]",
+            Self::Avx2 => "#[target_feature(enable = \"avx2,fma,bmi1,bmi2,lzcnt,popcnt\")]",
             Self::Avx512 => {
                 "#[target_feature(enable = \"avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt\")]"
             }

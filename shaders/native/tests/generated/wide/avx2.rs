@@ -11,7 +11,7 @@ pub struct Pair {
 
 impl Pair {
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn zero() -> Self {
         Self {
             a: v::f(0.0),
@@ -21,7 +21,7 @@ impl Pair {
         }
     }
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn select(m: v::B, yes: &Self, no: &Self) -> Self {
         Self {
             a: v::select_f(m, yes.a, no.a),
@@ -31,7 +31,7 @@ impl Pair {
         }
     }
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn lane(&self, k: usize) -> scalar::Pair {
         scalar::Pair {
             a: v::f_to(self.a)[k % v::LANES],
@@ -41,7 +41,7 @@ impl Pair {
         }
     }
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn of(x: &[scalar::Pair; 8]) -> Self {
         Self {
             a: v::f_of([x[0].a, x[1].a, x[2].a, x[3].a, x[4].a, x[5].a, x[6].a, x[7].a]),
@@ -60,7 +60,7 @@ pub struct Pairs {
 
 impl Pairs {
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn zero() -> Self {
         Self {
             first: Pair::zero(),
@@ -68,7 +68,7 @@ impl Pairs {
         }
     }
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn select(m: v::B, yes: &Self, no: &Self) -> Self {
         Self {
             first: Pair::select(m, &yes.first, &no.first),
@@ -76,7 +76,7 @@ impl Pairs {
         }
     }
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn lane(&self, k: usize) -> scalar::Pairs {
         scalar::Pairs {
             first: self.first.lane(k),
@@ -84,7 +84,7 @@ impl Pairs {
         }
     }
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn of(x: &[scalar::Pairs; 8]) -> Self {
         Self {
             first: Pair::of(&[x[0].first, x[1].first, x[2].first, x[3].first, x[4].first, x[5].first, x[6].first, x[7].first]),
@@ -101,7 +101,7 @@ pub struct Kernel<'a> {
 
 impl<'a> Kernel<'a> {
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn main(&mut self, mut mask: v::B, id: v::V3<v::U>) {
         let i = id.x;
         let word = v::at(self.given, i, mask);
@@ -216,7 +216,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn parting(&mut self, mut mask: v::B, kind: v::U, n: v::U) -> v::U {
         let mut sum: v::U = v::u(1u32);
         let mut i: v::U = v::u(0u32);
@@ -322,7 +322,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn turns(&mut self, mut mask: v::B, n: v::U) -> v::U {
         let mut sum: v::U = v::u(0u32);
         let mut i: v::U = v::u(0u32);
@@ -447,7 +447,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn guarded(&mut self, mut mask: v::B, x: v::F) -> v::F {
         let mut y: v::F;
         y = x;
@@ -478,7 +478,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn change(&mut self, mut mask: v::B, pair: &mut Pair, x: v::F) -> v::B {
         let mut result: v::B = v::b(false);
         let t = v::f(0.0f32);
@@ -508,7 +508,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn pointed(&mut self, mut mask: v::B, x: v::F, n: v::U) -> v::V4<v::F> {
         let t = v::f(3.0f32);
         let mut other: Pair = Pair { a: v::f(1.0f32), n: v::u(2u32), v: v::V3 { x: t, y: t, z: t }, odd: v::b(false) };
@@ -578,7 +578,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn exchanged(&mut self, mut mask: v::B, p: &Pairs, n: v::U) -> v::V4<v::F> {
         let mut q: Pair;
         q = (*p).second;
@@ -619,7 +619,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn anew(&mut self, mut mask: v::B, n: v::U) -> v::U {
         let mut sum: v::U = v::u(0u32);
         let mut i: v::U = v::u(0u32);
@@ -706,7 +706,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn kept(&mut self, mut mask: v::B, n: v::U) -> v::U {
         let mut last: v::U;
         let mut sum: v::U = v::u(0u32);
@@ -771,7 +771,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn indexed(&mut self, mut mask: v::B, n: v::I, x: v::F) -> v::V4<v::F> {
         let mut list: [v::F; 4];
         let mut v_: v::V3<v::F>;
@@ -819,7 +819,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn integers(&mut self, mut mask: v::B, a: v::U, b: v::I) -> v::V4<v::U> {
         let c = v::i_bits_u(a);
         let d = v::u_bits_i(b);
@@ -883,7 +883,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn floats(&mut self, mut mask: v::B, x: v::F, y: v::F) -> v::V4<v::F> {
         let e2 = v::min_f(x, y);
         let e3 = v::floor_f(x);
@@ -920,7 +920,7 @@ impl<'a> Kernel<'a> {
     }
 
     #[inline]
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
     pub fn conversions(&mut self, mut mask: v::B, a: v::U, x: v::F) -> v::V4<v::U> {
         let bytes = v::V4 { x: v::and_u(v::shr_u(a, v::u(0)), v::u(255)), y: v::and_u(v::shr_u(a, v::u(8)), v::u(255)), z: v::and_u(v::shr_u(a, v::u(16)), v::u(255)), w: v::and_u(v::shr_u(a, v::u(24)), v::u(255)) };
         let t = v::u(5u32);
