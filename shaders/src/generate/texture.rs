@@ -8,8 +8,8 @@ use std::fmt::Write as _;
 /// A texture, or white where there is none.
 pub(crate) fn texture(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: whether this scene has textures.\n\n");
-    let (body, at) = if features.textures.is_empty() {
-        ("    return vec4f(1.0);\n", "    return vec4f(1.0);\n")
+    let (body, alpha, at) = if features.textures.is_empty() {
+        ("    return vec4f(1.0);\n", "    return 1.0;\n", "    return vec4f(1.0);\n")
     } else {
         text += &imports([
             "scene/constants.wgsl",
@@ -19,6 +19,7 @@ pub(crate) fn texture(features: &FeatureSet) -> String {
         ]);
         (
             "    if (i == NONE) {\n        return vec4f(1.0);\n    }\n    return texture_lookup(i, uv, w);\n",
+            "    if (i == NONE) {\n        return 1.0;\n    }\n    return texture_lookup_alpha(i, uv);\n",
             "    return bilinear_at(load_texture(i), place);\n",
         )
     };
@@ -26,6 +27,8 @@ pub(crate) fn texture(features: &FeatureSet) -> String {
         text,
         "\n// Texture `i` at `uv`, linear; 1 in every channel where `i` is `NONE`. `w`: as in `Surface`.\n\
          fn texture_fetch(i: u32, uv: vec2f, w: f32) -> vec4f {{\n{body}}}\n\
+         \n// The alpha of texture `i` at `uv`, and at 0 in what fills an object.\n\
+         fn texture_alpha(i: u32, uv: vec2f) -> f32 {{\n{alpha}}}\n\
          \n// Texture `i`, an image, at `place`, 0 ..= 1 from its top left corner, linear.\n\
          fn texture_fetch_at(i: u32, place: vec2f) -> vec4f {{\n{at}}}\n"
     );
@@ -38,10 +41,19 @@ pub(crate) fn lookup(features: &FeatureSet) -> String {
     let computed = features.textures.contains(&TextureFormat::Expression);
     let (module, at) = if computed { ("expression", "uv, w") } else { ("bilinear", "uv") };
     text += &imports([format!("texture/{module}.wgsl").as_str()]);
+    let alpha = if computed {
+        text += &imports(["scene/constants.wgsl", "scene/records.wgsl", "texture/bilinear.wgsl"]);
+        "    if (load_texture_format(i) == TEXTURE_EXPRESSION) {\n        \
+         return expression_fetch(i, uv, 0.0).w;\n    }\n"
+    } else {
+        ""
+    };
     let _ = write!(
         text,
         "\n// Texture `i` at `uv`, linear; patterns with a third coordinate also at `w`.\n\
-         fn texture_lookup(i: u32, uv: vec2f, w: f32) -> vec4f {{\n    return {module}_fetch(i, {at});\n}}\n"
+         fn texture_lookup(i: u32, uv: vec2f, w: f32) -> vec4f {{\n    return {module}_fetch(i, {at});\n}}\n\
+         \n// The alpha of texture `i` at `uv`.\n\
+         fn texture_lookup_alpha(i: u32, uv: vec2f) -> f32 {{\n{alpha}    return bilinear_fetch_alpha(i, uv);\n}}\n"
     );
     text
 }
@@ -52,9 +64,9 @@ pub(crate) fn texel(features: &FeatureSet) -> String {
         .textures
         .iter()
         .filter_map(|format| match format {
-            TextureFormat::Rgba8Srgb => Some((format, "rgba8", "rgba8_srgb")),
-            TextureFormat::Rgba8Linear => Some((format, "rgba8", "rgba8_linear")),
-            TextureFormat::Rgba16Float => Some((format, "rgba16", "rgba16_linear")),
+            TextureFormat::Rgba8Srgb => Some((format, "rgba8", "srgb")),
+            TextureFormat::Rgba8Linear => Some((format, "rgba8", "linear")),
+            TextureFormat::Rgba16Float => Some((format, "rgba16", "linear")),
             TextureFormat::Expression => None,
         })
         .collect();
@@ -63,17 +75,27 @@ pub(crate) fn texel(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: the texture formats of this scene.\n\n");
     text += &imports(["abi/texture.wgsl", "scene/constants.wgsl"]);
     text += &imports(files.iter().map(String::as_str));
-    let cases: Vec<(String, String)> = rows
-        .iter()
-        .map(|(format, _, function)| {
-            (tag("TEXTURE", &format.stem()), format!("{function}(image.offset, i)"))
-        })
-        .collect();
+    let cases = |function: fn(&str, &str) -> String| -> Vec<(String, String)> {
+        let call = |file, coding| format!("{}(image.offset, i)", function(file, coding));
+        let case = |&(format, file, coding): &(&TextureFormat, _, _)| {
+            (tag("TEXTURE", &format.stem()), call(file, coding))
+        };
+        rows.iter().map(case).collect()
+    };
+    let decode = cases(|file, coding| format!("{file}_{coding}"));
+    let mut alpha = cases(|file, _| format!("{file}_alpha"));
+    // Both codings of a byte have the same.
+    if alpha.iter().all(|(_, call)| *call == alpha[0].1) {
+        alpha.truncate(1);
+    }
     let _ = write!(
         text,
         "\n// Texel `i` of `image`, linear.\n\
-         fn texel_decode(image: Texture, i: u32) -> vec4f {{\n{}}}\n",
-        switch("image.format", &cases, "vec4f(1.0)")
+         fn texel_decode(image: Texture, i: u32) -> vec4f {{\n{}}}\n\
+         \n// The alpha of texel `i` of `image`.\n\
+         fn texel_alpha(image: Texture, i: u32) -> f32 {{\n{}}}\n",
+        switch("image.format", &decode, "vec4f(1.0)"),
+        switch("image.format", &alpha, "1.0")
     );
     text
 }

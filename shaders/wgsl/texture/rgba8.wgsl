@@ -14,6 +14,11 @@ fn rgba8_srgb(offset: u32, i: u32) -> vec4f {
     return vec4f(rgba8_decode(c.x), rgba8_decode(c.y), rgba8_decode(c.z), f32(c.w) * 0.003921569);
 }
 
+// Alpha, which is linear in both.
+fn rgba8_alpha(offset: u32, i: u32) -> f32 {
+    return f32(rgba8_texel(offset, i) >> 24u) * 0.003921569;
+}
+
 // Texel `i` of the image whose first word is `offset`.
 fn rgba8_texel(offset: u32, i: u32) -> u32 {
     return rgba8_lane(texel_word(offset + (i >> 2u)), i & 3u);

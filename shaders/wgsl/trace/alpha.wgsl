@@ -9,7 +9,7 @@ fn alpha_exists(i: u32, uv: vec2f) -> bool {
     if ((load_material_flags(i) & FLAG_ALPHA_CLIP) == 0u) {
         return true;
     }
-    let alpha = load_material_alpha(i) * texture_fetch(load_material_alpha_texture(i), uv, 0.0).w;
+    let alpha = load_material_alpha(i) * texture_alpha(load_material_alpha_texture(i), uv);
     return alpha >= load_material_alpha_cutoff(i);
 }
 

@@ -19,7 +19,7 @@ fn coverage_is_partial(i: u32) -> bool {
 
 // Coverage of a surface of material `i` at `uv`, 0 ..= 1; what is no number is 0.
 fn coverage_at(i: u32, uv: vec2f) -> f32 {
-    let alpha = load_material_alpha(i) * texture_fetch(load_material_alpha_texture(i), uv, 0.0).w;
+    let alpha = load_material_alpha(i) * texture_alpha(load_material_alpha_texture(i), uv);
     return select(0.0, min(alpha, 1.0), alpha > 0.0);
 }
 
