@@ -25,7 +25,9 @@ pub use few::{Ends, Few, Leaf, Listed, MOST_CORNERS, SphereLeaf};
 pub use stack::FAR_END;
 pub use tree::{Block, Companion, Node, Step, Tree};
 
-use crate::kernel::{self, CHILD_INNER, CHILD_OUT, CHILD_SPHERES, Hit, Kernel, NONE, Ray};
+use crate::kernel::{
+    self, CHILD_INNER, CHILD_OUT, CHILD_SPHERES, Hit, Kernel, NONE, PRIM_OTHER, Ray,
+};
 use crossings::Crossings;
 use lanes::{Halves, Lanes};
 use node::Walker;
@@ -50,7 +52,24 @@ pub fn trace(kernel: &mut Kernel<'_>, ray: Ray) -> Hit {
 #[inline(always)]
 pub fn trace_here(avx2: pulp::x86::V3, kernel: &mut Kernel<'_>, ray: Ray, lane: usize) -> Hit {
     let Some(tree) = kernel.companion.tree else { return kernel.generated_trace(ray) };
-    Walk { kernel, tree, ray, lane }.walk(avx2)
+    let hit = Walk { kernel: &mut *kernel, tree, ray, lane }.walk(avx2);
+    ask_for(kernel, &hit);
+    hit
+}
+
+/// Has the records of the triangle that was hit brought near: they are asked for when the other paths have been traced.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+fn ask_for(kernel: &Kernel<'_>, hit: &Hit) {
+    if hit.prim & PRIM_OTHER == 0 {
+        let first = 3 * hit.prim as usize;
+        for rows in [kernel.tri_words, kernel.shade_words] {
+            if let Some([row, _, last]) = rows.get(first..first + 3) {
+                tree::prefetch(row);
+                tree::prefetch(last);
+            }
+        }
+    }
 }
 
 /// The better of `best` and what lies below `child`, a reference of the tree, for a ray whose walk has `begun`. Of a

@@ -195,7 +195,7 @@ impl<'a> Companion<'a> {
 
 /// Asks for the line of the cache in which this begins.
 #[inline(always)]
-fn prefetch<T>(what: &T) {
+pub(super) fn prefetch<T>(what: &T) {
     #[cfg(target_arch = "x86_64")]
     safe_arch::prefetch_t0(what);
     #[cfg(not(target_arch = "x86_64"))]
