@@ -5,6 +5,7 @@
 mod explain;
 mod features;
 mod files;
+mod findings;
 mod manifest;
 mod options;
 mod session;

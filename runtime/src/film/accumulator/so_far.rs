@@ -2,7 +2,8 @@
 //!
 //! Its pixels have different numbers of samples, so nobody takes it for a part of a picture: `merge` refuses it.
 
-use super::{Accumulator, Film, Plane};
+use super::{Accumulator, Plane};
+use crate::film::Film;
 use crate::zeros::NoMemory;
 
 impl Accumulator {
