@@ -58,7 +58,12 @@ render main: path {{ camera = eye, film = f, samples = 16, depth = 2 }}
                 if id == NONE {
                     [1.0; 4]
                 } else {
-                    kernel.texture_fetch(id, Vec2::new(u, v), w).to_array()
+                    let uv = Vec2::new(u, v);
+                    // Cut-outs ask for alpha alone.
+                    let [alpha, same] =
+                        [kernel.texture_alpha(id, uv), kernel.texture_fetch(id, uv, 0.0).w];
+                    assert_eq!(alpha.to_bits(), same.to_bits(), "{alpha}, not {same}");
+                    kernel.texture_fetch(id, uv, w).to_array()
                 }
             };
             let [r, g, b, _] = fetch(material.color_texture);
