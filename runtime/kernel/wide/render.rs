@@ -76,8 +76,8 @@ fn trace_one_by_one(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::R
     kernel::Hit::of(&hits)
 }
 
-/// What the walk of a lone ray is made of: who lacks one of these would call each of its instructions, and not having
-/// them does not compile.
+/// Does nothing, but whoever calls it must be compiled for what the walk of a lone ray is made of: otherwise each of
+/// its instructions would be a call.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
 fn walk_is_inlined() {}

@@ -57,7 +57,7 @@ pub fn trace_here(avx2: pulp::x86::V3, kernel: &mut Kernel<'_>, ray: Ray, lane: 
     hit
 }
 
-/// Has the records of the triangle that was hit brought near: they are asked for when the other paths have been traced.
+/// Has the records of the triangle that was hit brought near: the wide kernel reads them when all paths have been traced.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 fn ask_for(kernel: &Kernel<'_>, hit: &Hit) {
