@@ -33,9 +33,7 @@ const MAX_COST: f32 = 0.985;
 /// Ranges of more fragments look for spatial splits whatever was above them, if a sample says so.
 const SAMPLED_FROM: usize = 1 << 11;
 /// A sample is every so manyth fragment, or of few fragments this many: rare long ones decide.
-const SAMPLE: (usize, usize) = (128, 128);
-/// Spatial splits are looked for if the one of the sample costs at most this part of another split of it.
-const SAMPLE_COST: f32 = 0.97;
+const SAMPLE: (usize, usize) = (32, 128);
 /// Trees of more fragments begin with a sample. For fewer, which may miss the few that are worth it, looking is cheap.
 const LARGE: usize = 1 << 15;
 
@@ -50,13 +48,6 @@ impl Context<'_> {
     /// Whether spatial splits were looked for in vain too often above the range.
     fn gives_up(&self, range: &Range) -> bool {
         self.rules.patience.is_some() && range.patience == 0
-    }
-
-    /// How many spatial splits are looked for in vain below one of `n` fragments. Large ranges ask samples again, so
-    /// that few remain to be looked for without.
-    fn patience_below(&self, n: usize) -> u32 {
-        let patience = self.rules.patience.unwrap_or(0);
-        if n > SAMPLED_FROM { patience / 2 } else { patience }
     }
 }
 
@@ -207,13 +198,13 @@ fn spatial(range: &mut Range, context: Context, limit: f32, parallel: bool) -> O
     let looks = !context.gives_up(range) || is_promising(range, context);
     let sides = if looks { cheaper(range, context, limit, parallel) } else { None };
     range.patience = match &sides {
-        Some(_) => context.patience_below(range.n),
+        Some(_) => context.rules.patience.unwrap_or(0),
         None => range.patience.saturating_sub(1),
     };
     sides
 }
 
-/// Whether a spatial split of some of the fragments costs clearly less than another split of them. Both are of the same
+/// Whether a spatial split of some of the fragments costs less than another split of them. Both are of the same
 /// sample, whose boxes are too small for either.
 fn is_promising(range: &Range, context: Context) -> bool {
     let (every, least) = SAMPLE;
@@ -223,7 +214,7 @@ fn is_promising(range: &Range, context: Context) -> bool {
     let Some(object) = object else { return true };
     let slabs = Slabs::<16>::new(&range.bounds);
     let spatial = SpatialBins::fill(&sample, context.corners, &slabs).best(&slabs);
-    spatial.is_some_and(|s| s.cost < SAMPLE_COST * object.cost(sample.len()))
+    spatial.is_some_and(|s| s.cost < object.cost(sample.len()))
 }
 
 /// The best spatial split, see [`spatial`].
