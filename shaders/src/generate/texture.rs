@@ -76,9 +76,9 @@ pub(crate) fn texel(features: &FeatureSet) -> String {
     text += &imports(["abi/texture.wgsl", "scene/constants.wgsl"]);
     text += &imports(files.iter().map(String::as_str));
     let cases = |function: fn(&str, &str) -> String| -> Vec<(String, String)> {
-        let call = |file, coding| format!("{}(image.offset, i)", function(file, coding));
-        let case = |&(format, file, coding): &(&TextureFormat, _, _)| {
-            (tag("TEXTURE", &format.stem()), call(file, coding))
+        let case = |(format, file, coding): &(&TextureFormat, &str, &str)| {
+            let call = format!("{}(image.offset, i)", function(file, coding));
+            (tag("TEXTURE", &format.stem()), call)
         };
         rows.iter().map(case).collect()
     };
