@@ -26,7 +26,6 @@ mod material;
 mod mesh;
 mod normals;
 mod obj;
-mod paint;
 mod ply;
 mod polygon;
 mod report;
@@ -43,7 +42,6 @@ pub use self::image::{Environment, Image, Pixels, decode_image, load_environment
 pub use self::material::{ImportedImage, ImportedMaterial, MapUse};
 pub use self::mesh::{Attribute, MeshFile, NO_CORNER, Part};
 pub use self::obj::{load_obj, read_obj};
-pub use self::paint::Paint;
 pub use self::ply::{load_ply, read_ply};
 pub use self::report::{FileRead, Finding, ImportReport, Warning};
 pub use self::stl::{load_stl, read_stl};

@@ -200,7 +200,9 @@ fn records(
     let links = linking::links(scene, &lit.lights, &lit.sections);
     let mut media = media;
     linking::media(scene, &links, (&materials, &mut media), (&lit.sections, around));
-    let Sections { nodes, wide_nodes, triangles, shades, spheres, instances, .. } = lit.sections;
+    let Sections {
+        nodes, wide_nodes, triangles, shades, vertex_colors, spheres, instances, ..
+    } = lit.sections;
     let inside = (lit.inside, around);
     Lowered {
         render: finish::settings(scene, frame, lit.sections.entry, inside, lit.lights.len()),
@@ -215,6 +217,7 @@ fn records(
         wide_nodes,
         triangles,
         shades,
+        vertex_colors,
         spheres,
         objects,
         instances,

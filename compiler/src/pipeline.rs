@@ -240,6 +240,7 @@ impl Compiled {
         let rows = [lowered.nodes.section(), lowered.wide_nodes.section()];
         let more =
             [lowered.triangles.section(), lowered.shades.section(), lowered.texels.section()];
+        let more = more.into_iter().chain([lowered.vertex_colors.section()]);
         for section in rows.into_iter().chain(more).flatten() {
             writer.section(section);
         }
@@ -248,6 +249,7 @@ impl Compiled {
             .records(made(&lowered.wide_nodes))
             .records(made(&lowered.triangles))
             .records(made(&lowered.shades))
+            .records(made(&lowered.vertex_colors))
             .texels(made(&lowered.texels))
             .records(&lowered.spheres)
             .records(&lowered.materials)

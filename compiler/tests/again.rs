@@ -325,6 +325,44 @@ fn texels_are_those_of_the_image_that_was_there_before() {
 }
 
 #[test]
+fn colours_of_vertices_are_taken_over_with_their_triangles() {
+    let folder = Folder::new();
+    let stain = |blue: f64| {
+        folder.hill(0.0);
+        let text = String::from_utf8(folder.read("hill.obj")).expect("a text");
+        let line = |line: &str| match line.split(' ').collect::<Vec<_>>()[..] {
+            ["v", x, _, z] => {
+                let [x, z] = [x, z].map(|x| 0.5 + 0.5 * x.parse::<f64>().expect("a number"));
+                format!("{line} {x} {z} {blue}\n")
+            }
+            _ => format!("{line}\n"),
+        };
+        folder.write("hill.obj", &text.lines().map(line).collect::<String>());
+    };
+    stain(0.5);
+    assert_eq!(folder.reuse("at first"), Reuse::Nothing);
+    for (from, to, expected) in [
+        // Every triangle gets colours, of meshes that are stored once, too.
+        ("color = tile }", "color = tile.rgb * vertex_color.rgb }", Reuse::Nothing),
+        ("from = (0, 1, 6)m", "from = (0, 1, 7)m", Reuse::All),
+        ("turn: number = 20", "turn: number = 21", Reuse::OfOthers),
+        ("at = (0, 3.5, -2)m", "at = (0.5, 3, -1)m", Reuse::OfOthers),
+        ("* vertex_color.rgb }", "* vertex_color.g }", Reuse::Geometry),
+        ("* vertex_color.g }", "* linear(0.5) }", Reuse::Nothing),
+        ("* linear(0.5) }", "* vertex_color.rgb }", Reuse::Nothing),
+    ] {
+        folder.edit(from, to);
+        assert_eq!(folder.reuse(to), expected, "{to}");
+    }
+    stain(0.25);
+    assert_eq!(folder.reuse("other colours"), Reuse::Nothing);
+    folder.hill(0.0);
+    assert_eq!(folder.reuse("no colours"), Reuse::Nothing);
+    let log = folder.rtc("none", "b.pack", &["--no-cache"]);
+    assert!(log.contains("has no vertex colours: `vertex_color` is white there"), "{log}");
+}
+
+#[test]
 fn what_geometry_depends_on_is_made_anew() {
     let folder = Folder::new();
     assert!(!folder.takes_over("at first"));

@@ -1,11 +1,10 @@
 //! PLY and STL: the same mesh as the OBJ file of it, and everything wrong named with its place.
 
 #![expect(clippy::float_cmp, reason = "these numbers are exact")]
-#![expect(clippy::cast_possible_truncation, reason = "whole and small")]
 
 use compiler::import::{
-    Attribute, Budget, ErrorKind, ImportError, Limits, MeshFile, Pixels, read_obj, read_ply,
-    read_stl, topology,
+    Attribute, Budget, ErrorKind, ImportError, Limits, MeshFile, read_obj, read_ply, read_stl,
+    topology,
 };
 use lang::scene::Axis;
 use std::path::Path;
@@ -340,28 +339,8 @@ fn limits_come_before_memory() {
     assert_eq!(error.expect_err("no memory").kind, ErrorKind::Memory);
 }
 
-/// The linear colour that a painted part has at a corner, as its image is read there.
-fn color_at(file: &MeshFile, part: usize, [u, v]: [f32; 2]) -> [f32; 3] {
-    let material = &file.materials[file.parts[part].material.expect("painted") as usize];
-    let image = &file.images[material.color_map.expect("an image").image as usize].image;
-    let Pixels::Rgba16F(bits) = &image.data else { panic!("half floats") };
-    let (x, y) = (u * image.width as f32 - 0.5, (1.0 - v) * image.height as f32 - 0.5);
-    let texel = |i: f32, j: f32, k: usize| {
-        let [i, j] = [i as usize, j as usize];
-        let i = i.min(image.width as usize - 1);
-        let at = 4 * (j.min(image.height as usize - 1) * image.width as usize + i) + k;
-        half::f16::from_bits(bits[at]).to_f32()
-    };
-    let (i, j) = ((x + 1e-3).floor(), (y + 1e-3).floor());
-    let (s, t) = ((x - i).max(0.0), (y - j).max(0.0));
-    [0, 1, 2].map(|k| {
-        let row = |j: f32| texel(i, j, k) * (1.0 - s) + texel(i + 1.0, j, k) * s;
-        row(j) * (1.0 - t) + row(j + 1.0) * t
-    })
-}
-
 #[test]
-fn colours_of_vertices_are_an_image_that_is_their_mean_everywhere() {
+fn colours_of_vertices_go_with_their_corners() {
     let colors: [[f32; 3]; 8] = std::array::from_fn(|i| {
         let x = i as f32 / 7.0;
         [x, 1.0 - x, (i % 2) as f32]
@@ -371,11 +350,10 @@ fn colours_of_vertices_are_an_image_that_is_their_mean_everywhere() {
         POINTS.iter().zip(colors).map(|(p, c)| p.iter().chain(&c).copied().collect()).collect();
     let found = load_ply(&ply(Order::Little, &names, &vertices, &FACES)).expect("a good file");
     let part = &found.parts[0];
-    assert_eq!((part.triangles.len(), found.images.len(), found.materials.len()), (6, 1, 1));
+    assert_eq!((part.triangles.len(), found.images.len(), found.materials.len()), (6, 0, 1));
     assert!(found.report.warnings.is_empty());
-    assert_eq!(part.corner_uvs_for(false, 0), None, "of no use to other materials");
+    assert!(found.materials[0].vertex_colors && !found.materials[0].vertex_alpha);
     for (tri_idx, corners) in part.triangles.iter().enumerate() {
-        let uvs = part.corner_uvs_for(true, tri_idx).expect("painted");
         // Positions were copied in the order of their first use: found again by where they are.
         let of = |vertex: u32| {
             let p = part.positions[vertex as usize];
@@ -383,23 +361,10 @@ fn colours_of_vertices_are_an_image_that_is_their_mean_everywhere() {
                 let [x, y, z] = q.map(|x| x * 0.01);
                 (p[0] - x).abs() + (p[1] - z).abs() + (p[2] + y).abs() < 1e-6
             };
-            colors[POINTS.iter().position(same).expect("one of the points")]
+            let [r, g, b] = colors[POINTS.iter().position(same).expect("one of the points")];
+            [r, g, b, 1.0]
         };
-        let known = corners.map(of);
-        for weights in
-            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.2, 0.5, 0.3], [0.0, 0.5, 0.5]]
-        {
-            let mean = |values: [f32; 3]| (0..3).map(|k| values[k] * weights[k]).sum::<f32>();
-            let uv = [0, 1].map(|axis| mean(uvs.map(|uv| uv[axis])));
-            let color = color_at(&found, 0, uv);
-            for channel in 0..3 {
-                let expected = mean(known.map(|color| color[channel]));
-                assert!(
-                    (color[channel] - expected).abs() < 2e-3,
-                    "{tri_idx} {weights:?} {color:?} {expected}"
-                );
-            }
-        }
+        assert_eq!(part.corner_colors(tri_idx), corners.map(of));
     }
 }
 
@@ -410,7 +375,8 @@ fn one_colour_is_a_factor_and_integers_have_the_srgb_curve() {
                 property list uchar int vertex_index\nend_header\n0 0 0 255 188 0\n1 0 0 255 188 0\n0 1 0 255 188 0\n3 0 1 2\n";
     let found = load_ply(text.as_bytes()).expect("a good file");
     let material = &found.materials[found.parts[0].material.expect("coloured") as usize];
-    assert!(found.images.is_empty() && material.diffuse_only);
+    assert!(found.images.is_empty() && material.diffuse_only && !material.vertex_colors);
+    assert_eq!(found.parts[0].colors.len(), 3, "for other materials");
     let [r, g, b] = material.color;
     assert!(r == 1.0 && (g - 0.5029).abs() < 1e-4 && b == 0.0, "{g}");
     // OBJ: 0 to 1, or to 255; none where some vertices have none.

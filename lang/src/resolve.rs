@@ -11,6 +11,7 @@ use crate::schema::Kind;
 use crate::source::{FileId, Span};
 use crate::suggest::suggest;
 use crate::syntax::{Decl, DeclKind, File, Ident, Item, ItemKind, Path};
+use crate::texture::VERTEX_COLOR;
 
 mod import;
 pub(crate) mod like;
@@ -325,6 +326,8 @@ impl Program {
             _ => kind.is_none(),
         };
         let valid = names.iter().filter(|(_, entry)| fits(entry)).map(|(name, _)| name.as_str());
+        let is_texture = kind.is_none_or(|kind| kind == Kind::Texture);
+        let valid = valid.chain(is_texture.then_some(VERTEX_COLOR));
         let mut error = did_you_mean(Diagnostic::error(Code("E0202"), text), name, valid);
         if error.fixes.is_empty() {
             error = self.in_imports(error, module, name);

@@ -15,6 +15,12 @@ pub(crate) const MAX_OPERATIONS: usize = 30;
 /// Most values of one expression that wait for each other while it is computed.
 pub(crate) const MAX_WAITING: usize = 5;
 
+/// The texture that every scene has: what the vertices of a mesh bring along.
+pub(crate) const VERTEX_COLOR: &str = "vertex_color";
+
+/// Names of the channels of textures.
+pub(crate) const CHANNELS: [&str; 4] = ["r", "g", "b", "a"];
+
 /// A colour or a number that varies over a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TextureExpression<T> {
@@ -26,6 +32,10 @@ pub enum TextureExpression<T> {
     Image(T),
     /// One channel of an image, 0 red … 3 alpha.
     Channel(T, u8),
+    /// The colour of the mesh's vertices, white where it has none.
+    VertexColor,
+    /// One channel of it, 0 red … 3 alpha.
+    VertexChannel(u8),
     /// A number between 0 and 1 by the place in the texture.
     Pattern(TexturePattern),
     /// Sum.
@@ -91,6 +101,8 @@ impl<T> TextureExpression<T> {
             | Self::Color(_)
             | Self::Image(_)
             | Self::Channel(..)
+            | Self::VertexColor
+            | Self::VertexChannel(_)
             | Self::Pattern(_) => &[],
             Self::Sum(parts) | Self::Product(parts) => parts.as_slice(),
             Self::Mix(parts) => parts.as_slice(),
@@ -101,17 +113,19 @@ impl<T> TextureExpression<T> {
     /// Whether it is a colour; otherwise it is a number.
     pub fn is_color(&self) -> bool {
         match self {
-            Self::Color(_) | Self::Image(_) => true,
-            Self::Number(_) | Self::Channel(..) | Self::Pattern(_) => false,
+            Self::Color(_) | Self::Image(_) | Self::VertexColor => true,
+            Self::Number(_) | Self::Channel(..) | Self::VertexChannel(_) | Self::Pattern(_) => {
+                false
+            }
             Self::Sum(_) | Self::Product(_) | Self::Mix(_) | Self::Clamp(..) => {
                 self.parts().iter().any(Self::is_color)
             }
         }
     }
 
-    /// How many operations a kernel needs for it; one channel of an image takes two.
+    /// How many operations a kernel needs for it; a single channel takes two.
     pub fn operations(&self) -> usize {
-        let own = if matches!(self, Self::Channel(..)) { 2 } else { 1 };
+        let own = if matches!(self, Self::Channel(..) | Self::VertexChannel(_)) { 2 } else { 1 };
         own + self.parts().iter().map(Self::operations).sum::<usize>()
     }
 
@@ -129,7 +143,11 @@ impl<T> TextureExpression<T> {
                 rgb.iter().copied().fold(f64::MAX, f64::min),
                 rgb.iter().copied().fold(0.0, f64::max),
             ],
-            Self::Image(_) | Self::Channel(..) | Self::Pattern(_) => [0.0, 1.0],
+            Self::Image(_)
+            | Self::Channel(..)
+            | Self::VertexColor
+            | Self::VertexChannel(_)
+            | Self::Pattern(_) => [0.0, 1.0],
             Self::Sum(parts) => {
                 let [a, b] = parts.each_ref().map(Self::range);
                 [a[0] + b[0], a[1] + b[1]]
@@ -163,6 +181,8 @@ impl<T> TextureExpression<T> {
             Self::Color(rgb) => TextureExpression::Color(*rgb),
             Self::Image(image) => TextureExpression::Image(name(image)),
             Self::Channel(image, channel) => TextureExpression::Channel(name(image), *channel),
+            Self::VertexColor => TextureExpression::VertexColor,
+            Self::VertexChannel(channel) => TextureExpression::VertexChannel(*channel),
             Self::Pattern(pattern) => TextureExpression::Pattern(*pattern),
             Self::Sum(parts) => {
                 TextureExpression::Sum(Box::new(parts.each_ref().map(|part| part.named(name))))
@@ -194,8 +214,11 @@ impl<T: fmt::Display> fmt::Display for TextureExpression<T> {
             Self::Color(rgb) => out.write_str(&color_text(*rgb)),
             Self::Image(image) => write!(out, "{image}.rgb"),
             Self::Channel(image, channel) => {
-                let channel = ["r", "g", "b", "a"][usize::from(*channel).min(3)];
-                write!(out, "{image}.{channel}")
+                write!(out, "{image}.{}", CHANNELS[usize::from(*channel).min(3)])
+            }
+            Self::VertexColor => write!(out, "{VERTEX_COLOR}.rgb"),
+            Self::VertexChannel(channel) => {
+                write!(out, "{VERTEX_COLOR}.{}", CHANNELS[usize::from(*channel).min(3)])
             }
             Self::Pattern(pattern) => write!(out, "{pattern}"),
             Self::Sum(parts) => write!(out, "{} + {}", parts[0], parts[1]),

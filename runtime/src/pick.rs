@@ -165,7 +165,7 @@ fn described(
         normal: wide(surface.ns),
         geometric_normal: wide(surface.ng),
         front: surface.front,
-        uv: surface.uv.as_dvec2().to_array(),
+        uv: surface.at.uv.as_dvec2().to_array(),
         primitive: match hit.prim & k::PRIM_SPHERE {
             0 => Primitive::Triangle(hit.prim),
             _ => Primitive::Sphere(hit.prim & !k::PRIM_SPHERE),

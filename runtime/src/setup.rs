@@ -26,7 +26,7 @@ const BOUND: [(u32, Kind); 6] = [
 ];
 
 /// Small tables that share one buffer, in this order.
-const HEAP: [Kind; 15] = [
+const HEAP: [Kind; 16] = [
     Kind::CAMERA,
     Kind::SKY,
     Kind::MATERIAL,
@@ -42,12 +42,23 @@ const HEAP: [Kind; 15] = [
     Kind::MOTION,
     Kind::CAMERAKEY,
     Kind::LIGHTLINK,
+    Kind::VERTEXCOLOR,
 ];
 
 /// Bytes of one window of a section: the largest binding that every device has. Window `w` of binding
 /// `b` is binding `b + 8 w`.
 #[cfg(feature = "gpu")]
-pub(crate) const WINDOW_BYTES: u64 = 128 << 20;
+const WINDOW_BYTES: u64 = 128 << 20;
+
+/// The binding of the heap, which is one window however large it is: kernels know no second one.
+#[cfg(feature = "gpu")]
+const HEAP_BINDING: u32 = 2;
+
+/// Bytes of a window of a binding.
+#[cfg(feature = "gpu")]
+pub(crate) fn window_bytes(binding: u32) -> u64 {
+    if binding == HEAP_BINDING { u64::MAX } else { WINDOW_BYTES }
+}
 
 /// A scene and a job, ready for any backend.
 pub(crate) struct Setup<'a> {
@@ -113,6 +124,7 @@ impl Scene {
             path_at,
             camera_key_at,
             link_at,
+            vertex_color_at,
         ] = at;
         // The full kernel asks these numbers whether the tables are there; a specialised one knows.
         let sky_at = self.table(Kind::SKY, sky_at);
@@ -125,6 +137,7 @@ impl Scene {
         let (albedo_at, albedo_more_at) = self.albedo_at(albedo_first);
         let frame = Frame {
             link_at: self.table(Kind::LIGHTLINK, link_at),
+            vertex_color_at: self.table(Kind::VERTEXCOLOR, vertex_color_at),
             path_at,
             camera_key_at,
             albedo_at,
@@ -243,7 +256,7 @@ impl Setup<'_> {
     /// Every storage buffer that is only read: binding number and bytes, none empty.
     #[cfg(feature = "gpu")]
     pub(crate) fn buffers(&self) -> Vec<(u32, &[u8])> {
-        let heap = (2, bytemuck::cast_slice(&self.heap));
+        let heap = (HEAP_BINDING, bytemuck::cast_slice(&self.heap));
         let bound =
             BOUND.map(|(binding, kind)| (binding, bytemuck::cast_slice(self.section(kind))));
         let mut buffers: Vec<(u32, &[u8])> =

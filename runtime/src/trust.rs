@@ -15,7 +15,7 @@
 mod pieces;
 mod relink;
 
-use crate::setup::{Setup, WINDOW_BYTES};
+use crate::setup::{Setup, window_bytes};
 
 use pieces::pieces;
 pub(crate) use relink::{AOV, FULL, RENDER, Wanted, is_same, relink};
@@ -108,8 +108,10 @@ pub(crate) fn judge(setup: &Setup<'_>) -> Trust {
 /// Binding of each section, and how many windows it has.
 fn windows(setup: &Setup<'_>) -> Vec<(u32, u64)> {
     let buffers = setup.buffers();
-    let windows = |bytes: &[u8]| (bytes.len() as u64).div_ceil(WINDOW_BYTES);
-    buffers.iter().map(|(binding, bytes)| (*binding, windows(bytes))).collect()
+    let windows = |(binding, bytes): &(u32, &[u8])| {
+        (*binding, (bytes.len() as u64).div_ceil(window_bytes(*binding)))
+    };
+    buffers.iter().map(windows).collect()
 }
 
 impl Condition {

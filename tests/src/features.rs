@@ -189,6 +189,10 @@ pub const CASES: &[Case] = &[
     case("computed holes", &[SKY, WEAR, GRATE, TENT, FLOOR]),
     case("computed glow", &[PAINT, GLOWING_TILES, PANEL, CLAY, BALL, FLOOR]),
     case("placed textures", &[GRADIENT, SPHERE_LIGHT, PLACED, BALL, TENT, QUILT]),
+    // Colours of vertices: of the file's material and of others, stored once and not, and where there are none.
+    case("vertex colours", &[GRADIENT, SPHERE_LIGHT, PAINT, STAINED_SHELLS, BALL, FLOOR]),
+    case("vertex colours alone", &[SKY, OWN_SHELL]),
+    case("vertex colours of lights and of holes", &[WEAR, STAINED_LAMP, CLAY, BALL, FLOOR]),
     // Projected: without texture coordinates, on what is stretched, mirrored, stored once and turns; through a sheet.
     case(
         "projected textures",
@@ -342,6 +346,7 @@ const ALL: &[&str] = &[
     MIST,
     POND,
     ALL_BEADS,
+    OWN_SHELL,
     KEYED_CRATE,
     FLOOR,
 ];
@@ -655,6 +660,18 @@ material m: principled {
   roughness = wear.g
   specular.color = paint.rgb
 }\n";
+/// A shell with colours: of its own material, and stored once in two places, one of them mirrored.
+const STAINED_SHELLS: &str = "asset shell = obj(\"shell.obj\", unit: m, up: +y)
+material m: principled { color = paint.rgb * vertex_color.rgb, roughness = 0.1 + 0.8 * vertex_color.g }
+material gauze: principled { color = vertex_color.rgb, alpha = clamp(2 * vertex_color.r - 0.4, 0, 1) }
+instance own { shape = shell, at = (-1.6, 0.6, 1)m, scale = 0.5 }
+instance mirrored { shape = shell, material = m, at = (1.6, 0.5, 1)m, scale = (-0.5, 0.5, 0.5), rotate = (0, 40, 0)deg }
+instance thin { shape = shell, material = gauze, at = (0, 0.4, 2)m, scale = 0.4 }\n";
+const OWN_SHELL: &str = "asset shell = obj(\"shell.obj\", unit: m, up: +y)
+instance own { shape = shell, at = (0, 1, 0)m }\n";
+const STAINED_LAMP: &str = "asset shell = obj(\"shell.obj\", unit: m, up: +y)
+material lamp: principled { color = linear(0.2), emission.color = vertex_color.rgb, emission.strength = 9, alpha = vertex_color.g, alpha.clip = 60% }
+instance glow { shape = shell, material = lamp, at = (0.3, 2.6, 0)m, scale = 0.6 }\n";
 const WRAPPED: &str = "material m: principled { color = mix(paint.rgb, linear(0.8), checker(3)), roughness = 0.4, normal = bumps.rgb, projection = box }\n";
 const CARVED: &str = "material wrapped: principled { color = mix(paint.rgb, linear(0.8), checker(3)), roughness = 0.4, normal = bumps.rgb, projection = box }
 material veined: diffuse { color = linear(0.9) * noise(4), projection = solid }
@@ -735,7 +752,8 @@ f 1/1 2/2 3/3 4/4\n";
 
 /// A ball of 18 by 13 bands with normals and texture coordinates; places are multiples of 2^-10, so that they can
 /// be shifted without a loss.
-fn bead_obj() -> String {
+/// `colored`: with a colour at each vertex.
+fn bead_obj(colored: bool) -> String {
     use std::f64::consts::PI;
     use std::fmt::Write as _;
     let (n, m) = (18_u32, 13_u32);
@@ -749,7 +767,13 @@ fn bead_obj() -> String {
             let p = [radius * cos, -(PI * v).cos(), radius * sin]
                 .map(|x| (x * 1024.0).round() / 1024.0);
             let [x, y, z] = p;
-            writeln!(text, "v {x} {y} {z}\nvn {x} {y} {z}\nvt {u} {v}").expect("strings take all");
+            let color = if colored {
+                p.map(|x| format!(" {}", 0.5 + 0.5 * x)).concat()
+            } else {
+                String::new()
+            };
+            writeln!(text, "v {x} {y} {z}{color}\nvn {x} {y} {z}\nvt {u} {v}")
+                .expect("strings take all");
         }
     }
     for j in 0..m {
@@ -852,11 +876,12 @@ fn write_files(dir: &Path) {
     };
     exr::prelude::write_rgb_file(dir.join("panorama.exr"), 16, 8, sun)
         .expect("an image can be written");
-    let bead = bead_obj();
+    let [bead, shell] = [false, true].map(bead_obj);
     let texts = [
         ("tent.obj", TENT_OBJ),
         ("quilt.obj", QUILT_OBJ),
         ("bead.obj", &bead),
+        ("shell.obj", &shell),
         ("wash.ies", WASH_IES),
     ];
     for (name, text) in texts {

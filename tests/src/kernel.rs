@@ -90,6 +90,7 @@ impl Bench {
         let sampler = SamplerKind::Pcg as u32;
         let frame = Frame {
             link_at: NONE,
+            vertex_color_at: NONE,
             path_at: NONE,
             camera_key_at: NONE,
             sampler,

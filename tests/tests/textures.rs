@@ -1,7 +1,11 @@
 //! Texture expressions: what a material reads at a point is what the text says, computed here in double precision.
 
+#[path = "textures/vertex_colors.rs"]
+mod vertex_colors;
+
 use glam::Vec2;
 use pack::abi::NONE;
+use runtime::kernel::f32::TexturePoint;
 use std::f64::consts::TAU;
 use tests::kernel::Bench;
 use tests::scene;
@@ -54,16 +58,16 @@ render main: path {{ camera = eye, film = f, samples = 16, depth = 2 }}
         .map(|at| {
             #[expect(clippy::cast_possible_truncation, reason = "the kernel's precision")]
             let [u, v, w] = at.map(|x| x as f32);
+            let at = TexturePoint { uv: Vec2::new(u, v), w, prim: NONE, b: Vec2::ZERO };
             let mut fetch = |id: u32| {
                 if id == NONE {
                     [1.0; 4]
                 } else {
-                    let uv = Vec2::new(u, v);
                     // Cut-outs ask for alpha alone.
                     let [alpha, same] =
-                        [kernel.texture_alpha(id, uv), kernel.texture_fetch(id, uv, 0.0).w];
+                        [kernel.texture_alpha(id, at), kernel.texture_fetch(id, at).w];
                     assert_eq!(alpha.to_bits(), same.to_bits(), "{alpha}, not {same}");
-                    kernel.texture_fetch(id, uv, w).to_array()
+                    kernel.texture_fetch(id, at).to_array()
                 }
             };
             let [r, g, b, _] = fetch(material.color_texture);

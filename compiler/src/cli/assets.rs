@@ -62,6 +62,8 @@ fn describe(text: &mut String, name: &str, path: &str, facts: &MeshFacts) {
     let rows = facts.parts.iter().map(|part| {
         let size = bounds(part).as_ref().map_or("nothing".to_owned(), place);
         let triangles = counted(part.n_triangles, "triangle", "triangles");
+        let colors = if part.has_colors { ", vertex colours" } else { "" };
+        let triangles = triangles + colors;
         [format!("part \"{}\"", shown(&part.name)), material(part), triangles, size]
     });
     table(text, &rows.collect::<Vec<_>>());

@@ -362,8 +362,7 @@ fn finish(mut draft: Draft, names: &[PartName]) -> Part {
         normals: Attribute::Indexed { values: draft.normals, corners: draft.normal_corners },
         uvs,
         triangles: draft.triangles,
-        colors: draft.colors,
-        paint: None,
+        colors: draft.colors.into_iter().map(|[r, g, b]| [r, g, b, 1.0]).collect(),
     }
 }
 

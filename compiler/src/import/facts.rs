@@ -40,8 +40,8 @@ pub struct PartFacts {
     pub material: Option<u32>,
     /// Whether it has texture coordinates.
     pub has_uvs: bool,
-    /// Whether its own material has the colours of its vertices.
-    pub is_painted: bool,
+    /// Whether its vertices have colours.
+    pub has_colors: bool,
     /// How many triangles it has.
     pub n_triangles: usize,
     /// Lowest and highest coordinates of its vertices, metres; the wrong way round where it has none.
@@ -123,7 +123,7 @@ impl PartFacts {
             aliases: part.aliases.clone(),
             material: part.material,
             has_uvs: part.uvs != Attribute::Absent,
-            is_painted: part.paint.is_some(),
+            has_colors: !part.colors.is_empty(),
             n_triangles: part.triangles.len(),
             bounds,
             content: geometry(part),
@@ -140,6 +140,9 @@ fn geometry(part: &Part) -> [u8; 32] {
     list(bytemuck::cast_slice(&part.triangles));
     attribute(&part.normals, &mut list);
     attribute(&part.uvs, &mut list);
+    if !part.colors.is_empty() {
+        list(bytemuck::cast_slice(&part.colors));
+    }
     *hasher.finalize().as_bytes()
 }
 

@@ -120,7 +120,7 @@ pub fn read_gltf(
         return Err(ImportError::new(ErrorKind::Empty, file, message));
     }
     let materials = materials.into_iter().map(|material| material.imported).collect();
-    colors::bake(MeshFile { parts, materials, images, studio, report }, &file, limits)
+    Ok(colors::settle(MeshFile { parts, materials, images, studio, report }))
 }
 
 fn parse(json: &[u8], file: &str) -> Result<Root, ImportError> {

@@ -138,6 +138,12 @@ pub struct ImportedMaterial {
     pub alpha_map: Option<MapUse>,
     /// Points with coverage below this do not exist, all others are opaque; `None`: coverage is the share that is there.
     pub alpha_clip: Option<f64>,
+    /// The file asks for alpha; otherwise `alpha` is 1 whatever colours of vertices say.
+    pub covers: bool,
+    /// Colours of vertices are factors on `color`.
+    pub vertex_colors: bool,
+    /// Their alpha is a factor on `alpha`; only with `vertex_colors`.
+    pub vertex_alpha: bool,
     /// Seen from both sides. The renderer shades both sides of every surface, so this is only a note.
     pub double_sided: bool,
 }
@@ -181,29 +187,11 @@ impl ImportedMaterial {
             alpha: 1.0,
             alpha_map: None,
             alpha_clip: None,
+            covers: false,
+            vertex_colors: false,
+            vertex_alpha: false,
             double_sided: false,
         }
-    }
-
-    /// Whether it reads any image.
-    #[must_use]
-    pub fn has_images(&self) -> bool {
-        let maps = [
-            self.color_map,
-            self.metallic_roughness_map,
-            self.transmission_map,
-            self.specular_map,
-            self.specular_color_map,
-            self.coat_map,
-            self.coat_roughness_map,
-            self.sheen_map,
-            self.sheen_roughness_map,
-            self.anisotropy_map,
-            self.emission_map,
-            self.normal_map,
-            self.alpha_map,
-        ];
-        maps.iter().any(Option::is_some)
     }
 
     /// Most of it is solid glass: lower to `dielectric`, which has neither colour nor metal in it.

@@ -3,7 +3,6 @@
 use super::error::ImportError;
 use super::file::Limits;
 use super::material::{ImportedImage, ImportedMaterial};
-use super::paint::Paint;
 use super::report::ImportReport;
 use super::studio::Studio;
 use std::collections::BTreeSet;
@@ -62,10 +61,8 @@ pub struct Part {
     pub uvs: Attribute<[f32; 2]>,
     /// Counter-clockwise seen from outside, each index `< positions.len()`.
     pub triangles: Vec<[u32; 3]>,
-    /// Linear colours of vertices, 0 ..= 1, until they are an image; none, or as many as positions.
-    pub(super) colors: Vec<[f32; 3]>,
-    /// Where the image of its material has these colours; of no use to other materials.
-    pub paint: Option<Paint>,
+    /// Linear colours of vertices and their alpha, 0 ..= 1; none, or as many as positions.
+    pub colors: Vec<[f32; 4]>,
 }
 
 impl<T: Copy> Attribute<T> {
@@ -95,13 +92,11 @@ impl Part {
         self.normals.at(tri_idx, self.triangles[tri_idx])
     }
 
-    /// UVs of triangle `tri_idx` for the material of the file if `own`, else for any other; if it has any.
+    /// Colours and alpha at the corners of triangle `tri_idx`; 1 where the part has none.
     #[must_use]
-    pub fn corner_uvs_for(&self, own: bool, tri_idx: usize) -> Option<[[f32; 2]; 3]> {
-        match self.paint.filter(|_| own) {
-            Some(paint) => Some(paint.uvs(tri_idx)),
-            None => self.corner_uvs(tri_idx),
-        }
+    pub fn corner_colors(&self, tri_idx: usize) -> [[f32; 4]; 3] {
+        let color = |vertex: u32| self.colors.get(vertex as usize).copied().unwrap_or([1.0; 4]);
+        self.triangles[tri_idx].map(color)
     }
 
     /// UVs of triangle `tri_idx`, if it has any.
@@ -174,6 +169,7 @@ pub(super) fn keep(parts: &[Part], place: &str, limits: &Limits) -> Result<(), I
             + size_of_val(part.triangles.as_slice())
             + attribute(&part.normals)
             + attribute(&part.uvs)
+            + size_of_val(part.colors.as_slice())
     };
     let bytes: usize = parts.iter().map(part).sum();
     limits.memory.take(2 * bytes as u64, place)?.keep();

@@ -72,7 +72,7 @@ pub fn read_obj(
     report.files = reader.finish();
     let materials = library.materials;
     let made = MeshFile { parts, materials, images, studio: Studio::default(), report };
-    colors::bake(made, &file, limits)
+    Ok(colors::settle(made))
 }
 
 fn warn_about(odd: &Oddities, file: &str, report: &mut ImportReport) {

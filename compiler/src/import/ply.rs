@@ -77,7 +77,7 @@ pub fn read_ply(
     report.files = reader.finish();
     let (materials, images) = (Vec::new(), Vec::new());
     let made = MeshFile { parts, materials, images, studio: Studio::default(), report };
-    colors::bake(made, &file, limits)
+    Ok(colors::settle(made))
 }
 
 fn warn_about(header: &Header<'_>, file: &str, report: &mut ImportReport) {

@@ -37,6 +37,8 @@ pub(super) struct Placement {
     pub(super) labels: Vec<[u32; 3]>,
     /// Shading data, one a triangle; `light` is `NONE` still.
     pub(super) shades: Vec<abi::TriShade>,
+    /// Colours of the corners of every triangle; empty where nothing asks for them.
+    pub(super) colors: Vec<abi::VertexColors>,
     /// Triangles of each mesh instance: `groups[i]` is where group `i` ends.
     pub(super) groups: Vec<u32>,
     /// Meshes that are stored once.
@@ -125,6 +127,12 @@ impl Records<'_> {
             (&triangles[at], abi::TriShade { light: NONE, ..shades[at] })
         })
     }
+
+    /// The colours of their corners.
+    pub(super) fn colors(&self) -> impl Iterator<Item = abi::VertexColors> {
+        let colors: &[abi::VertexColors] = self.pack.records();
+        self.at.iter().filter_map(|at| colors.get(*at as usize).copied())
+    }
 }
 
 /// What is needed to place a scene besides its files.
@@ -134,6 +142,8 @@ pub(super) struct Stage<'a> {
     pub(super) frame: &'a Normalization,
     /// By which emitters are weighed.
     pub(super) receivers: Receivers,
+    /// Some texture asks for the colours of vertices.
+    pub(super) colored: bool,
     pub(super) stages: &'a Stages,
 }
 
@@ -143,6 +153,9 @@ fn key_of(stage: &Stage<'_>, body: &Body) -> Key {
     key.key(body.key(stage.materials)).floats(&stage.frame.center);
     key.number(u64::from(stage.frame.exponent as u32));
     stage.receivers.read(&mut key);
+    if stage.colored {
+        key.number(1_u32);
+    }
     key.end()
 }
 
@@ -227,7 +240,8 @@ impl Placement {
                     object,
                     ..Default::default()
                 };
-                self.add(stage, &[a, b, c].map(|corner| face.corners[corner]), shade);
+                let corners = [a, b, c].map(|corner| face.corners[corner]);
+                self.add(stage, &corners, (shade, &|| abi::VertexColors::WHITE));
             }
             let count = face.halves().len() as u32;
             let is_whole = self.corners.len() as u32 == first + count;
@@ -248,7 +262,12 @@ impl Placement {
     }
 
     /// Adds a triangle in the world, metres; says whether it has an area.
-    fn add(&mut self, stage: &Stage<'_>, corners: &[DVec3; 3], shade: abi::TriShade) -> bool {
+    fn add(
+        &mut self,
+        stage: &Stage<'_>,
+        corners: &[DVec3; 3],
+        (shade, colors): (abi::TriShade, &dyn Fn() -> abi::VertexColors),
+    ) -> bool {
         let corners = corners.map(|p| stage.frame.point(p.to_array()));
         if has_no_area(&corners) {
             self.dropped += 1;
@@ -257,6 +276,9 @@ impl Placement {
         self.corners.push(corners);
         self.labels.push([NONE; 3]);
         self.shades.push(shade);
+        if stage.colored {
+            self.colors.push(colors());
+        }
         true
     }
 
@@ -269,7 +291,7 @@ impl Placement {
     ) {
         let (first, dropped) = (self.corners.len(), self.dropped);
         let rest = if let Some((records, rest)) = known {
-            self.take(&records, body.object);
+            self.take(&records, (body.object, stage.colored));
             self.dropped += rest.dropped;
             rest
         } else {
@@ -298,7 +320,8 @@ impl Placement {
         let made = triangles(mesh, files, Self::default, |made, triangle, material| {
             let corners = triangle.positions();
             let index = made.corners.len() as u32;
-            let stays = made.add(stage, &corners, triangle.shade(material));
+            let shade = triangle.shade(material);
+            let stays = made.add(stage, &corners, (shade, &|| triangle.colors()));
             if stays && stage.materials.looks(material).glows {
                 let [a, b, c] = corners;
                 let area = 0.5 * (b - a).cross(c - a).length();
@@ -313,6 +336,7 @@ impl Placement {
             n += part.corners.len() as u32;
             self.dropped += part.dropped;
         }
+        self.colors.extend(made.iter().flat_map(|part| &part.colors));
         let (corners, shades) = (&mut self.corners, &mut self.shades);
         corners.reserve(n as usize);
         shades.reserve(n as usize);
@@ -325,12 +349,15 @@ impl Placement {
     }
 
     /// Adds triangles of the last pack.
-    fn take(&mut self, records: &Records<'_>, object: u32) {
+    fn take(&mut self, records: &Records<'_>, (object, colored): (u32, bool)) {
         for (triangle, shade) in records.iter() {
             self.corners.push([triangle.v0, triangle.v1, triangle.v2]);
             self.labels.push([triangle.id0, triangle.id1, triangle.id2]);
             let object = object | shade.object & TRI_SMOOTH;
             self.shades.push(abi::TriShade { object, ..shade });
+        }
+        if colored {
+            self.colors.extend(records.colors());
         }
     }
 

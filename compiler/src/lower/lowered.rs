@@ -76,6 +76,8 @@ pub struct Lowered {
     pub triangles: Rows<abi::Triangle>,
     /// Shading data in leaf order.
     pub shades: Rows<abi::TriShade>,
+    /// Colours of the corners of triangles, in leaf order; empty where no texture asks for them.
+    pub vertex_colors: Rows<abi::VertexColors>,
     /// Spheres in leaf order.
     pub spheres: Vec<abi::Sphere>,
     /// Light linking: of all lights, then of all things; empty if every light lights everything.

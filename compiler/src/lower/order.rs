@@ -21,6 +21,7 @@ pub(super) struct Declared {
 pub(super) struct Ordered {
     pub(super) triangles: Vec<abi::Triangle>,
     pub(super) shades: Vec<abi::TriShade>,
+    pub(super) colors: Vec<abi::VertexColors>,
     pub(super) spheres: Vec<abi::Sphere>,
     /// Of emitters that are lights, their records without how they are chosen.
     pub(super) lights: Vec<abi::Light>,
@@ -53,15 +54,18 @@ pub(super) fn order(
     // They are as large as the pack: not all at once.
     drop((corners, welded));
     let shades = std::mem::take(&mut placement.shades);
+    let colors = std::mem::take(&mut placement.colors);
+    let color = |i: &u32| colors.get(*i as usize).copied();
     let n_triangles = shades.len();
     let mut ordered = Ordered {
         triangles,
         shades: joined.triangle_order.par_iter().map(|i| shades[*i as usize]).collect(),
+        colors: joined.triangle_order.iter().filter_map(color).collect(),
         spheres,
         lights: Vec::new(),
         triangle_at: Vec::new(),
     };
-    drop(shades);
+    drop((shades, colors));
     ordered.connect_lights(placement, n_triangles, ids, joined);
     ordered
 }

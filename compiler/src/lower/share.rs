@@ -91,9 +91,7 @@ impl Plan {
         for (index, instance) in scene.instances.iter().enumerate() {
             let Shape::Mesh { asset, parts } = &instance.shape else { continue };
             let file = &assets[*asset];
-            let is_painted =
-                file.parts.iter().any(|part| part.is_painted) && instance.material.is_none();
-            let name = (*asset, parts, is_painted);
+            let name = (*asset, parts);
             let new = || (Mesh::new(file, parts), Vec::new());
             let (mesh, places) = meshes.entry(name).or_insert_with(new);
             let linear = Transform::of(instance, shutter).linear;
@@ -131,8 +129,8 @@ impl Plan {
     }
 }
 
-/// Asset, parts, and whether they show the colours of their vertices.
-type MeshName<'a> = (usize, &'a Parts, bool);
+/// Asset and parts.
+type MeshName<'a> = (usize, &'a Parts);
 
 /// A mesh of the scene.
 struct Mesh<'a> {

@@ -20,6 +20,8 @@ pub(super) struct Stored {
     pub(super) corners: Vec<[[f32; 3]; 3]>,
     /// Shading data, one a triangle.
     pub(super) shades: Vec<abi::TriShade>,
+    /// Colours of their corners; empty where nothing asks for them.
+    pub(super) colors: Vec<abi::VertexColors>,
     /// What the corners are called in the last pack, three times `NONE` where it does not have them.
     pub(super) labels: Vec<[u32; 3]>,
     /// Triangles that have no area; not in the others.
@@ -72,8 +74,8 @@ fn absolute(m: DMat3) -> DMat3 {
 }
 
 impl Stored {
-    /// The triangles of some parts, each with its material, which is the file's if `own`.
-    pub(super) fn new(parts: &[(&Part, u32)], own: bool) -> Self {
+    /// The triangles of some parts, each with its material; with the colours of their corners if `colored`.
+    pub(super) fn new(parts: &[(&Part, u32)], colored: bool) -> Self {
         let corners =
             |(part, _): &(&Part, u32)| (0..part.triangles.len()).map(|i| part.corners(i)).collect();
         let all: Vec<Vec<[[f32; 3]; 3]>> = parts.iter().map(corners).collect();
@@ -87,7 +89,10 @@ impl Stored {
                     continue;
                 }
                 mesh.corners.push(corners);
-                mesh.shades.push(shade(part, (own, tri_idx), *material));
+                mesh.shades.push(shade(part, tri_idx, *material));
+                if colored {
+                    mesh.colors.push(abi::VertexColors::of(part.corner_colors(tri_idx)));
+                }
             }
         }
         mesh.labels = vec![[NONE; 3]; mesh.corners.len()];
@@ -101,16 +106,15 @@ impl Stored {
         StoredRest { center, exponent, dropped: self.dropped }
     }
 
-    /// A mesh of these triangles.
+    /// A mesh of these triangles, with their labels.
     pub(super) fn of_triangles(
         rest: &StoredRest,
-        corners: Vec<[[f32; 3]; 3]>,
-        labels: Vec<[u32; 3]>,
-        shades: Vec<abi::TriShade>,
+        (corners, labels): (Vec<[[f32; 3]; 3]>, Vec<[u32; 3]>),
+        (shades, colors): (Vec<abi::TriShade>, Vec<abi::VertexColors>),
     ) -> Self {
         let StoredRest { center, exponent, dropped } = *rest;
         let center = DVec3::from(center);
-        let known = Self { corners, shades, labels, ..Self::default() };
+        let known = Self { corners, shades, colors, labels, ..Self::default() };
         let mut mesh = Self { dropped, center, exponent, ..known };
         mesh.measure();
         mesh
@@ -144,10 +148,10 @@ pub(super) fn has_no_area(corners: &[[f32; 3]; 3]) -> bool {
 }
 
 /// What is known of a triangle.
-fn shade(part: &Part, (own, tri_idx): (bool, usize), material: u32) -> abi::TriShade {
+fn shade(part: &Part, tri_idx: usize, material: u32) -> abi::TriShade {
     let normals = part.corner_normals(tri_idx);
     let octahedral = |n: [f32; 3]| octahedral(DVec3::from(n.map(f64::from)));
-    let [uv0, uv1, uv2] = part.corner_uvs_for(own, tri_idx).unwrap_or_default();
+    let [uv0, uv1, uv2] = part.corner_uvs(tri_idx).unwrap_or_default();
     let smooth = if normals.is_some() { TRI_SMOOTH } else { 0 };
     abi::TriShade {
         normals: normals.map_or([0; 3], |normals| normals.map(octahedral)),

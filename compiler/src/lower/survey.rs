@@ -44,7 +44,8 @@ impl Survey {
     ) -> Result<Self, ImportError> {
         let files = materials.files;
         let mut of_meshes = measured(bodies, materials, stages, inside)?.into_iter();
-        let meshes = stored(bodies, files, stages)?;
+        let colored = materials.textures.has_vertex_colors();
+        let meshes = stored(bodies, colored, files, stages)?;
         let (mut extents, mut boundaries, mut placed) = (Vec::new(), Vec::new(), Vec::new());
         for body in &bodies.list {
             let mut extent = Extent::NOTHING;
@@ -135,17 +136,23 @@ pub(super) fn load(
     Ok((meshes, pieces))
 }
 
-/// The meshes that are stored once.
-fn stored(bodies: &Bodies, files: &dyn Files, stages: &Stages) -> Result<Vec<Stored>, ImportError> {
+/// The meshes that are stored once; `colored`: with the colours of their corners.
+fn stored(
+    bodies: &Bodies,
+    colored: bool,
+    files: &dyn Files,
+    stages: &Stages,
+) -> Result<Vec<Stored>, ImportError> {
     let known = |shared: &Shared| {
-        let (records, rest) = part::<StoredRest>(stages, shared.key())?;
+        let (records, rest) = part::<StoredRest>(stages, shared.key(colored))?;
         let (mut corners, mut labels, mut shades) = (Vec::new(), Vec::new(), Vec::new());
         for (triangle, shade) in records.iter() {
             corners.push([triangle.v0, triangle.v1, triangle.v2]);
             labels.push([triangle.id0, triangle.id1, triangle.id2]);
             shades.push(shade);
         }
-        Some(Stored::of_triangles(&rest, corners, labels, shades))
+        let colors = if colored { records.colors().collect() } else { Vec::new() };
+        Some(Stored::of_triangles(&rest, (corners, labels), (shades, colors)))
     };
     let known: Vec<Option<Stored>> = bodies.meshes.par_iter().map(known).collect();
     let new = bodies.meshes.iter().zip(&known).filter(|(_, known)| known.is_none());
@@ -156,7 +163,7 @@ fn stored(bodies: &Bodies, files: &dyn Files, stages: &Stages) -> Result<Vec<Sto
             let file = &meshes[&shared.asset];
             let parts = shared.parts.iter().zip(&shared.materials);
             let parts: Vec<_> = parts.map(|(part, m)| (&file.parts[*part], *m)).collect();
-            Stored::new(&parts, shared.own)
+            Stored::new(&parts, colored)
         })
     };
     Ok(bodies.meshes.par_iter().zip(known).map(make).collect())
@@ -164,11 +171,16 @@ fn stored(bodies: &Bodies, files: &dyn Files, stages: &Stages) -> Result<Vec<Sto
 
 /// What the next compilation may take from the pack of the meshes that are stored once, whose triangles begin at
 /// `first`.
-pub(super) fn parts(bodies: &Bodies, meshes: &[Stored], mut first: usize) -> Vec<Part<StoredRest>> {
+pub(super) fn parts(
+    bodies: &Bodies,
+    colored: bool,
+    meshes: &[Stored],
+    mut first: usize,
+) -> Vec<Part<StoredRest>> {
     let part = |(shared, mesh): (&Shared, &Stored)| {
         let triangles = first..first + mesh.corners.len();
         first = triangles.end;
-        Part::new(shared.key(), triangles, mesh.rest())
+        Part::new(shared.key(colored), triangles, mesh.rest())
     };
     bodies.meshes.iter().zip(meshes).map(part).collect()
 }

@@ -92,6 +92,27 @@ impl<'a> TextureTable<'a> {
         self.id(Recipe::Expression(ops))
     }
 
+    /// Whether texture `id` reads the colours of vertices.
+    pub(super) fn reads_vertex_colors(&self, id: u32) -> bool {
+        match &self.recipes[id as usize] {
+            Recipe::Expression(ops) => expression::reads_vertex_colors(ops),
+            Recipe::Whole { .. } | Recipe::Gathered { .. } => false,
+        }
+    }
+
+    /// Whether any texture does.
+    pub(super) fn has_vertex_colors(&self) -> bool {
+        (0..self.recipes.len() as u32).any(|id| self.reads_vertex_colors(id))
+    }
+
+    /// Whether texture `id` is looked up at texture coordinates.
+    pub(super) fn reads_uvs(&self, id: u32) -> bool {
+        match &self.recipes[id as usize] {
+            Recipe::Expression(ops) => expression::reads_uvs(ops),
+            Recipe::Whole { .. } | Recipe::Gathered { .. } => true,
+        }
+    }
+
     fn id(&mut self, recipe: Recipe) -> u32 {
         let known = self.recipes.iter().position(|known| *known == recipe);
         let id = known.unwrap_or_else(|| {

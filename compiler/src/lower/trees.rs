@@ -84,6 +84,7 @@ pub(super) fn add_meshes(placement: &mut Placement, counters: &mut Counters) -> 
     let mut meshes = Vec::with_capacity(placement.meshes.len());
     for mesh in &mut placement.meshes {
         placement.shades.append(&mut std::mem::take(&mut mesh.shades));
+        placement.colors.append(&mut std::mem::take(&mut mesh.colors));
         corners.extend_from_slice(&mesh.corners);
         meshes.push(std::mem::take(&mut mesh.corners));
     }

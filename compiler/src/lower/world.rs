@@ -52,6 +52,7 @@ pub(super) struct Sections {
     pub(super) wide_nodes: Rows<abi::WideNode>,
     pub(super) triangles: Rows<abi::Triangle>,
     pub(super) shades: Rows<abi::TriShade>,
+    pub(super) vertex_colors: Rows<abi::VertexColors>,
     pub(super) spheres: Vec<abi::Sphere>,
     pub(super) instances: Vec<abi::Instance>,
     /// Of surfaces that are lights: their records without how they are chosen.
@@ -99,6 +100,9 @@ impl<'a> World<'a> {
         if self.n_far > 0 {
             key.number(self.n_far as u64);
         }
+        if self.materials.textures.has_vertex_colors() {
+            key.text("vertex colours");
+        }
         self.bodies.read(self.materials, &mut key);
         key.end()
     }
@@ -120,7 +124,8 @@ impl<'a> World<'a> {
         check_mixes(materials.records())?;
         let Survey { frame, receivers, boundaries, meshes, placed } =
             Survey::of(bodies, materials, stages, self.inside)?;
-        let stage = Stage { bodies, materials, frame: &frame, receivers, stages };
+        let colored = materials.textures.has_vertex_colors();
+        let stage = Stage { bodies, materials, frame: &frame, receivers, colored, stages };
         let (known, new) = geometry::known(&stage);
         let (files, pieces) = survey::load(bodies, &new, materials.files)?;
         let mut placement = geometry::place(&stage, known, (&files, &pieces));
@@ -162,7 +167,8 @@ impl<'a> World<'a> {
         let start = Instant::now();
         let mut counters = outline.counters;
         let n_world = placement.corners.len();
-        let parts = survey::parts(self.bodies, &placement.meshes, n_world);
+        let colored = self.materials.textures.has_vertex_colors();
+        let parts = survey::parts(self.bodies, colored, &placement.meshes, n_world);
         let corners = add_meshes(&mut placement, &mut counters);
         let welded = welded(&mut placement, &corners);
         counters.vertices = u64::from(welded.n_ids);
@@ -200,6 +206,7 @@ impl<'a> World<'a> {
             wide_nodes: wide_nodes.into(),
             triangles: ordered.triangles.into(),
             shades: ordered.shades.into(),
+            vertex_colors: ordered.colors.into(),
             spheres: ordered.spheres,
             instances,
             lights: ordered.lights,
@@ -276,6 +283,7 @@ impl Outline {
             wide_nodes: Rows::kept(pack, Kind::WIDENODE, Pack::records),
             triangles: Rows::kept(pack, Kind::TRIANGLE, Pack::records),
             shades: Rows::kept(pack, Kind::TRISHADE, Pack::records),
+            vertex_colors: Rows::kept(pack, Kind::VERTEXCOLOR, Pack::records),
             spheres: pack.records().to_vec(),
             instances: pack.records().to_vec(),
             lights: lights.iter().filter(|light| light.has_surface()).copied().collect(),

@@ -10,6 +10,7 @@ use crate::schema::{
 };
 use crate::source::Span;
 use crate::syntax::{Entry, Expr, ExprKind, Ident, Path};
+use crate::texture::TextureExpression;
 use crate::units::{self, Dim};
 
 /// Where a value is going.
@@ -244,17 +245,7 @@ impl Evaluator<'_> {
                 }
                 other => self.fit_color(slot, other, max),
             },
-            FieldType::ScalarSlot(bounds) => match value {
-                Value::TextureChannel(id, 3) => Value::TextureChannel(id, 3),
-                Value::TextureChannel(id, channel) => {
-                    self.fit_texture(slot, id, Value::TextureChannel(id, channel), false)
-                }
-                Value::TextureColor(id) | Value::Item(Kind::Texture, id) => {
-                    self.which_channel(slot, id)
-                }
-                Value::Textured(of) => self.fit_textured(slot, &of, bounds, false),
-                other => self.fit_number(slot, other, bounds),
-            },
+            FieldType::ScalarSlot(bounds) => self.fit_scalar(slot, value, bounds),
             FieldType::NormalSlot => match value {
                 Value::TextureColor(id) | Value::Item(Kind::Texture, id) => {
                     self.fit_texture(slot, id, Value::TextureColor(id), false)
@@ -284,6 +275,24 @@ impl Evaluator<'_> {
             FieldType::LengthUnit => {
                 self.fit_number(slot, value, Bounds { above_min: true, ..any(Dim::LENGTH, "m") })
             }
+        }
+    }
+
+    /// A number, or one of a texture.
+    fn fit_scalar(&mut self, slot: Slot<'_>, value: Value, bounds: Bounds) -> Value {
+        match value {
+            Value::TextureChannel(id, 3) => Value::TextureChannel(id, 3),
+            Value::TextureChannel(id, channel) => {
+                self.fit_texture(slot, id, Value::TextureChannel(id, channel), false)
+            }
+            Value::TextureColor(id) | Value::Item(Kind::Texture, id) => {
+                self.which_channel(slot, Some(id))
+            }
+            Value::Textured(of) if *of == TextureExpression::VertexColor => {
+                self.which_channel(slot, None)
+            }
+            Value::Textured(of) => self.fit_textured(slot, &of, bounds, false),
+            other => self.fit_number(slot, other, bounds),
         }
     }
 

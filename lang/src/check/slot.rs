@@ -121,7 +121,8 @@ impl Evaluator<'_> {
         self.number_fault(error.with_help(help))
     }
 
-    pub(super) fn which_channel(&mut self, slot: Slot<'_>, id: ItemId) -> Value {
+    /// Asks for a channel of a colour; `id`: the image, if it is one.
+    pub(super) fn which_channel(&mut self, slot: Slot<'_>, id: Option<ItemId>) -> Value {
         let text = format!("{} needs one channel of the texture", slot.name());
         let mut error = Diagnostic::error(Code("E0203"), text).at(slot.span(), "which channel?");
         let mut fix = match &slot.expr.kind {
@@ -131,7 +132,8 @@ impl Evaluator<'_> {
             }
             _ => Fix::guess("take red", slot.span().after(), ".r"),
         };
-        if let Some(info) = self.textures.get(&id).filter(|info| info.space == ColorSpace::Srgb) {
+        let info = id.and_then(|id| self.textures.get(&id));
+        if let Some(info) = info.filter(|info| info.space == ColorSpace::Srgb) {
             let mut edits = fix.edits;
             edits.push(Edit { span: info.space_value, replacement: "data".to_owned() });
             let message = "take red, of an image that is read as data".to_owned();

@@ -9,6 +9,7 @@ use crate::resolve::{Found, ItemId, did_you_mean, item_kind, quoted_list};
 use crate::schema::Kind;
 use crate::source::Span;
 use crate::syntax::{Ident, ItemKind, Path};
+use crate::texture::{CHANNELS, TextureExpression, VERTEX_COLOR};
 
 impl Evaluator<'_> {
     /// The value of a path. `kind` is what the place wants, for the message about unknown names.
@@ -22,6 +23,11 @@ impl Evaluator<'_> {
         match self.program.find(scope.module, path, kind) {
             Ok(Found::Poison) => Value::Poison,
             Ok(Found::Item(id, used)) => self.item_path(id, &path.segments[used..]),
+            // A declaration of this name goes first.
+            Err(_) if first.text == VERTEX_COLOR => {
+                let value = Value::Textured(Rc::new(TextureExpression::VertexColor));
+                self.members(value, &path.segments[1..])
+            }
             Err(error) => self.fault(*error),
         }
     }
@@ -111,6 +117,13 @@ impl Evaluator<'_> {
             Value::Color(rgb) => {
                 let found = index("rgb").and_then(|i| rgb.get(i)).map(|v| Value::plain(*v));
                 (&["r", "g", "b"], found)
+            }
+            Value::Textured(of) if **of == TextureExpression::VertexColor => {
+                let channel = (0_u8..).zip(CHANNELS).find(|(_, channel)| *channel == name.text);
+                let number = channel.map(|(i, _)| TextureExpression::VertexChannel(i));
+                let found = if name.text == "rgb" { Some(of.as_ref().clone()) } else { number };
+                let found = found.map(|found| Value::Textured(Rc::new(found)));
+                (&["rgb", "r", "g", "b", "a"], found)
             }
             Value::Item(Kind::Texture, id) => return self.channel(*id, name),
             _ => (&[], None),

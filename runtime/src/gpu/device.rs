@@ -6,7 +6,7 @@ use super::record::Entry;
 use super::stopwatch;
 use super::upload::{Uploader, wait_at_most};
 use crate::cpu::panic_text;
-use crate::setup::{Setup, WINDOW_BYTES};
+use crate::setup::{Setup, window_bytes};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use wgpu::{
@@ -134,25 +134,22 @@ impl Device {
 
 fn check_limits(limits: &Limits, buffers: &[(u32, &[u8])]) -> Result<(), GpuError> {
     let mut bindings = 1;
-    for (_, bytes) in buffers {
+    for (binding, bytes) in buffers {
         let needed = bytes.len() as u64;
         if needed > limits.max_buffer_size {
             let available = limits.max_buffer_size;
             return Err(GpuError::Limit { what: "bytes in one buffer", needed, available });
         }
-        bindings += needed.div_ceil(WINDOW_BYTES);
+        let needed = needed.min(window_bytes(*binding));
+        let available = limits.max_storage_buffer_binding_size;
+        if needed > available {
+            return Err(GpuError::Limit { what: "bytes in one binding", needed, available });
+        }
+        bindings += (bytes.len() as u64).div_ceil(window_bytes(*binding));
     }
     let available = u64::from(limits.max_storage_buffers_per_shader_stage);
     if bindings > available {
         return Err(GpuError::Limit { what: "storage buffers", needed: bindings, available });
-    }
-    let available = limits.max_storage_buffer_binding_size;
-    if available < WINDOW_BYTES {
-        return Err(GpuError::Limit {
-            what: "bytes in one binding",
-            needed: WINDOW_BYTES,
-            available,
-        });
     }
     Ok(())
 }
@@ -178,7 +175,7 @@ fn upload_all(
         let buffer = buffer?;
         let (size, mut offset, mut window) = (bytes.len() as u64, 0, 0);
         while offset < size {
-            let part = (size - offset).min(WINDOW_BYTES);
+            let part = (size - offset).min(window_bytes(binding));
             let binding = binding + window * WINDOW_STRIDE;
             windows.push(Window { binding, buffer: buffer.clone(), offset, size: part });
             offset += part;

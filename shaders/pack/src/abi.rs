@@ -27,6 +27,7 @@ mod sky;
 mod tag;
 mod texture;
 mod texture_op;
+mod vertex_colors;
 
 pub use albedo::{AlbedoTable, albedo_tables, albedo_words};
 pub use aov::AovSample;
@@ -52,6 +53,7 @@ pub use render::{
 pub use sky::{Sky, SkyKind, sky_table_values};
 pub use texture::{Texture, TextureFormat, Wrap};
 pub use texture_op::{MAX_TEXTURE_OPS, MAX_TEXTURE_STACK, TextureOp, TextureOpKind};
+pub use vertex_colors::VertexColors;
 
 /// "No such element" wherever an index is optional: texture ids, light ids.
 pub const NONE: u32 = u32::MAX;
@@ -77,6 +79,7 @@ pub fn records() -> Vec<Record> {
         Record::of::<WideNode>(),
         Record::of::<Triangle>(),
         Record::of::<TriShade>(),
+        Record::of::<VertexColors>(),
         Record::of::<Sphere>(),
         Record::of::<Object>(),
         Record::of::<LightLink>(),

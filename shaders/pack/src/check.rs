@@ -92,6 +92,7 @@ fn records(contents: &Contents<'_>) -> Result<(), PackError> {
     each(contents.sky.map_or(&[], std::slice::from_ref), contents)?;
     each(contents.triangles, contents)?;
     each(contents.shades, contents)?;
+    each(contents.vertex_colors, contents)?;
     each(contents.spheres, contents)?;
     each(contents.materials, contents)?;
     each(contents.objects, contents)?;

@@ -5,7 +5,7 @@
 
 use crate::abi::{
     Camera, CameraKey, Instance, Light, LightLink, LightNode, Material, Medium, MotionPiece, Node,
-    Object, RenderSettings, Sky, Sphere, Texture, TriShade, Triangle, WideNode,
+    Object, RenderSettings, Sky, Sphere, Texture, TriShade, Triangle, VertexColors, WideNode,
 };
 use crate::error::PackError;
 use crate::kind::{Kind, PackRecord};
@@ -20,6 +20,7 @@ pub(crate) struct Contents<'a> {
     pub(crate) wide_nodes: &'a [WideNode],
     pub(crate) triangles: &'a [Triangle],
     pub(crate) shades: &'a [TriShade],
+    pub(crate) vertex_colors: &'a [VertexColors],
     pub(crate) spheres: &'a [Sphere],
     pub(crate) materials: &'a [Material],
     pub(crate) objects: &'a [Object],
@@ -53,6 +54,7 @@ impl<'a> Contents<'a> {
             wide_nodes: records(&find),
             triangles: records(&find),
             shades: records(&find),
+            vertex_colors: records(&find),
             spheres: records(&find),
             materials: records(&find),
             objects: records(&find),

@@ -26,6 +26,8 @@ impl Kind {
     pub const TRIANGLE: Self = Self(*b"TRIANGLE");
     /// [`abi::TriShade`]s, one a triangle.
     pub const TRISHADE: Self = Self(*b"TRISHADE");
+    /// [`abi::VertexColors`], one a triangle. Present exactly when a texture reads them and there are triangles.
+    pub const VERTEXCOLOR: Self = Self(*b"VTXCOLOR");
     /// [`abi::Sphere`]s in leaf order.
     pub const SPHERE: Self = Self(*b"SPHERE  ");
     /// [`abi::Material`]s.
@@ -160,7 +162,7 @@ const MAX_SKY_WORDS: u64 = (32 << 20) / 16 + (1 << 16);
 pub(crate) const SRGB_WORDS: u64 = 64;
 
 /// Every section of this format, in file order.
-pub const SECTIONS: [SectionSpec; 24] = [
+pub const SECTIONS: [SectionSpec; 25] = [
     one(Kind::RENDER, size_of::<abi::RenderSettings>(), true),
     // 2: kinds of cameras.
     SectionSpec { version: 2, ..one(Kind::CAMERA, size_of::<abi::Camera>(), true) },
@@ -170,6 +172,7 @@ pub const SECTIONS: [SectionSpec; 24] = [
     table(Kind::WIDENODE, size_of::<abi::WideNode>(), 2 * MAX_PRIMITIVES),
     table(Kind::TRIANGLE, size_of::<abi::Triangle>(), MAX_PRIMITIVES),
     table(Kind::TRISHADE, size_of::<abi::TriShade>(), MAX_PRIMITIVES),
+    table(Kind::VERTEXCOLOR, size_of::<abi::VertexColors>(), MAX_PRIMITIVES),
     // A reference to spheres has one bit less.
     table(Kind::SPHERE, size_of::<abi::Sphere>(), MAX_PRIMITIVES / 2),
     table(Kind::MATERIAL, size_of::<abi::Material>(), 1 << 24),
@@ -209,7 +212,7 @@ macro_rules! pack_records {
 pack_records! {
     RenderSettings => RENDER, Camera => CAMERA, Sky => SKY, Node => NODE, WideNode => WIDENODE,
     Triangle => TRIANGLE,
-    TriShade => TRISHADE, Sphere => SPHERE, Material => MATERIAL, Object => OBJECT,
+    TriShade => TRISHADE, VertexColors => VERTEXCOLOR, Sphere => SPHERE, Material => MATERIAL, Object => OBJECT,
     Instance => INSTANCE,
     Medium => MEDIUM, Light => LIGHT, LightNode => LIGHTNODE, Texture => TEXTURE,
     LightLink => LIGHTLINK, MotionPiece => MOTION, CameraKey => CAMERAKEY,

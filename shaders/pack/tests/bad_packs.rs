@@ -2,7 +2,7 @@
 //!
 //! Every case starts from the same valid pack and breaks one thing; hashes, lengths and ids are
 //! put right again, so that only the rule in question can fire. Cases of a single wrong word are
-//! data: `bad_packs.txt`; those of WIDENODE, MOTION and CAMKEY start from the same pack with these sections. A last test reads the error enums and fails when a rule has no case here.
+//! data: `bad_packs.txt`; those of WIDENODE, MOTION, CAMKEY, LIGHTLNK and VTXCOLOR start from the same pack with these sections. A last test reads the error enums and fails when a rule has no case here.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
@@ -34,13 +34,11 @@ enum Mutation {
 use Mutation::{Parts, Raw, Table, Word};
 
 fn error(mutation: &Mutation) -> PackError {
-    let wide = matches!(mutation, Word(Kind::WIDENODE, ..));
-    let keyed = matches!(mutation, Word(Kind::MOTION | Kind::CAMERAKEY, ..));
-    let linked = matches!(mutation, Word(Kind::LIGHTLINK, ..));
-    let scene = match (wide, keyed, linked) {
-        (true, ..) => Scene::wide(),
-        (_, true, _) => Scene::with_keys(),
-        (.., true) => Scene::full().and_links(),
+    let scene = match mutation {
+        Word(Kind::WIDENODE, ..) => Scene::wide(),
+        Word(Kind::MOTION | Kind::CAMERAKEY, ..) => Scene::with_keys(),
+        Word(Kind::LIGHTLINK, ..) => Scene::full().and_links(),
+        Word(Kind::VERTEXCOLOR, ..) => Scene::full().and_vertex_colors(),
         _ => Scene::full(),
     };
     let mut bytes = scene.bytes();
@@ -360,6 +358,17 @@ fn relation_cases() -> Vec<Case> {
         (
             Parts(|d| d.section(Kind::TRISHADE).truncate(144)),
             "the number of TRISHADE elements is 3, but the number of TRIANGLE elements is 4",
+        ),
+        (
+            Word(Kind::TEXEL, 0x60, 14),
+            "the number of VTXCOLOR elements is 0, but the number of TRIANGLE elements is 4",
+        ),
+        (
+            Parts(|d| {
+                d.add(6, Kind::VERTEXCOLOR, 1, &[0; 64]);
+                put32(d.entry(Kind::VERTEXCOLOR), 32, 16);
+            }),
+            "section VTXCOLOR must be absent, no texture reads it",
         ),
         (
             Parts(|d| {

@@ -6,7 +6,7 @@ use std::fs;
 
 use common::{Draft, Scene, WAYS, manifest, map};
 use pack::abi::{CameraKind, FilterKind, Light, LightKind, Material, Node, SkyKind};
-use pack::abi::{Sphere, Texture, TriShade, Triangle};
+use pack::abi::{Sphere, Texture, TriShade, Triangle, VertexColors};
 use pack::{Kind, Manifest, Pack, PackWriter, describe, features};
 
 fn assert_same(pack: &Pack, scene: &Scene) {
@@ -16,6 +16,7 @@ fn assert_same(pack: &Pack, scene: &Scene) {
     assert_eq!(pack.records::<Node>(), scene.nodes);
     assert_eq!(pack.records::<Triangle>(), scene.triangles);
     assert_eq!(pack.records::<TriShade>(), scene.shades);
+    assert_eq!(pack.records::<VertexColors>(), scene.vertex_colors);
     assert_eq!(pack.records::<Sphere>(), scene.spheres);
     assert_eq!(pack.records::<Material>(), scene.materials);
     assert_eq!(pack.records::<Light>(), scene.lights);
@@ -30,7 +31,13 @@ fn assert_same(pack: &Pack, scene: &Scene) {
 
 #[test]
 fn everything_comes_back() {
-    for scene in [Scene::full(), Scene::with_keys(), Scene::full().and_links(), Scene::empty()] {
+    for scene in [
+        Scene::full(),
+        Scene::with_keys(),
+        Scene::full().and_links(),
+        Scene::full().and_vertex_colors(),
+        Scene::empty(),
+    ] {
         let pack = Pack::from_bytes(scene.bytes()).unwrap();
         assert_same(&pack, &scene);
         assert_eq!(pack.recipe_id(), [7; 32]);
@@ -201,7 +208,7 @@ fn absent_kinds_bring_no_section() {
     };
     let keyed = |scene: Scene| {
         let Scene { objects, motion, camera_keys, .. } = Scene::with_keys();
-        Scene { objects, motion, camera_keys, ..scene }.and_links()
+        Scene { objects, motion, camera_keys, ..scene }.and_links().and_vertex_colors()
     };
     let all = keyed(Scene::with_light_tree().and_instances().and_albedo());
     assert_eq!(kinds(&all), but(Kind::WIDENODE));

@@ -19,6 +19,7 @@ pub(crate) fn dispatch(features: &FeatureSet) -> String {
         "scene/records.wgsl",
         "shape/sphere.wgsl",
         "shape/triangle.wgsl",
+        "texture/texture_point.wgsl",
         "trace/alpha.wgsl",
     ]);
     text += &imports(files.iter().map(String::as_str));
@@ -80,26 +81,26 @@ fn shift(features: &FeatureSet) -> String {
 
 /// Texture coordinates and cut-outs of a light.
 fn surface(features: &FeatureSet) -> String {
-    let sphere = "sphere_uv(vector_unit_or(x - light.origin, vec3f(0.0, 1.0, 0.0)))";
-    let flat = "triangle_uv(light.primitive, triangle_weights(light.primitive, x))";
+    let sphere = "texture_point(sphere_uv(vector_unit_or(x - light.origin, vec3f(0.0, 1.0, 0.0))))";
+    let flat = "triangle_texture_point(light.primitive, triangle_weights(light.primitive, x))";
     let cases = cases(features, |kind, _| match kind.surface()? {
         LightSurface::Sphere => Some(sphere.to_owned()),
         LightSurface::Triangles => features.triangles.then(|| flat.to_owned()),
     });
-    let uv = if features.textures.is_empty() {
-        "    return vec2f(0.0);\n".to_owned()
+    let point = if features.textures.is_empty() {
+        "    return texture_point(vec2f(0.0));\n".to_owned()
     } else {
         "    let i = light.material;\n    \
          if (load_material_emission_texture(i) == NONE && load_material_alpha_texture(i) == NONE) {\n        \
-         return vec2f(0.0);\n    }\n"
+         return texture_point(vec2f(0.0));\n    }\n"
             .to_owned()
-            + &switch("light.kind", &cases, "vec2f(0.0)")
+            + &switch("light.kind", &cases, "texture_point(vec2f(0.0))")
     };
-    let exists = if features.alpha_clip { "alpha_exists(material, uv)" } else { "true" };
+    let exists = if features.alpha_clip { "alpha_exists(material, at)" } else { "true" };
     format!(
-        "\n// Texture coordinates of the light's point `x`; 0 where its material has no texture for them.\n\
-         fn dispatch_light_uv(light: Light, x: vec3f) -> vec2f {{\n{uv}}}\n\
-         \n// Whether a light of material `material` exists at `uv`.\n\
-         fn dispatch_light_exists(material: u32, uv: vec2f) -> bool {{\n    return {exists};\n}}\n"
+        "\n// The light's point `x` for textures; any where its material has none.\n\
+         fn dispatch_light_texture_point(light: Light, x: vec3f) -> TexturePoint {{\n{point}}}\n\
+         \n// Whether a light of material `material` exists at a point.\n\
+         fn dispatch_light_exists(material: u32, at: TexturePoint) -> bool {{\n    return {exists};\n}}\n"
     )
 }

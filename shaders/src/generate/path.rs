@@ -154,7 +154,7 @@ fn surface(features: &FeatureSet) -> String {
         if !features.textures.is_empty() || features.tangents {
             // On a CPU the full kernel is told whether anything asks for them.
             sphere += "    if (load_frame_texture_at() != NONE) {\n        \
-                       s.uv = sphere_uv(select(-s.ng, s.ng, s.front));\n    }\n";
+                       s.at.uv = sphere_uv(select(-s.ng, s.ng, s.front));\n    }\n";
         }
         sphere += "    dispatch_thing_carry(&s, sphere.object, time);\n    return s;\n";
         if features.triangles {
@@ -175,6 +175,8 @@ fn surface(features: &FeatureSet) -> String {
              let thing = triangle_thing(tri, shade);\n    \
              let back = dispatch_thing_dir(thing, dir, time);\n    \
              var s = {function}(tri, shade, hit.b, back);\n    \
+             s.at.prim = hit.prim;\n    \
+             s.at.b = hit.b;\n    \
              dispatch_thing_carry(&s, thing, time);\n    return s;\n"
         );
     }
@@ -244,22 +246,28 @@ pub(crate) fn place(features: &FeatureSet) -> String {
 /// Whether textures of any material are projected.
 pub(crate) fn projection(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: whether this scene projects textures.\n\n");
-    text += &imports(["sampler/key.wgsl", "scene/constants.wgsl", "surface/surface.wgsl"]);
+    text += &imports([
+        "sampler/key.wgsl",
+        "scene/constants.wgsl",
+        "surface/surface.wgsl",
+        "texture/texture_point.wgsl",
+    ]);
     let (mut body, mut at) = ("", "");
     if features.projection {
         text += &imports(["surface/projection.wgsl"]);
         body = "    if ((flags & FLAG_PROJECT) != 0u) {\n        \
                 projection_apply(s, flags, key, time);\n    }\n";
         at = "    if ((flags & FLAG_PROJECT) != 0u) {\n        \
-              return projection_at(s, flags, key, time);\n    }\n";
+              let at = projection_at(s, flags, key, time);\n        \
+              return TexturePoint(at.xy, at.z, s.at.prim, s.at.b);\n    }\n";
     }
     let _ = write!(
         text,
         "\n// Gives `s`, on a material with these flags, other texture coordinates, if the material says so.\n\
          fn dispatch_projection(s: ptr<function, Surface>, flags: u32, key: SampleKey, time: f32) {{\n{body}}}\n\
-         \n// The texture coordinates u, v and w of `s` on a material with these flags.\n\
-         fn dispatch_projected(s: Surface, flags: u32, key: SampleKey, time: f32) -> vec3f {{\n{at}    \
-         return vec3f(s.uv, s.w);\n}}\n"
+         \n// Where `s`, on a material with these flags, is for textures.\n\
+         fn dispatch_projected(s: Surface, flags: u32, key: SampleKey, time: f32) -> TexturePoint {{\n{at}    \
+         return s.at;\n}}\n"
     );
     text
 }

@@ -43,6 +43,7 @@ const TABLES: &[Table] = &[
     section("WideNode", "wide_node", "node_word", "abi/wide_node.wgsl"),
     section("Triangle", "triangle", "tri_word", "abi/triangle.wgsl"),
     section("TriShade", "tri_shade", "shade_word", "abi/tri_shade.wgsl"),
+    heap("VertexColors", "vertex_colors", "abi/vertex_colors.wgsl", "vertex_color_at"),
     section("Sphere", "sphere", "sphere_word", "abi/sphere.wgsl"),
     heap("Object", "object", "abi/object.wgsl", "object_at"),
     heap("LightLink", "light_link", "abi/light_link.wgsl", "link_at"),

@@ -8,6 +8,7 @@ use std::fmt::Write as _;
 /// A texture, or white where there is none.
 pub(crate) fn texture(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: whether this scene has textures.\n\n");
+    text += &imports(["texture/texture_point.wgsl"]);
     let (body, alpha, at) = if features.textures.is_empty() {
         ("    return vec4f(1.0);\n", "    return 1.0;\n", "    return vec4f(1.0);\n")
     } else {
@@ -18,17 +19,17 @@ pub(crate) fn texture(features: &FeatureSet) -> String {
             "texture/bilinear.wgsl",
         ]);
         (
-            "    if (i == NONE) {\n        return vec4f(1.0);\n    }\n    return texture_lookup(i, uv, w);\n",
-            "    if (i == NONE) {\n        return 1.0;\n    }\n    return texture_lookup_alpha(i, uv);\n",
+            "    if (i == NONE) {\n        return vec4f(1.0);\n    }\n    return texture_lookup(i, at);\n",
+            "    if (i == NONE) {\n        return 1.0;\n    }\n    return texture_lookup_alpha(i, at);\n",
             "    return bilinear_at(load_texture(i), place);\n",
         )
     };
     let _ = write!(
         text,
-        "\n// Texture `i` at `uv`, linear; 1 in every channel where `i` is `NONE`. `w`: as in `Surface`.\n\
-         fn texture_fetch(i: u32, uv: vec2f, w: f32) -> vec4f {{\n{body}}}\n\
-         \n// The alpha of texture `i` at `uv`, and at 0 in what fills an object.\n\
-         fn texture_alpha(i: u32, uv: vec2f) -> f32 {{\n{alpha}}}\n\
+        "\n// Texture `i` at a point, linear; 1 in every channel where `i` is `NONE`.\n\
+         fn texture_fetch(i: u32, at: TexturePoint) -> vec4f {{\n{body}}}\n\
+         \n// The alpha of texture `i` at a point.\n\
+         fn texture_alpha(i: u32, at: TexturePoint) -> f32 {{\n{alpha}}}\n\
          \n// Texture `i`, an image, at `place`, 0 ..= 1 from its top left corner, linear.\n\
          fn texture_fetch_at(i: u32, place: vec2f) -> vec4f {{\n{at}}}\n"
     );
@@ -39,21 +40,21 @@ pub(crate) fn texture(features: &FeatureSet) -> String {
 pub(crate) fn lookup(features: &FeatureSet) -> String {
     let mut text = String::from("// Generated: whether textures of this scene are computed.\n\n");
     let computed = features.textures.contains(&TextureFormat::Expression);
-    let (module, at) = if computed { ("expression", "uv, w") } else { ("bilinear", "uv") };
-    text += &imports([format!("texture/{module}.wgsl").as_str()]);
+    let (module, at) = if computed { ("expression", "at") } else { ("bilinear", "at.uv") };
+    text += &imports([format!("texture/{module}.wgsl").as_str(), "texture/texture_point.wgsl"]);
     let alpha = if computed {
         text += &imports(["scene/constants.wgsl", "scene/records.wgsl", "texture/bilinear.wgsl"]);
         "    if (load_texture_format(i) == TEXTURE_EXPRESSION) {\n        \
-         return expression_fetch(i, uv, 0.0).w;\n    }\n"
+         return expression_fetch(i, at).w;\n    }\n"
     } else {
         ""
     };
     let _ = write!(
         text,
-        "\n// Texture `i` at `uv`, linear; patterns with a third coordinate also at `w`.\n\
-         fn texture_lookup(i: u32, uv: vec2f, w: f32) -> vec4f {{\n    return {module}_fetch(i, {at});\n}}\n\
-         \n// The alpha of texture `i` at `uv`.\n\
-         fn texture_lookup_alpha(i: u32, uv: vec2f) -> f32 {{\n{alpha}    return bilinear_fetch_alpha(i, uv);\n}}\n"
+        "\n// Texture `i` at a point, linear.\n\
+         fn texture_lookup(i: u32, at: TexturePoint) -> vec4f {{\n    return {module}_fetch(i, {at});\n}}\n\
+         \n// The alpha of texture `i` at a point.\n\
+         fn texture_lookup_alpha(i: u32, at: TexturePoint) -> f32 {{\n{alpha}    return bilinear_fetch_alpha(i, at.uv);\n}}\n"
     );
     text
 }

@@ -16,6 +16,7 @@ pub(crate) fn candidate(features: &FeatureSet) -> String {
         "scene/records.wgsl",
         "shape/sphere.wgsl",
         "shape/triangle.wgsl",
+        "texture/texture_point.wgsl",
         "trace/alpha.wgsl",
         "trace/ray.wgsl",
     ]);
@@ -32,11 +33,11 @@ pub(crate) fn candidate(features: &FeatureSet) -> String {
     }
     if features.alpha_blend {
         text += "    if (coverage_is_partial(material)) {\n        \
-                 let coverage = coverage_at(material, triangle_uv(i, b));\n        \
+                 let coverage = coverage_at(material, triangle_texture_point(i, b));\n        \
                  return coverage_meets(ray, coverage, coverage_triangle_id(i, ray.instance));\n    }\n";
     }
     text += if features.alpha_clip {
-        "    return alpha_is_plain(material) || alpha_exists(material, triangle_uv(i, b));\n}\n"
+        "    return alpha_is_plain(material) || alpha_exists(material, triangle_texture_point(i, b));\n}\n"
     } else {
         "    return true;\n}\n"
     };
@@ -48,13 +49,13 @@ pub(crate) fn candidate(features: &FeatureSet) -> String {
     if features.alpha_blend {
         text += "    if (coverage_is_partial(sphere.material)) {\n        \
                  let n = sphere_normal(sphere, origin, dir, t);\n        \
-                 let coverage = coverage_at(sphere.material, sphere_uv(n));\n        \
+                 let coverage = coverage_at(sphere.material, texture_point(sphere_uv(n)));\n        \
                  return coverage_meets(ray, coverage, coverage_sphere_id(sphere, dot(n, dir) < 0.0));\n    }\n";
     }
     if features.alpha_clip {
         text += "    if (alpha_is_plain(sphere.material)) {\n        return true;\n    }\n    \
                  let uv = sphere_uv(sphere_normal(sphere, origin, dir, t));\n    \
-                 return alpha_exists(sphere.material, uv);\n}\n";
+                 return alpha_exists(sphere.material, texture_point(uv));\n}\n";
     } else {
         text += "    return true;\n}\n";
     }

@@ -8,7 +8,7 @@
 
 // Colour and factor of the reflectance of the dielectric part.
 fn layers_specular(s: Scatter) -> vec4f {
-    let texel = texture_fetch(load_material_specular_texture(s.material), s.uv, s.w);
+    let texel = texture_fetch(load_material_specular_texture(s.material), s.at);
     return vec4f(load_material_tint(s.material), load_material_specular(s.material)) * texel;
 }
 
@@ -18,7 +18,7 @@ fn layers_transmission(s: Scatter) -> f32 {
     if (share <= 0.0) {
         return 0.0;
     }
-    return share * texture_fetch(load_material_transmission_texture(s.material), s.uv, s.w).x;
+    return share * texture_fetch(load_material_transmission_texture(s.material), s.at).x;
 }
 
 // Colour of the sheen, and the perceptual roughness of its fibres.
@@ -27,7 +27,7 @@ fn layers_sheen(s: Scatter) -> vec4f {
     if (vector_max(color) <= 0.0) {
         return vec4f(0.0);
     }
-    let texel = texture_fetch(load_material_sheen_texture(s.material), s.uv, s.w);
+    let texel = texture_fetch(load_material_sheen_texture(s.material), s.at);
     return vec4f(color, load_material_sheen_roughness(s.material)) * texel;
 }
 
@@ -37,6 +37,6 @@ fn layers_coat(s: Scatter) -> vec2f {
     if (share <= 0.0) {
         return vec2f(0.0, 1.0);
     }
-    let texel = texture_fetch(load_material_coat_texture(s.material), s.uv, s.w);
+    let texel = texture_fetch(load_material_coat_texture(s.material), s.at);
     return vec2f(share * texel.x, load_material_coat_roughness(s.material) * texel.y);
 }

@@ -17,7 +17,7 @@ fn mix_choose(s: ptr<function, Surface>, m: ptr<function, MaterialHead>, key: Sa
     loop {
         if ((*m).kind != MATERIAL_MIX) { break; }
         let at = dispatch_projected(*s, (*m).flags, key, time);
-        let amount = texture_fetch((*m).color_texture, at.xy, at.z).x;
+        let amount = texture_fetch((*m).color_texture, at).x;
         let share = min(load_material_weight((*s).material) * amount, 1.0);
         // The same number again, stretched over the part that it fell into.
         if (u < share) {

@@ -37,7 +37,7 @@ struct PetalShares {
 // The slab under the point: thin at the rim of the texture's square, thicker in its middle.
 fn petal_slab(s: Scatter) -> Slab {
     // -1 ..= 1 in the square; the rim begins at 0.9.
-    let d = s.uv * 2.0 - vec2f(1.0);
+    let d = s.at.uv * 2.0 - vec2f(1.0);
     let r = clamp(sqrt(dot(d, d)) / 0.9, 0.0, 1.0);
     let rim = r * r * (3.0 - 2.0 * r);
     let edge = load_material_thickness_edge(s.material);

@@ -6,6 +6,7 @@
 #import "sampler/key.wgsl"
 #import "scene/records.wgsl"
 #import "surface/place.wgsl"
+#import "texture/texture_point.wgsl"
 
 // `Scatter::kind` of a point in a medium.
 const PHASE_KIND: u32 = 0xffffffffu;
@@ -18,7 +19,7 @@ fn phase_scatter(i: u32, key: SampleKey) -> Scatter {
     let none = vec3f(0.0);
     return Scatter(
         none, none, none, PHASE_KIND, i,
-        none, 0.0, vec2f(0.0), 0.0, Place(none, 0u), 0.0,
+        none, 0.0, texture_point(vec2f(0.0)), Place(none, 0u), 0.0,
         0.0, 0.0,
         1.0, 0.0, true, key,
     );

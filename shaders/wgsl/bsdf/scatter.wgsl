@@ -8,6 +8,7 @@
 #import "scene/texture.wgsl"
 #import "surface/place.wgsl"
 #import "surface/surface.wgsl"
+#import "texture/texture_point.wgsl"
 
 // World frame; colours linear Rec. 709.
 struct Scatter {
@@ -25,9 +26,8 @@ struct Scatter {
     tangent: vec3f,
     // How far a principled surface is brushed, texture applied.
     anisotropy: f32,
-    uv: vec2f,
     // As in `Surface`.
-    w: f32,
+    at: TexturePoint,
     // The point in its object, and the object's key; only for materials that ask.
     place: Place,
     fuzz: f32,
@@ -64,12 +64,12 @@ struct Evaluated {
 
 // The parameters of material `m` at `s`; `key`: the vertex.
 fn scatter_at(m: MaterialHead, s: Surface, key: SampleKey) -> Scatter {
-    let color = m.color * texture_fetch(m.color_texture, s.uv, s.w).xyz;
-    let mr = texture_fetch(m.metallic_roughness_texture, s.uv, s.w);
+    let color = m.color * texture_fetch(m.color_texture, s.at).xyz;
+    let mr = texture_fetch(m.metallic_roughness_texture, s.at);
     let brushing = dispatch_brushing(s, m.kind);
     return Scatter(
         s.horizon, s.ns, color, m.kind, s.material,
-        brushing.xyz, brushing.w, s.uv, s.w, dispatch_place(s.object, m.flags, s.rest), m.fuzz,
+        brushing.xyz, brushing.w, s.at, dispatch_place(s.object, m.flags, s.rest), m.fuzz,
         m.roughness * mr.y, m.metallic * mr.z,
         m.ior, m.ior_minus_1, s.front, key,
     );

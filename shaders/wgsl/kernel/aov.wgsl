@@ -95,7 +95,7 @@ fn aov_surface(path: ptr<function, Path>, found: ptr<function, AovSample>, hit: 
         return;
     }
     dispatch_tangent(&s, hit, m.flags, (*path).time);
-    let uv = s.uv;
+    let uv = s.at.uv;
     dispatch_projection(&s, m.flags, (*path).key, (*path).time);
     dispatch_horizon(&s, m.kind, m.flags);
     dispatch_shading_normal(&s, m, (*path).dir);
@@ -112,7 +112,7 @@ fn aov_surface(path: ptr<function, Path>, found: ptr<function, AovSample>, hit: 
     let next = dispatch_sample(scatter, wo, (*path).key);
     let mirrors = next.pdf == 0.0 && vector_max(next.weight) > 0.0;
     if (!mirrors || vertex_is_last(path)) {
-        let emission = emission_radiance(m.emission, m.flags, m.emission_texture, s.uv, s.front);
+        let emission = emission_radiance(m.emission, m.flags, m.emission_texture, s.at, s.front);
         (*found).albedo = aov_albedo(path, scatter.color + emission);
         (*found).normal = scatter.ns;
         (*path).open = false;

@@ -122,7 +122,7 @@ fn vertex_leave(path: ptr<function, Path>, next: Scattered, pdf: f32) {
 // Adds what the surface emits towards the path, weighted against the chance that the previous vertex had
 // to sample it as a light.
 fn vertex_emit(path: ptr<function, Path>, s: Surface, m: MaterialHead) {
-    let radiance = emission_radiance(m.emission, m.flags, m.emission_texture, s.uv, s.front);
+    let radiance = emission_radiance(m.emission, m.flags, m.emission_texture, s.at, s.front);
     if (vector_max(radiance) > 0.0 && links_glow(s.object, receiver_links((*path).receiver))) {
         let seen = dispatch_tint(radiance, s.material, m.flags, s.light, (*path).dir);
         let from_point = dispatch_vertex(path);

@@ -2,12 +2,13 @@
 
 #import "scene/constants.wgsl"
 #import "scene/texture.wgsl"
+#import "texture/texture_point.wgsl"
 
 // Radiance of a surface with emission `emission`, material flags `flags` and emission texture `image` at
-// `uv`, on its front or back side. W/(m2 sr) up to the scene's scale.
-fn emission_radiance(emission: vec3f, flags: u32, image: u32, uv: vec2f, front: bool) -> vec3f {
+// a point, on its front or back side. W/(m2 sr) up to the scene's scale.
+fn emission_radiance(emission: vec3f, flags: u32, image: u32, at: TexturePoint, front: bool) -> vec3f {
     if (!front && (flags & FLAG_EMIT_BOTH_SIDES) == 0u) {
         return vec3f(0.0);
     }
-    return emission * texture_fetch(image, uv, 0.0).xyz;
+    return emission * texture_fetch(image, at).xyz;
 }

@@ -11,5 +11,5 @@ fn light_coverage(light: Light, p: vec3f, to: LightSample) -> f32 {
     if (!coverage_is_partial(light.material)) {
         return 1.0;
     }
-    return coverage_at(light.material, dispatch_light_uv(light, p + to.wi * to.t));
+    return coverage_at(light.material, dispatch_light_texture_point(light, p + to.wi * to.t));
 }

@@ -9,6 +9,7 @@
 #import "scene/records.wgsl"
 #import "shape/triangle.wgsl"
 #import "surface/surface.wgsl"
+#import "texture/texture_point.wgsl"
 #import "trace/ray.wgsl"
 
 // The material that instance `i` has where its triangle has `own`.
@@ -38,7 +39,7 @@ fn instance_surface(hit: Hit, dir: vec3f, time: f32) -> Surface {
     let p = instance_vector(o, q) + o.center;
     let back = dispatch_thing_dir(o.object, dir, time);
     var s = surface_new(p, instance_normal(o, triangle_normal(tri)), back, o.reach);
-    s.uv = triangle_mix_uv(shade, b);
+    s.at = TexturePoint(triangle_mix_uv(shade, b), 0.0, hit.prim, b);
     s.material = select(o.material, shade.material, o.material == NONE);
     s.object = o.object & ~MOVES;
     if ((shade.object & TRI_SMOOTH) != 0u) {

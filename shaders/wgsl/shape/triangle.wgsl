@@ -11,6 +11,7 @@
 #import "scene/constants.wgsl"
 #import "scene/records.wgsl"
 #import "surface/surface.wgsl"
+#import "texture/texture_point.wgsl"
 
 // The shear that turns a ray into the z axis.
 struct TriangleShear {
@@ -117,7 +118,7 @@ fn triangle_flat_surface(tri: Triangle, shade: TriShade, b: vec2f, dir: vec3f) -
         // right side of it, however thin that side is.
         s.ray_offset = 1.1920929e-7 * vector_max(select(vec3f(0.0), abs(p), flat)); // 2^-23
     }
-    s.uv = triangle_mix_uv(shade, b);
+    s.at.uv = triangle_mix_uv(shade, b);
     s.material = shade.material;
     s.light = shade.light;
     s.object = shade.object & ~TRI_SMOOTH;
@@ -186,9 +187,9 @@ fn triangle_mix_uv(shade: TriShade, b: vec2f) -> vec2f {
     return shade.uv0 * (1.0 - b.x - b.y) + shade.uv1 * b.x + shade.uv2 * b.y;
 }
 
-// As `triangle_mix_uv`, of triangle `i`.
-fn triangle_uv(i: u32, b: vec2f) -> vec2f {
-    return triangle_mix_uv(load_tri_shade(i), b);
+// The point at weights `b` of triangle `i`, for textures.
+fn triangle_texture_point(i: u32, b: vec2f) -> TexturePoint {
+    return TexturePoint(triangle_mix_uv(load_tri_shade(i), b), 0.0, i, b);
 }
 
 // Barycentric weights (b1, b2) of point `p` in the plane of triangle `i`, also outside of it.

@@ -18,7 +18,7 @@ fn brushing_at(s: Surface) -> vec4f {
     var along = vec2f(turn.y, turn.x);
     let texture = load_material_anisotropy_texture(s.material);
     if (texture != NONE) {
-        let texel = texture_fetch(texture, s.uv, s.w);
+        let texel = texture_fetch(texture, s.at);
         let d = texel.xy * 2.0 - vec2f(1.0);
         along = vec2f(d.x * turn.y - d.y * turn.x, d.x * turn.x + d.y * turn.y);
         anisotropy *= clamp(texel.z, 0.0, 1.0);

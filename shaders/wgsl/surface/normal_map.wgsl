@@ -12,7 +12,7 @@ const NORMAL_MAP_SIDE: f32 = 1e-3;
 // `strength`. The map belongs to the front side: what is a bump there is a dent from behind.
 fn normal_map_tilt(s: ptr<function, Surface>, image: u32, strength: f32, dir: vec3f) {
     let n = (*s).ns;
-    let texel = texture_fetch(image, (*s).uv, (*s).w).xyz * 2.0 - vec3f(1.0);
+    let texel = texture_fetch(image, (*s).at).xyz * 2.0 - vec3f(1.0);
     // At a right angle to the shading normal; where there is no such direction nothing is tilted.
     let along = (*s).tangent - n * dot(n, (*s).tangent);
     let t = vector_unit_or(along, vec3f(0.0));

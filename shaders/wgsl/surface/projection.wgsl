@@ -22,8 +22,8 @@ fn projection_apply(s: ptr<function, Surface>, flags: u32, key: SampleKey, time:
     let o = load_object((*s).object);
     let plane = projection_plane(*s, flags, key, time);
     let at = projection_on(plane, *s, flags);
-    (*s).uv = at.xy;
-    (*s).w = at.z;
+    (*s).at.uv = at.xy;
+    (*s).at.w = at.z;
     // Up is +y, and on what faces up or down -z or +z.
     var u = o.row_x;
     var v = o.row_y;

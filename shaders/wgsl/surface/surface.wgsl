@@ -2,6 +2,7 @@
 
 #import "math/vector.wgsl"
 #import "scene/constants.wgsl"
+#import "texture/texture_point.wgsl"
 
 struct Surface {
     // On the surface, from its own parametrisation and not from `origin + t dir`.
@@ -17,9 +18,8 @@ struct Surface {
     bulge: vec3f,
     // Shading normal, unit; dot(ns, ng) > 0 and dot(ns, wo) >= 0.
     ns: vec3f,
-    uv: vec2f,
-    // Third coordinate of textures that fill their object; 0 on all others.
-    w: f32,
+    // For textures.
+    at: TexturePoint,
     // How far a ray that leaves must start from `p`, along `ng` or against it.
     ray_offset: f32,
     // Index of the `Material`.
@@ -46,7 +46,8 @@ fn surface_new(p: vec3f, out: vec3f, dir: vec3f, reach: f32) -> Surface {
     // 16 ulp of the largest coordinate: measured to lose no neighbour and to hit no own primitive for
     // triangles of any size and distance, down to grazing cosines of 1e-4, where the source is skipped.
     let ray_offset = 9.5367432e-7 * reach; // 16 * 2^-24
-    return Surface(p, p, ng, ng, vec3f(0.0), ng, vec2f(0.0), 0.0, ray_offset, 0u, NONE, 0u, vec3f(0.0), 1.0, front);
+    let at = texture_point(vec2f(0.0));
+    return Surface(p, p, ng, ng, vec3f(0.0), ng, at, ray_offset, 0u, NONE, 0u, vec3f(0.0), 1.0, front);
 }
 
 // How far along a ray that hits a surface at `t` a point can be and still be on this side of it, at least, whatever

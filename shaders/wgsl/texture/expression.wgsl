@@ -7,9 +7,11 @@
 #import "scene/constants.wgsl"
 #import "scene/records.wgsl"
 #import "texture/bilinear.wgsl"
+#import "texture/texture_point.wgsl"
+#import "texture/vertex_color.wgsl"
 
-// The value of texture `i`, an expression or an image, at `uv`, and `w` in what fills an object.
-fn expression_fetch(i: u32, uv: vec2f, w: f32) -> vec4f {
+// The value of texture `i`, an expression or an image, at a point.
+fn expression_fetch(i: u32, at: TexturePoint) -> vec4f {
     let expression = load_texture(i);
     let is_image = expression.format != TEXTURE_EXPRESSION;
     let count = select(expression.width, 1u, is_image);
@@ -51,7 +53,7 @@ fn expression_fetch(i: u32, uv: vec2f, w: f32) -> vec4f {
             }
             default: {
                 f = e; e = d; d = c; c = b; b = a;
-                a = expression_leaf(op, uv, w);
+                a = expression_leaf(op, at);
             }
         }
     }
@@ -64,15 +66,18 @@ fn expression_image(i: u32) -> TextureOp {
 }
 
 // An operation without operands.
-fn expression_leaf(op: TextureOp, uv: vec2f, w: f32) -> vec4f {
-    let place = (op.q.xy + op.p.xz * uv.x) + op.p.yw * uv.y;
+fn expression_leaf(op: TextureOp, at: TexturePoint) -> vec4f {
+    let place = (op.q.xy + op.p.xz * at.uv.x) + op.p.yw * at.uv.y;
     switch (op.kind) {
         case TEXTURE_OP_IMAGE: { return bilinear_fetch(op.arg, place); }
-        case TEXTURE_OP_CHECKER: { return vec4f(expression_odd(floor(place.x) + floor(place.y) + floor(op.q.z * w))); }
+        case TEXTURE_OP_CHECKER: {
+            return vec4f(expression_odd(floor(place.x) + floor(place.y) + floor(op.q.z * at.w)));
+        }
         case TEXTURE_OP_BRICKS: { return vec4f(expression_bricks(place, op.q.zw)); }
         case TEXTURE_OP_GRADIENT: { return vec4f(clamp(place.x, 0.0, 1.0)); }
         case TEXTURE_OP_WAVE: { return vec4f(0.5 - 0.5 * sincos_2pi(place.x - floor(place.x)).y); }
-        case TEXTURE_OP_NOISE: { return vec4f(fbm_value(vec3f(place, op.q.z * w), op.arg, 0x7e07u)); }
+        case TEXTURE_OP_NOISE: { return vec4f(fbm_value(vec3f(place, op.q.z * at.w), op.arg, 0x7e07u)); }
+        case TEXTURE_OP_VERTEX_COLOR: { return vertex_color(at); }
         default: { return op.p; }
     }
 }

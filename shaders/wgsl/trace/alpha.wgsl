@@ -3,13 +3,14 @@
 #import "scene/constants.wgsl"
 #import "scene/records.wgsl"
 #import "scene/texture.wgsl"
+#import "texture/texture_point.wgsl"
 
-// Whether a surface of material `i` exists at `uv`.
-fn alpha_exists(i: u32, uv: vec2f) -> bool {
+// Whether a surface of material `i` exists at a point.
+fn alpha_exists(i: u32, at: TexturePoint) -> bool {
     if ((load_material_flags(i) & FLAG_ALPHA_CLIP) == 0u) {
         return true;
     }
-    let alpha = load_material_alpha(i) * texture_alpha(load_material_alpha_texture(i), uv);
+    let alpha = load_material_alpha(i) * texture_alpha(load_material_alpha_texture(i), at);
     return alpha >= load_material_alpha_cutoff(i);
 }
 

@@ -10,6 +10,7 @@
 #import "scene/records.wgsl"
 #import "scene/sampler.wgsl"
 #import "scene/texture.wgsl"
+#import "texture/texture_point.wgsl"
 #import "trace/ray.wgsl"
 
 // Whether a surface of material `i` is there in part.
@@ -17,9 +18,9 @@ fn coverage_is_partial(i: u32) -> bool {
     return (load_material_flags(i) & FLAG_ALPHA_BLEND) != 0u;
 }
 
-// Coverage of a surface of material `i` at `uv`, 0 ..= 1; what is no number is 0.
-fn coverage_at(i: u32, uv: vec2f) -> f32 {
-    let alpha = load_material_alpha(i) * texture_alpha(load_material_alpha_texture(i), uv);
+// Coverage of a surface of material `i` at a point, 0 ..= 1; what is no number is 0.
+fn coverage_at(i: u32, at: TexturePoint) -> f32 {
+    let alpha = load_material_alpha(i) * texture_alpha(load_material_alpha_texture(i), at);
     return select(0.0, min(alpha, 1.0), alpha > 0.0);
 }
 

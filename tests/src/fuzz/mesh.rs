@@ -217,6 +217,7 @@ fn judge(result: Result<MeshFile, ImportError>) -> Result<(), String> {
 /// Everything that came out must be usable without a check.
 fn assert_usable(mesh: &MeshFile) {
     for part in &mesh.parts {
+        assert!(part.colors.is_empty() || part.colors.len() == part.positions.len());
         assert!(part.material.is_none_or(|m| (m as usize) < mesh.materials.len()));
         for tri in 0..part.triangles.len() {
             assert!(part.corners(tri).iter().flatten().all(|x| x.is_finite()));
@@ -227,8 +228,8 @@ fn assert_usable(mesh: &MeshFile) {
             }
             let uvs = part.corner_uvs(tri).unwrap_or_default();
             assert!(uvs.iter().flatten().all(|x| x.is_finite()));
-            let painted = part.paint.map(|paint| paint.uvs(tri)).unwrap_or_default();
-            assert!(painted.iter().flatten().all(|x| (0.0..=1.0).contains(x)));
+            let colors = part.corner_colors(tri);
+            assert!(colors.iter().flatten().all(|x| (0.0..=1.0).contains(x)));
         }
     }
     for material in &mesh.materials {

@@ -1,7 +1,7 @@
 //! One scattering model at a surface, for both precisions of the generated kernel.
 
-use glam::{DVec2, DVec3, Vec3};
-use pack::abi::{Material, MaterialKind};
+use glam::{DVec2, DVec3, Vec2, Vec3};
+use pack::abi::{Material, MaterialKind, NONE};
 use runtime::kernel::{f32 as single, f64 as double};
 
 use super::Bench;
@@ -182,8 +182,7 @@ impl Lobe {
             material: 0,
             tangent: self.tangent().as_vec3(),
             anisotropy: self.anisotropy,
-            uv: self.uv.as_vec2(),
-            w: 0.0,
+            at: single::TexturePoint { uv: self.uv.as_vec2(), w: 0.0, prim: NONE, b: Vec2::ZERO },
             place: single::Place { q: self.place.as_vec3(), key: self.key },
             fuzz: self.fuzz,
             roughness: self.roughness,
@@ -206,8 +205,7 @@ impl Lobe {
             material: 0,
             tangent: self.tangent(),
             anisotropy: f64::from(self.anisotropy),
-            uv: self.uv,
-            w: 0.0,
+            at: double::TexturePoint { uv: self.uv, w: 0.0, prim: NONE, b: DVec2::ZERO },
             place: double::Place { q: self.place, key: self.key },
             fuzz: f64::from(self.fuzz),
             roughness: f64::from(self.roughness),

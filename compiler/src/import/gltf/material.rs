@@ -112,6 +112,7 @@ fn convert_one(
             return Err(document.error(ErrorKind::Format, maps.what, message));
         }
     };
+    out.covers = true;
     out.alpha = coverage;
     out.alpha_map = out.color_map;
     out.alpha_clip = clip;

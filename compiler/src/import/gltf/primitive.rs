@@ -32,7 +32,7 @@ pub(super) struct Decoded {
     pub(super) normals: Option<Vec<[f32; 3]>>,
     pub(super) uvs: Option<Vec<[f32; 2]>>,
     /// Linear, 0 ..= 1.
-    pub(super) colors: Option<Vec<[f32; 3]>>,
+    pub(super) colors: Option<Vec<[f32; 4]>>,
     pub(super) triangles: Vec<[u32; 3]>,
 }
 
@@ -235,15 +235,16 @@ pub(super) fn decode(
     Ok(Some(Decoded { positions, normals, uvs, colors, triangles }))
 }
 
-/// Colours with three or four components; the fourth, which is coverage, is left aside.
-fn colors_of(buffers: &Buffers<'_>, index: Index<Accessor>) -> Result<Vec<[f32; 3]>, ImportError> {
+/// Colours and alpha, which is 1 where there is none.
+fn colors_of(buffers: &Buffers<'_>, index: Index<Accessor>) -> Result<Vec<[f32; 4]>, ImportError> {
     let kind = buffers.document.root.get(index).map(|accessor| accessor.type_);
-    let clamped = |rgb: [f32; 3]| rgb.map(|x| x.clamp(0.0, 1.0));
+    let clamped = |rgba: [f32; 4]| rgba.map(|x| x.clamp(0.0, 1.0));
     if kind == Some(Checked::Valid(Type::Vec4)) {
         let values = buffers.floats::<4>(index)?;
-        return Ok(values.into_iter().map(|[r, g, b, _]| clamped([r, g, b])).collect());
+        return Ok(values.into_iter().map(clamped).collect());
     }
-    Ok(buffers.floats::<3>(index)?.into_iter().map(clamped).collect())
+    let values = buffers.floats::<3>(index)?;
+    Ok(values.into_iter().map(|[r, g, b]| clamped([r, g, b, 1.0])).collect())
 }
 
 /// Triangles of a list, strip or fan, all wound the same way.

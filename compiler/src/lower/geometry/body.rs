@@ -11,7 +11,7 @@ use lang::scene::{Instance, Light, Parts, Scene, Shape};
 use pack::abi::NONE;
 
 use super::transform::Transform;
-use crate::import::ImportError;
+use crate::import::{ImportError, PartFacts};
 use crate::lower::grain;
 use crate::lower::light;
 use crate::lower::material::{MaterialRef, MaterialTable};
@@ -74,8 +74,6 @@ pub(in crate::lower) struct MeshForm {
     pub(in crate::lower) asset: usize,
     /// Index of each part in the file, and its material.
     pub(in crate::lower) parts: Vec<(usize, u32)>,
-    /// The materials are those of the file.
-    pub(in crate::lower) own: bool,
     /// How its leaves or petals differ.
     pub(in crate::lower) sheets: Option<Sheets>,
     /// What its geometry is, whatever file it comes from.
@@ -92,7 +90,7 @@ pub(in crate::lower) struct Shared {
     /// The material of each part: the file's own, or those of the last place where no place asks for them.
     pub(in crate::lower) materials: Vec<u32>,
     /// `materials` are the file's.
-    pub(in crate::lower) own: bool,
+    own: bool,
     content: Option<Key>,
 }
 
@@ -155,7 +153,7 @@ impl Bodies {
     /// Adds all that is made of these things, but the numbers of materials alone.
     pub(in crate::lower) fn read(&self, materials: &MaterialTable<'_>, key: &mut KeyOf) {
         for mesh in &self.meshes {
-            key.key(mesh.key());
+            key.key(mesh.key(materials.textures.has_vertex_colors()));
             mesh.materials.iter().for_each(|index| read_looks(materials, *index, key));
         }
         for (body, thing) in self.list.iter().zip(&self.things) {
@@ -228,9 +226,12 @@ impl Body {
 }
 
 impl Shared {
-    /// The key of its triangles.
-    pub(in crate::lower) fn key(&self) -> Key {
+    /// The key of its triangles; `colored`: with the colours of their corners.
+    pub(in crate::lower) fn key(&self, colored: bool) -> Key {
         let mut key = KeyOf::stage("mesh stored once");
+        if colored {
+            key.number(1_u32);
+        }
         if let Some(content) = self.content {
             key.key(content);
         }
@@ -375,8 +376,7 @@ impl Maker<'_, '_> {
         let files = self.materials.files;
         let file = &files.assets()[asset];
         let mut content = KeyOf::stage("parts of a mesh");
-        let is_own = self.instance.material.is_none();
-        let (mut parts, mut bare) = (Vec::new(), None);
+        let (mut parts, mut bare, mut colorless) = (Vec::new(), None, None);
         for index in file.chosen(shown) {
             let part = &file.parts[index];
             let own = part.material.map_or(MaterialRef::Default, |material| MaterialRef::Asset {
@@ -384,21 +384,22 @@ impl Maker<'_, '_> {
                 material: material as usize,
             });
             let material = self.material(own);
-            let has_uvs = part.has_uvs || is_own && part.is_painted;
-            if !has_uvs && self.materials.reads_textures(material) {
+            if !part.has_uvs && self.materials.reads_textures(material) {
                 bare = bare.or(Some(part));
             }
-            content.bytes(&part.content);
-            if part.is_painted {
-                content.number(is_own);
+            if !part.has_colors && self.materials.reads_vertex_colors(material) {
+                colorless = colorless.or(Some(part));
             }
+            content.bytes(&part.content);
             parts.push((index, material));
         }
-        diagnostics.extend(bare.map(|part| match part.name.as_str() {
-            "" => self.without_uvs(&format!("the mesh of `{}`", self.instance.name.text)),
-            name => self.without_uvs(&format!("`{name}`")),
-        }));
-        MeshForm { asset, parts, own: is_own, sheets, content: content.end() }
+        let called = |part: &PartFacts| match part.name.as_str() {
+            "" => format!("the mesh of `{}`", self.instance.name.text),
+            name => format!("`{name}`"),
+        };
+        diagnostics.extend(bare.map(|part| self.without_uvs(&called(part))));
+        diagnostics.extend(colorless.map(|part| self.without_colors(&called(part))));
+        MeshForm { asset, parts, sheets, content: content.end() }
     }
 
     /// Notes a place of the stored mesh `index`, made of `mesh`.
@@ -427,6 +428,18 @@ impl Maker<'_, '_> {
                 .at(span, "reads textures")
                 .because(mesh, "has no texture coordinates")
                 .with_help("unwrap the mesh where it was made, or use a material without textures"),
+        }
+    }
+
+    /// The colours of vertices are to be read where there are none.
+    fn without_colors(&self, name: &str) -> Diagnostic {
+        let text = format!("{name} has no vertex colours: `vertex_color` is white there");
+        let mesh = self.instance.shape_span;
+        let warning = Diagnostic::warning(Code("W0404"), "no_effect", text);
+        let warning = warning.at(mesh, "without colours of its vertices");
+        match self.instance.material_span {
+            Some(span) => warning.because(span, "reads them"),
+            None => warning,
         }
     }
 

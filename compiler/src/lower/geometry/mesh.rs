@@ -125,12 +125,18 @@ impl Triangle<'_> {
         let transform = &self.body.transform;
         let normals =
             self.normals().map(|normals| normals.map(|n| octahedral(transform.normal * n)));
-        let uvs = self.part.corner_uvs_for(self.form.own, self.tri_idx).unwrap_or_default();
+        let uvs = self.part.corner_uvs(self.tri_idx).unwrap_or_default();
         let [uv0, uv1, uv2] = self.order().map(|k| uvs[k]);
         let smooth = if normals.is_some() { TRI_SMOOTH } else { 0 };
         let object = self.body.object | smooth;
         let normals = normals.map_or([0; 3], |normals| self.order().map(|k| normals[k]));
         abi::TriShade { normals, material, uv0, uv1, uv2, light: NONE, object }
+    }
+
+    /// The colours of its corners.
+    pub(in crate::lower) fn colors(&self) -> abi::VertexColors {
+        let colors = self.part.corner_colors(self.tri_idx);
+        abi::VertexColors::of(self.order().map(|k| colors[k]))
     }
 
     /// Its shading normals, object frame, if it has any.

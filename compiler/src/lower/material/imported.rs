@@ -11,7 +11,7 @@ impl MaterialTable<'_> {
         let from = &files.assets()[asset].materials[material];
         let mut record = if from.unlit {
             let emission = from.color.map(|c| c as f32);
-            let map = self.factor_map(&emission, asset, from.color_map);
+            let map = self.colored_map(&emission, (asset, from.color_map), from.vertex_colors);
             abi::Material { emission, emission_texture: map, ..blank(MaterialKind::Emissive) }
         } else {
             self.imported_surface(asset, from)
@@ -22,13 +22,17 @@ impl MaterialTable<'_> {
             set_normal_map(&mut record, image, from.normal_strength);
         }
         let alpha = from.alpha as f32;
-        let least =
-            from.alpha_map.map_or(1.0, |map| self.textures.least((image_of(asset, map), 3)));
+        let least = match from.alpha_map {
+            _ if from.vertex_alpha => 0.0,
+            None => 1.0,
+            Some(map) => self.textures.least((image_of(asset, map), 3)),
+        };
         if let Some((flag, cutoff)) = covering(from.alpha_clip, alpha, least) {
             record.flags |= flag;
             record.alpha_cutoff = cutoff;
             record.alpha = alpha;
-            record.alpha_texture = self.map(asset, from.alpha_map);
+            let map = (asset, from.alpha_map);
+            record.alpha_texture = self.colored_map(&[1.0], map, from.vertex_alpha);
         }
         record
     }
@@ -46,7 +50,11 @@ impl MaterialTable<'_> {
             let color = from.color.map(|c| c as f32);
             return abi::Material {
                 color,
-                color_texture: self.factor_map(&color, asset, from.color_map),
+                color_texture: self.colored_map(
+                    &color,
+                    (asset, from.color_map),
+                    from.vertex_colors,
+                ),
                 ..blank(MaterialKind::Diffuse)
             };
         }

@@ -162,7 +162,7 @@ impl MaterialTable<'_> {
         let both = from.metallic_roughness_map;
         let mut record = abi::Material {
             color,
-            color_texture: self.factor_map(&color, asset, from.color_map),
+            color_texture: self.colored_map(&color, (asset, from.color_map), from.vertex_colors),
             emission,
             emission_texture: self.factor_map(&emission, asset, from.emission_map),
             metallic,

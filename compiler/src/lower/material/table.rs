@@ -88,8 +88,18 @@ impl<'a> MaterialTable<'a> {
         let record = &self.records[index as usize];
         let is_mix = record.kind == MaterialKind::Mix as u32;
         let is_projected = record.flags & material_flag::PROJECT != 0;
-        !is_projected && record.textures().iter().any(|texture| *texture != NONE)
+        let at_uvs = |texture: &u32| *texture != NONE && self.textures.reads_uvs(*texture);
+        !is_projected && record.textures().iter().any(at_uvs)
             || is_mix && record.parts().into_iter().any(|part| self.reads_textures(part))
+    }
+
+    /// Whether any texture of the material, or of what it is mixed from, reads the colours of vertices.
+    pub(in crate::lower) fn reads_vertex_colors(&self, index: u32) -> bool {
+        let record = &self.records[index as usize];
+        let is_mix = record.kind == MaterialKind::Mix as u32;
+        let reads = |texture: &u32| *texture != NONE && self.textures.reads_vertex_colors(*texture);
+        record.textures().iter().any(reads)
+            || is_mix && record.parts().into_iter().any(|part| self.reads_vertex_colors(part))
     }
 
     /// What geometry knows of a material: whether it gives light, and whether it has an inside.
@@ -318,6 +328,20 @@ impl<'a> MaterialTable<'a> {
     ) -> u32 {
         let read = factors.iter().any(|factor| *factor > 0.0);
         self.map(asset, map.filter(|_| read))
+    }
+
+    /// As `factor_map`, times the colours of vertices if `colored`.
+    pub(super) fn colored_map(
+        &mut self,
+        factors: &[f32],
+        (asset, map): (usize, Option<MapUse>),
+        colored: bool,
+    ) -> u32 {
+        let image = self.factor_map(factors, asset, map);
+        if !colored || factors.iter().all(|factor| *factor <= 0.0) {
+            return image;
+        }
+        self.textures.expression(expression::vertex_color((image != NONE).then_some(image)))
     }
 
     pub(in crate::lower) fn map(&mut self, asset: usize, map: Option<MapUse>) -> u32 {

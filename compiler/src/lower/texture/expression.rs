@@ -23,6 +23,11 @@ pub(in crate::lower) fn operations(
             ops.extend(image(*texture));
             ops.push(TextureOp { arg: u32::from(*channel), ..plain(TextureOpKind::Channel) });
         }
+        TextureExpression::VertexColor => ops.push(plain(TextureOpKind::VertexColor)),
+        TextureExpression::VertexChannel(channel) => {
+            ops.push(plain(TextureOpKind::VertexColor));
+            ops.push(TextureOp { arg: u32::from(*channel), ..plain(TextureOpKind::Channel) });
+        }
         TextureExpression::Pattern(of) => ops.push(pattern(of)),
         TextureExpression::Sum(_) => ops.push(plain(TextureOpKind::Add)),
         TextureExpression::Product(_) => ops.push(plain(TextureOpKind::Multiply)),
@@ -33,6 +38,33 @@ pub(in crate::lower) fn operations(
         }
     }
     ops
+}
+
+/// Whether any of these operations reads the colours of vertices.
+pub(super) fn reads_vertex_colors(ops: &[TextureOp]) -> bool {
+    ops.iter().any(|op| op.kind == TextureOpKind::VertexColor as u32)
+}
+
+/// Whether any of these operations depends on texture coordinates.
+pub(super) fn reads_uvs(ops: &[TextureOp]) -> bool {
+    let leaf = |op: &TextureOp| {
+        TextureOpKind::from_tag(op.kind).is_some_and(|kind| {
+            kind.operands() == 0
+                && !matches!(kind, TextureOpKind::Constant | TextureOpKind::VertexColor)
+        })
+    };
+    ops.iter().any(leaf)
+}
+
+/// The colour of the vertices, times the image with this id in the texture table, if there is one.
+pub(in crate::lower) fn vertex_color(image: Option<u32>) -> Vec<TextureOp> {
+    let color = plain(TextureOpKind::VertexColor);
+    match image {
+        None => vec![color],
+        Some(id) => {
+            vec![self::image(id, &Placement::NONE), color, plain(TextureOpKind::Multiply)]
+        }
+    }
 }
 
 /// The same value everywhere.

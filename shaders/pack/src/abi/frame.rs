@@ -78,12 +78,12 @@ abi_struct! {
         pub albedo_more_at: [u32; 2],
         /// First heap word of the `LightLink` table; `NONE`: every light lights everything.
         pub link_at: u32,
+        /// First heap word of the `VertexColors` table; `NONE`: no texture asks for them.
+        pub vertex_color_at: u32,
         /// Unused.
         pub _pad0: u32,
         /// Unused.
         pub _pad1: u32,
-        /// Unused.
-        pub _pad2: u32,
     }
 }
 

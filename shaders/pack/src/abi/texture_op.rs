@@ -48,6 +48,8 @@ tags! {
         Wave = 12,
         /// Fractal noise of `arg` octaves, the first with cells of 1 x 1 x 1, at the place and `q.z` times w; mean 1/2.
         Noise = 13,
+        /// The colour and alpha of the corners of the triangle, `VertexColors`, mixed in between; 1 on a sphere.
+        VertexColor = 14,
     }
 }
 
@@ -62,7 +64,8 @@ impl TextureOpKind {
             | Self::Bricks
             | Self::Gradient
             | Self::Wave
-            | Self::Noise => 0,
+            | Self::Noise
+            | Self::VertexColor => 0,
             Self::Channel | Self::Clamp | Self::Tilt => 1,
             Self::Insert | Self::Multiply | Self::Add => 2,
             Self::Mix => 3,

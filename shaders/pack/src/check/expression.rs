@@ -1,5 +1,6 @@
 //! Texture expressions: every operation is known, finds its operands, reads images that are no expressions
-//! themselves, and one value is left. So a kernel evaluates them without checks of its own, in bounded time.
+//! themselves, and one value is left. So a kernel evaluates them without checks of its own, in bounded time. Colours of
+//! vertices are there exactly when one of them asks.
 
 use crate::abi::{MAX_TEXTURE_OPS, MAX_TEXTURE_STACK, Texture, TextureOp, TextureOpKind};
 use crate::contents::Contents;
@@ -13,19 +14,37 @@ use super::rule::{count, index, tag, unused};
 /// Octaves of noise, at most.
 const MAX_OCTAVES: u32 = 16;
 
-/// All expressions; every range is inside TEXEL already.
+/// All expressions, and what they read of triangles; every range is inside TEXEL already.
 pub(super) fn check(contents: &Contents<'_>) -> Result<(), PackError> {
+    let mut colored = false;
     for (at, texture) in contents.textures.iter().enumerate() {
         if texture.is_expression() {
             let broken = |field, fault| element::<Texture>(at, (field, fault));
             frame(texture).map_or(Ok(()), |(field, fault)| Err(broken(field, fault)))?;
-            let left = operations(texture, contents)?;
+            let (left, reads_colors) = operations(texture, contents)?;
             if left != 1 {
                 return Err(broken("width", ElementFault::ValuesLeft(left)));
             }
+            colored |= reads_colors;
         }
     }
-    Ok(())
+    vertex_colors(contents, colored)
+}
+
+/// Whether the colours of vertices are there, if a texture reads them.
+fn vertex_colors(contents: &Contents<'_>, read: bool) -> Result<(), PackError> {
+    let (kind, found) = (Kind::VERTEXCOLOR, contents.vertex_colors.len());
+    match (read, found == contents.triangles.len()) {
+        (true, true) => Ok(()),
+        (true, false) => Err(PackError::CountMismatch {
+            left: "the number of VTXCOLOR elements",
+            left_count: found as u64,
+            right: "the number of TRIANGLE elements",
+            right_count: contents.triangles.len() as u64,
+        }),
+        (false, _) if found == 0 => Ok(()),
+        (false, _) => Err(PackError::Unwanted { kind, because: ", no texture reads it" }),
+    }
 }
 
 /// Numbers of the record itself.
@@ -38,9 +57,9 @@ fn frame(texture: &Texture) -> Option<(&'static str, ElementFault)> {
     width.or_else(height).or_else(offset)
 }
 
-/// Checks the operations; how many values they leave.
-fn operations(texture: &Texture, contents: &Contents<'_>) -> Result<usize, PackError> {
-    let mut values = 0;
+/// Checks the operations; how many values they leave, and whether one is the colour of vertices.
+fn operations(texture: &Texture, contents: &Contents<'_>) -> Result<(usize, bool), PackError> {
+    let (mut values, mut colored) = (0, false);
     for k in 0..texture.width {
         let word = (texture.offset + TextureOp::WORDS * k) as usize;
         let fault = |field, fault| {
@@ -48,7 +67,7 @@ fn operations(texture: &Texture, contents: &Contents<'_>) -> Result<usize, PackE
             Err(PackError::Element { at, field, fault })
         };
         let [[found, arg, pad0, pad1], p, q] = contents.texels[word..word + 3] else {
-            return Ok(0);
+            return Ok((0, false));
         };
         let Some(kind) = TextureOpKind::from_tag(found) else {
             let unknown = tag(found, TextureOpKind::ALL.len());
@@ -66,6 +85,7 @@ fn operations(texture: &Texture, contents: &Contents<'_>) -> Result<usize, PackE
                 return fault(field, ElementFault::NotFinite(found));
             }
         }
+        colored |= kind == TextureOpKind::VertexColor;
         let needs = kind.operands();
         if values < needs {
             return fault("kind", ElementFault::FewValues { needs, found: values });
@@ -75,7 +95,7 @@ fn operations(texture: &Texture, contents: &Contents<'_>) -> Result<usize, PackE
             return fault("kind", ElementFault::ManyValues { limit: MAX_TEXTURE_STACK });
         }
     }
-    Ok(values)
+    Ok((values, colored))
 }
 
 fn argument(kind: TextureOpKind, arg: u32, textures: &[Texture]) -> Option<ElementFault> {
@@ -94,6 +114,7 @@ fn argument(kind: TextureOpKind, arg: u32, textures: &[Texture]) -> Option<Eleme
         | TextureOpKind::Checker
         | TextureOpKind::Bricks
         | TextureOpKind::Gradient
-        | TextureOpKind::Wave => unused(arg),
+        | TextureOpKind::Wave
+        | TextureOpKind::VertexColor => unused(arg),
     }
 }

@@ -7,7 +7,7 @@ use crate::abi::{
     Camera, CameraKey, CameraKind, FilterKind, Instance, Light, LightKind, LightLink, LightNode,
     LightSurface, MOVES, Material, MaterialKind, Medium, MotionPiece, Node, OBJECT_OF_INSTANCE,
     Object, RenderSettings, SamplerKind, Sky, SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat,
-    ToneMap, TriShade, Triangle, UNLIMITED_DEPTH, WideNode, Wrap, material_flag,
+    ToneMap, TriShade, Triangle, UNLIMITED_DEPTH, VertexColors, WideNode, Wrap, material_flag,
 };
 use crate::contents::Contents;
 use crate::fault::ElementFault;
@@ -137,6 +137,10 @@ rules! { pack;
         uv0: finite(),
         uv1: finite(),
         uv2: finite(),
+    }
+    // Every number of `high` is a colour.
+    VertexColors {
+        low: bits(VertexColors::LOW),
     }
     Sphere {
         center: finite(),

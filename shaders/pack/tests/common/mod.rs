@@ -11,7 +11,8 @@ use pack::abi::{
     AlbedoTable, Camera, CameraKey, ChildRef, Instance, LIGHT_LEAF, Light, LightKind, LightLink,
     LightNode, MOVES, Material, MaterialKind, Medium, MotionPiece, NONE, Node, OBJECT_OF_INSTANCE,
     Object, RenderSettings, Sky, SkyKind, Sphere, TRI_SMOOTH, Texture, TextureFormat, TextureOp,
-    TextureOpKind, ToneMap, TriShade, Triangle, WideNode, Wrap, f64_bits, material_flag,
+    TextureOpKind, ToneMap, TriShade, Triangle, VertexColors, WideNode, Wrap, f64_bits,
+    material_flag,
 };
 use pack::manifest::Named;
 use pack::{Kind, Manifest, PackWriter};
@@ -25,6 +26,7 @@ pub(crate) struct Scene {
     pub(crate) wide_nodes: Vec<WideNode>,
     pub(crate) triangles: Vec<Triangle>,
     pub(crate) shades: Vec<TriShade>,
+    pub(crate) vertex_colors: Vec<VertexColors>,
     pub(crate) spheres: Vec<Sphere>,
     pub(crate) materials: Vec<Material>,
     pub(crate) objects: Vec<Object>,
@@ -325,6 +327,7 @@ impl Scene {
             ],
             triangles: [0, 3, 6, 9].map(|id| triangle(id as f32 / 20.0, id)).to_vec(),
             shades: vec![shade(0, NONE), shade(3, 1), shade(4, NONE), shade(3, 2)],
+            vertex_colors: Vec::new(),
             spheres: vec![sphere(-0.5, 1, NONE), sphere(-0.2, 2, NONE), sphere(0.6, 3, 0)],
             materials: materials(),
             objects: vec![
@@ -367,6 +370,14 @@ impl Scene {
         let link = |receives, own_set| LightLink { receives, own_set, ..LightLink::default() };
         self.links = self.lights.iter().map(|_| link(0, 2)).collect();
         self.links.extend(self.objects.iter().map(|_| link(3, 0)));
+        self
+    }
+
+    /// The same, with an image that is tinted by vertices instead of by a colour.
+    pub(crate) fn and_vertex_colors(mut self) -> Self {
+        let op = TextureOp { kind: TextureOpKind::VertexColor as u32, ..TextureOp::default() };
+        self.texels[9..12].copy_from_slice(&op.words());
+        self.vertex_colors = vec![VertexColors::WHITE; self.triangles.len()];
         self
     }
 
@@ -498,6 +509,7 @@ impl Scene {
             wide_nodes: Vec::new(),
             triangles: Vec::new(),
             shades: Vec::new(),
+            vertex_colors: Vec::new(),
             spheres: Vec::new(),
             materials: Vec::new(),
             objects: Vec::new(),
@@ -524,6 +536,7 @@ impl Scene {
             .records(&self.wide_nodes)
             .records(&self.triangles)
             .records(&self.shades)
+            .records(&self.vertex_colors)
             .records(&self.spheres)
             .records(&self.materials)
             .records(&self.objects)
