@@ -237,11 +237,15 @@ impl Compiled {
         if let Some(sky) = &lowered.sky {
             writer.record(sky);
         }
-        let rows = [lowered.nodes.section(), lowered.wide_nodes.section()];
-        let more =
-            [lowered.triangles.section(), lowered.shades.section(), lowered.texels.section()];
-        let more = more.into_iter().chain([lowered.vertex_colors.section()]);
-        for section in rows.into_iter().chain(more).flatten() {
+        let kept = [
+            lowered.nodes.section(),
+            lowered.wide_nodes.section(),
+            lowered.triangles.section(),
+            lowered.shades.section(),
+            lowered.vertex_colors.section(),
+            lowered.texels.section(),
+        ];
+        for section in kept.into_iter().flatten() {
             writer.section(section);
         }
         writer

@@ -15,7 +15,7 @@ pub(crate) const MAX_OPERATIONS: usize = 30;
 /// Most values of one expression that wait for each other while it is computed.
 pub(crate) const MAX_WAITING: usize = 5;
 
-/// The texture that every scene has: what the vertices of a mesh bring along.
+/// The texture that needs no declaration: the vertex colours of a mesh.
 pub(crate) const VERTEX_COLOR: &str = "vertex_color";
 
 /// Names of the channels of textures.

@@ -38,6 +38,12 @@ fn read_at(
     let dir = tempfile::tempdir().expect("a temporary directory can be made");
     let image = image::RgbaImage::from_fn(2, 2, |x, y| image::Rgba(TEXELS[(2 * y + x) as usize]));
     image.save(dir.path().join("a.png")).expect("an image can be written");
+    let texel = |x: usize, y: usize| {
+        let [r, g, b, a] = TEXELS[2 * y + x].map(|byte| f32::from(byte) / 255.0);
+        (r, g, b, a)
+    };
+    exr::prelude::write_rgba_file(dir.path().join("a.exr"), 2, 2, texel)
+        .expect("an image can be written");
     let text = format!(
         "rts 1
 {texture}
@@ -159,6 +165,17 @@ fn arithmetic_is_that_of_numbers() {
         let inner = r * (1.0 - g) + 0.9 * g;
         0.1 * (1.0 - t) + (0.2 * (1.0 - b) + inner * b) * t
     });
+}
+
+/// It is looked up alone, too, which `read` compares.
+#[test]
+fn the_alpha_of_half_floats_is_what_was_stored() {
+    let texture = "texture a = image(\"a.exr\", space: linear)";
+    for ([u, v], _, found) in read(texture, "color = a.rgb, roughness = a.a") {
+        let truth = image_at(3, u, v);
+        // Eleven bits.
+        assert!((found - truth).abs() < 3e-4, "({u}, {v}): {found}, not {truth}");
+    }
 }
 
 #[test]

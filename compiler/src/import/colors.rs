@@ -1,4 +1,4 @@
-//! Colours of vertices: factors on the base colour, and where the file asks for alpha on that.
+//! Vertex colours: factors on the base colour, and on alpha where the file asks for it.
 //!
 //! Parts with colours get materials of their own that say so. Where all colours of a part are one, that is a factor of
 //! the material. Parts keep their colours, for other materials.
@@ -26,12 +26,12 @@ struct Painter {
     known: BTreeMap<(Option<u32>, Effect), u32>,
 }
 
-/// What the colours of a part do to its material.
+/// What the vertex colours of a part do to its material.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Effect {
     /// The same colour everywhere, as bits.
     Factor([u32; 4]),
-    /// They differ; `alpha`: so does what the surface covers.
+    /// They differ; `alpha`: theirs is a factor on the material's.
     Colors { alpha: bool },
 }
 

@@ -43,8 +43,8 @@ const PLY: TypeSchema = TypeSchema {
     kind: Kind::Asset,
     name: "ply",
     doc: "A PLY file (Stanford), text or binary: polygons with normals (`nx ny nz`) and texture coordinates \
-          (`u v`, `s t`, `texture_u texture_v`, or `texcoord` of faces) where it has them. Colours of vertices \
-          are its material, and `vertex_color` for materials of the scene. The format says neither unit nor where up is.",
+          (`u v`, `s t`, `texture_u texture_v`, or `texcoord` of faces) where it has them. Vertex colours \
+          become its material, and are `vertex_color` to materials of the scene. The format says neither unit nor where up is.",
     example: "asset bunny = ply(\"bunny.ply\", unit: m)",
     fields: &[
         PATH,

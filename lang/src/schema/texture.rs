@@ -16,8 +16,8 @@ const IMAGE: TypeSchema = TypeSchema {
     kind: Kind::Texture,
     name: "image",
     doc: "An image file (PNG, JPEG, WebP, KTX2, HDR, EXR), or a luminaire file (IES), for the `profile` of a light. Materials read it as `.rgb`, or one channel of it \
-          as `.r`, `.g`, `.b` or `.a`. Alpha is always linear. The colours of a mesh's vertices need no declaration: they \
-          are the texture `vertex_color`, white on whatever has none.",
+          as `.r`, `.g`, `.b` or `.a`. Alpha is always linear. Vertex colours need no declaration: \
+          they are the texture `vertex_color`, white on whatever has none.",
     example: "texture bark = image(\"bark.png\", space: srgb, wrap: mirror)",
     fields: &[
         Field::new(

@@ -212,7 +212,8 @@ macro_rules! pack_records {
 pack_records! {
     RenderSettings => RENDER, Camera => CAMERA, Sky => SKY, Node => NODE, WideNode => WIDENODE,
     Triangle => TRIANGLE,
-    TriShade => TRISHADE, VertexColors => VERTEXCOLOR, Sphere => SPHERE, Material => MATERIAL, Object => OBJECT,
+    TriShade => TRISHADE, VertexColors => VERTEXCOLOR, Sphere => SPHERE, Material => MATERIAL,
+    Object => OBJECT,
     Instance => INSTANCE,
     Medium => MEDIUM, Light => LIGHT, LightNode => LIGHTNODE, Texture => TEXTURE,
     LightLink => LIGHTLINK, MotionPiece => MOTION, CameraKey => CAMERAKEY,

@@ -431,14 +431,14 @@ impl Maker<'_, '_> {
         }
     }
 
-    /// The colours of vertices are to be read where there are none.
+    /// Vertex colours are to be read where there are none.
     fn without_colors(&self, name: &str) -> Diagnostic {
         let text = format!("{name} has no vertex colours: `vertex_color` is white there");
         let mesh = self.instance.shape_span;
         let warning = Diagnostic::warning(Code("W0404"), "no_effect", text);
-        let warning = warning.at(mesh, "without colours of its vertices");
+        let warning = warning.at(mesh, "this mesh");
         match self.instance.material_span {
-            Some(span) => warning.because(span, "reads them"),
+            Some(span) => warning.because(span, "reads `vertex_color`"),
             None => warning,
         }
     }
