@@ -379,6 +379,16 @@ fn one_colour_is_a_factor_and_integers_have_the_srgb_curve() {
     assert_eq!(found.parts[0].colors.len(), 3, "for other materials");
     let [r, g, b] = material.color;
     assert!(r == 1.0 && (g - 0.5029).abs() < 1e-4 && b == 0.0, "{g}");
+    // Alpha has no curve and covers nothing by itself; materials of a scene may ask for it.
+    let text = text.replace("property uchar blue", "property uchar blue\nproperty uchar alpha");
+    let text = text.replace("188 0\n", "188 0 51\n");
+    let found = load_ply(text.as_bytes()).expect("a good file");
+    assert!(found.parts[0].colors.iter().all(|color| (color[3] - 0.2).abs() < 1e-6));
+    let material = &found.materials[found.parts[0].material.expect("coloured") as usize];
+    assert!(!material.vertex_alpha && (material.alpha - 1.0).abs() < 1e-9);
+    let text = text.replace("uchar alpha", "float alpha").replace("188 0 51", "188 0 0.75");
+    let found = load_ply(text.as_bytes()).expect("a good file");
+    assert!(found.parts[0].colors.iter().all(|color| (color[3] - 0.75).abs() < 1e-6));
     // OBJ: 0 to 1, or to 255; none where some vertices have none.
     for (rgb, expected) in [("1 0.5 0", 0.2140), ("255 188 0", 0.5029)] {
         let text = format!("v 0 0 0 {rgb}\nv 1 0 0 {rgb}\nv 0 1 0 {rgb}\nf 1 2 3\n");

@@ -39,7 +39,7 @@ struct Draft {
     name: u32,
     material: Option<u32>,
     positions: Vec<[f32; 3]>,
-    colors: Vec<[f32; 3]>,
+    colors: Vec<[f32; 4]>,
     triangles: Vec<[u32; 3]>,
     uvs: Vec<[f32; 2]>,
     uv_corners: Vec<[u32; 3]>,
@@ -362,7 +362,7 @@ fn finish(mut draft: Draft, names: &[PartName]) -> Part {
         normals: Attribute::Indexed { values: draft.normals, corners: draft.normal_corners },
         uvs,
         triangles: draft.triangles,
-        colors: draft.colors.into_iter().map(|[r, g, b]| [r, g, b, 1.0]).collect(),
+        colors: draft.colors,
     }
 }
 

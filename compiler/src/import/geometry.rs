@@ -5,6 +5,8 @@ pub(super) const MAX_CORNERS: usize = 4096;
 /// Bytes that a position, UV or normal takes: here, in a list that doubles as it grows, and in the table by which a
 /// part numbers it.
 pub(super) const VALUE_BYTES: u64 = 28;
+/// Bytes that a colour takes: here, in a list that doubles as it grows.
+pub(super) const COLOR_BYTES: u64 = 32;
 /// Bytes that a corner of a face takes at most: its three indices and its share of the face here, copies of the
 /// three values in a part, and its share of the triangles there; lists may have doubled.
 pub(super) const CORNER_BYTES: u64 = 160;
@@ -13,8 +15,8 @@ pub(super) const CORNER_BYTES: u64 = 160;
 #[derive(Debug, Default)]
 pub(super) struct Geometry {
     pub(super) positions: Vec<[f32; 3]>,
-    /// Linear colours of vertices, 0 ..= 1: none, or as many as positions.
-    pub(super) colors: Vec<[f32; 3]>,
+    /// Linear colours and alpha of vertices, 0 ..= 1: none, or as many as positions.
+    pub(super) colors: Vec<[f32; 4]>,
     pub(super) uvs: Vec<[f32; 2]>,
     pub(super) normals: Vec<[f32; 3]>,
     /// Of all faces one after the other: indices into `positions`, `uvs` and `normals`. UV and normal of a corner

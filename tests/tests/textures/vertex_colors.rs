@@ -136,8 +136,8 @@ fn check(pack: Pack<Checked>) {
 /// A step of those in which alpha is stored.
 const ALPHA: f32 = 128.0 / 511.0;
 
-/// A square of glTF whose image, one colour, is tinted by its vertices, and whose alpha is theirs.
-fn write_square(dir: &Path) {
+/// A square of glTF whose image, one colour, is tinted by its vertices; `more`: what else its material says.
+fn write_square(dir: &Path, more: &str) {
     let corners = [[-1.0_f32, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     let mut bytes: Vec<u8> = Vec::new();
     let mut list = |values: &mut dyn Iterator<Item = f32>| {
@@ -152,7 +152,7 @@ fn write_square(dir: &Path) {
     image.save(dir.join("paint.png")).expect("an image can be written");
     let text = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
 "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1, "COLOR_0": 2}, "indices": 3, "material": 0}]}],
-"materials": [{"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicFactor": 0}}],
+"materials": [{MORE, "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicFactor": 0}}],
 "textures": [{"source": 0}], "images": [{"uri": "paint.png"}],
 "buffers": [{"uri": "square.bin", "byteLength": 156}],
 "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 32},
@@ -161,14 +161,17 @@ fn write_square(dir: &Path) {
 {"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC2"},
 {"bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC4"},
 {"bufferView": 3, "componentType": 5123, "count": 6, "type": "SCALAR"}]}"#;
+    let text = text.replace("MORE", more);
     std::fs::write(dir.join("square.gltf"), text).expect("a file can be written");
 }
 
-#[test]
-fn vertices_tint_images_and_their_alpha_is_coverage() {
-    let dir = tempfile::tempdir().expect("a temporary directory can be made");
-    write_square(dir.path());
-    let text = "rts 1
+/// The square's colour: that of its image times that of its vertices.
+fn square_color(x: f64, y: f64) -> [f64; 3] {
+    [0.5029 * (0.5 + 0.4 * x), 0.5 + 0.4 * y, 0.2159]
+}
+
+/// The square in front of a white sky.
+const SQUARE: &str = "rts 1
 asset square = gltf(\"square.gltf\")
 instance s { shape = square }
 sky day: constant { color = linear(1) }
@@ -176,7 +179,34 @@ camera eye: perspective { from = (0, 0, 3)m, to = (0, 0, 0)m, fov.vertical = 20d
 film f { size = (48, 48)px }
 render main: path { camera = eye, film = f, samples = 16, depth = 2, seed = 5 }
 ";
-    let compiled = scene::compile_in(dir.path(), text);
+
+#[test]
+fn unlit_surfaces_give_off_the_colours_of_their_vertices() {
+    let dir = tempfile::tempdir().expect("a temporary directory can be made");
+    write_square(dir.path(), r#""extensions": {"KHR_materials_unlit": {}}"#);
+    let compiled = scene::compile_in(dir.path(), SQUARE);
+    let pack = Pack::from_bytes(scene::bytes(&compiled)).expect("a good pack");
+    let outcome = picture::cpu(pack, |job| {
+        let (layers, names) = ([Layer::Position].into(), LayerNames::Blender);
+        job.wanted = Wanted { layers, transparent: false, names };
+    });
+    let file = File::written(&outcome.picture, false);
+    let all = |name: &str| &file.channels[&format!("ViewLayer.{name}")];
+    for pixel in 0..SIZE * SIZE {
+        let [x, y] = ["X", "Y"].map(|axis| f64::from(all(&format!("Position.{axis}"))[pixel]));
+        for (channel, truth) in ["R", "G", "B"].into_iter().zip(square_color(x, y)) {
+            let found = f64::from(all(&format!("Combined.{channel}"))[pixel]);
+            // A pixel is 0.02 m wide, and its place that of one sample.
+            assert!((found - truth).abs() < 0.012, "({x}, {y}) {channel}: {found}, not {truth}");
+        }
+    }
+}
+
+#[test]
+fn vertices_tint_images_and_their_alpha_is_coverage() {
+    let dir = tempfile::tempdir().expect("a temporary directory can be made");
+    write_square(dir.path(), r#""alphaMode": "BLEND""#);
+    let compiled = scene::compile_in(dir.path(), SQUARE);
     let pack = Pack::from_bytes(scene::bytes(&compiled)).expect("a good pack");
     let outcome = picture::cpu(pack, |job| {
         let layers = [Layer::Albedo, Layer::Position, Layer::Alpha].into();
@@ -188,12 +218,11 @@ render main: path { camera = eye, film = f, samples = 16, depth = 2, seed = 5 }
     let share = Estimate::of(&alpha);
     assert!(share.z(f64::from(ALPHA)).abs() < 4.5, "{share:?}");
     // Seen through the holes there is nothing: what is left of the albedo is its share.
-    let truth = |x: f64, y: f64| [0.5029 * (0.5 + 0.4 * x), 0.5 + 0.4 * y, 0.2159];
     let mut n_seen = 0;
     for (pixel, alpha) in alpha.iter().enumerate().filter(|(_, alpha)| **alpha > 0.2) {
         n_seen += 1;
         let [x, y] = ["X", "Y"].map(|axis| f64::from(all(&format!("Position.{axis}"))[pixel]));
-        for (channel, truth) in ["R", "G", "B"].into_iter().zip(truth(x, y)) {
+        for (channel, truth) in ["R", "G", "B"].into_iter().zip(square_color(x, y)) {
             let found = f64::from(all(&format!("Denoising Albedo.{channel}"))[pixel]) / alpha;
             // A pixel is 0.02 m wide, and its place that of one sample.
             assert!((found - truth).abs() < 0.012, "({x}, {y}) {channel}: {found}, not {truth}");

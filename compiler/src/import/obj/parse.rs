@@ -9,7 +9,7 @@ use super::super::colors::linear;
 use super::super::error::{ErrorKind, ImportError, excerpt};
 use super::super::file::Limits;
 use super::super::geometry::{
-    CORNER_BYTES, Face, Geometry, MAX_CORNERS, PartName, Run, State, VALUE_BYTES,
+    COLOR_BYTES, CORNER_BYTES, Face, Geometry, MAX_CORNERS, PartName, Run, State, VALUE_BYTES,
 };
 use super::super::lines::{Lines, MAX_LINE, numbers_of, split_word, text, uncommented, words};
 use super::super::mesh::NO_CORNER;
@@ -77,7 +77,9 @@ fn settle_colors(obj: &mut Obj) {
     let most = colors.as_flattened().iter().fold(1.0_f32, |most, x| most.max(*x));
     let scale = if most > 1.0 { 1.0 / 255.0 } else { 1.0 };
     for color in colors {
-        *color = color.map(|x| linear(x * scale));
+        let [r, g, b, alpha] = *color;
+        let [r, g, b] = [r, g, b].map(|x| linear(x * scale));
+        *color = [r, g, b, alpha];
     }
 }
 
@@ -161,11 +163,11 @@ impl Parser {
                 }
             }
             6 | 7 => {
-                self.charge(VALUE_BYTES)?;
+                self.charge(COLOR_BYTES)?;
                 let place = self.out.geometry.positions.len();
                 // Those of all vertices, or none.
                 if self.out.geometry.colors.len() == place {
-                    self.out.geometry.colors.push([numbers[3], numbers[4], numbers[5]]);
+                    self.out.geometry.colors.push([numbers[3], numbers[4], numbers[5], 1.0]);
                 } else {
                     count(&mut self.out.oddities.colored, self.line);
                 }

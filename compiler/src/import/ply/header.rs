@@ -23,6 +23,8 @@ pub(super) struct Header<'a> {
     pub(super) n_faces: u64,
     /// What the numbers of colours are divided by; 0: they are linear.
     pub(super) color_scale: f32,
+    /// What their alpha is divided by; 0: it is a share.
+    pub(super) alpha_scale: f32,
     /// Images that comments name.
     pub(super) images: Vec<String>,
 }
@@ -53,11 +55,12 @@ pub(super) enum Slot {
 pub(super) struct Vertex(pub(super) usize);
 
 impl Vertex {
-    pub(super) const N: usize = 11;
+    pub(super) const N: usize = 12;
     pub(super) const POSITION: [Self; 3] = [Self(0), Self(1), Self(2)];
     pub(super) const NORMAL: [Self; 3] = [Self(3), Self(4), Self(5)];
     pub(super) const UV: [Self; 2] = [Self(6), Self(7)];
     pub(super) const COLOR: [Self; 3] = [Self(8), Self(9), Self(10)];
+    pub(super) const ALPHA: Self = Self(11);
 
     /// The names that are in use; those of UVs are `u v` of many, `s t` of Blender, and `MeshLab`'s.
     fn named(name: &str) -> Option<Self> {
@@ -73,6 +76,7 @@ impl Vertex {
             &["red", "r", "diffuse_red"],
             &["green", "g", "diffuse_green"],
             &["blue", "b", "diffuse_blue"],
+            &["alpha", "a", "diffuse_alpha"],
         ];
         NAMES.iter().position(|names| names.contains(&name)).map(Self)
     }
@@ -92,6 +96,7 @@ impl<'a> Header<'a> {
             n_vertices: 0,
             n_faces: 0,
             color_scale: 0.0,
+            alpha_scale: 0.0,
             images: found.comments.iter().filter_map(|comment| image_of(comment)).collect(),
             text: String::new(),
         };
@@ -155,11 +160,14 @@ impl<'a> Header<'a> {
                     u32::try_from(count).ok().filter(|n| *n < u32::MAX).ok_or_else(|| {
                         (ErrorKind::Limit, format!("{count} vertices; 2^32 are too many"))
                     })?;
-                let red = element
-                    .properties
-                    .iter()
-                    .find(|property| Vertex::named(&property.name) == Some(Vertex::COLOR[0]));
-                self.color_scale = red.map_or(0.0, |red| color_scale(&red.property_type));
+                let scale = |number: Vertex| {
+                    let mut properties = element.properties.iter();
+                    let found =
+                        properties.find(|property| Vertex::named(&property.name) == Some(number));
+                    found.map_or(0.0, |property| color_scale(&property.property_type))
+                };
+                self.color_scale = scale(Vertex::COLOR[0]);
+                self.alpha_scale = scale(Vertex::ALPHA);
                 let has = |number: &Vertex| slots.contains(&Slot::Vertex(*number));
                 if !Vertex::POSITION.iter().all(has) {
                     return Err(format_error("its vertices do not have `x`, `y` and `z`"));
@@ -194,7 +202,7 @@ impl<'a> Header<'a> {
     }
 }
 
-/// The largest number of a type of colour; 0 for floats, which are linear. Integers have the sRGB curve.
+/// The largest number of a type of colour; 0 for floats, which are linear. Integers have the sRGB curve, alpha has none.
 fn color_scale(kind: &PropertyType) -> f32 {
     match kind {
         PropertyType::Scalar(ScalarType::U16 | ScalarType::I16) => 65535.0,

@@ -10,7 +10,9 @@ use super::super::budget::Loan;
 use super::super::colors::linear;
 use super::super::error::{ErrorKind, ImportError};
 use super::super::file::Limits;
-use super::super::geometry::{CORNER_BYTES, Face, Geometry, MAX_CORNERS, Run, State, VALUE_BYTES};
+use super::super::geometry::{
+    COLOR_BYTES, CORNER_BYTES, Face, Geometry, MAX_CORNERS, Run, State, VALUE_BYTES,
+};
 use super::super::mesh::NO_CORNER;
 use super::header::{Element, Failure, Header, Slot, Vertex};
 
@@ -24,6 +26,8 @@ pub(super) struct Rows {
     has_uvs: bool,
     /// See [`Header::color_scale`]; `None` without colours.
     color_scale: Option<f32>,
+    /// See [`Header::alpha_scale`]; `None`: colours have no alpha.
+    alpha_scale: Option<f32>,
     loan: Loan,
     /// Number of the row at hand.
     row: u64,
@@ -43,8 +47,9 @@ impl Rows {
     ) -> Result<(Self, Loan), ImportError> {
         let (has_normals, has_uvs) = (header.has(&Vertex::NORMAL), header.has(&Vertex::UV));
         let color_scale = header.has(&Vertex::COLOR).then_some(header.color_scale);
-        let n_kinds =
-            1 + u64::from(has_normals) + u64::from(has_uvs) + u64::from(color_scale.is_some());
+        let alpha_scale = header.has(&[Vertex::ALPHA]).then_some(header.alpha_scale);
+        let n_kinds = 1 + u64::from(has_normals) + u64::from(has_uvs);
+        let bytes = n_kinds * VALUE_BYTES + u64::from(color_scale.is_some()) * COLOR_BYTES;
         let mut rows = Self {
             geometry: Geometry::default(),
             n_not_polygons: 0,
@@ -52,7 +57,8 @@ impl Rows {
             has_normals,
             has_uvs,
             color_scale,
-            loan: limits.memory.take(u64::from(header.n_vertices) * n_kinds * VALUE_BYTES, file)?,
+            alpha_scale,
+            loan: limits.memory.take(u64::from(header.n_vertices) * bytes, file)?,
             row: 0,
             failure: None,
             corners: Vec::new(),
@@ -100,7 +106,13 @@ impl Rows {
         if let Some(scale) = self.color_scale {
             let [r, g, b] = Vertex::COLOR.map(single);
             let value = |x: f32| if scale > 0.0 { linear(x / scale) } else { x.clamp(0.0, 1.0) };
-            self.geometry.colors.push([r?, g?, b?].map(value));
+            let [r, g, b] = [r?, g?, b?].map(value);
+            let alpha = match self.alpha_scale {
+                Some(scale) if scale > 0.0 => single(Vertex::ALPHA)? / scale,
+                Some(_) => single(Vertex::ALPHA)?,
+                None => 1.0,
+            };
+            self.geometry.colors.push([r, g, b, alpha.clamp(0.0, 1.0)]);
         }
         if self.has_uvs {
             let [u, v] = Vertex::UV.map(single);
