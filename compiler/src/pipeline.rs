@@ -135,6 +135,11 @@ pub fn compile_after(
         return Err(CompileError::Scene);
     }
     let scene = edited.as_ref().unwrap_or(scene);
+    let complete = lower::of_files(scene, found.assets(), diagnostics);
+    if diagnostics.iter().any(Diagnostic::is_error) {
+        return Err(CompileError::Scene);
+    }
+    let scene = complete.as_ref().unwrap_or(scene);
     let framed = lower::framed(scene, found.assets(), diagnostics);
     if scene.camera.fit.is_some() && framed.is_none() {
         return Err(CompileError::Scene);

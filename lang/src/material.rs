@@ -7,6 +7,7 @@
 
 mod brightness;
 mod fields;
+mod no_effect;
 mod param;
 mod pattern;
 mod principled;
@@ -16,11 +17,12 @@ mod specular;
 
 pub use brightness::Brightness;
 pub(crate) use fields::VISIBLE;
+pub use no_effect::{NoEffect, without_effect};
 pub use param::{Color, Filling, Grain, Ingredient, Inside, NormalMap, Pattern, Scalar, Waves};
 pub(crate) use param::{Param, Reader, Shown};
 pub use projection::TextureProjection;
 
-use crate::scene::{Name, Rgb};
+use crate::scene::{FileBase, Name, Rgb};
 use crate::schema::{Default, Field, Kind, TypeSchema};
 
 /// A material.
@@ -34,6 +36,17 @@ pub struct Material {
     pub normal: Option<NormalMap>,
     /// Where its textures lie.
     pub projection: TextureProjection,
+    /// The material of a mesh file that it is like; then what the declaration does not say is not known yet.
+    pub of_file: Option<MaterialOfFile>,
+}
+
+/// What a material takes from a mesh file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MaterialOfFile {
+    /// The material.
+    pub base: FileBase,
+    /// `normal.strength`; counts for the normal map of the file if the declaration says it.
+    pub normal_strength: f64,
 }
 
 /// What compilation asks of a material beside its numbers. As it is here: opaque, without light of its own, the

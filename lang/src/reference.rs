@@ -68,6 +68,8 @@ prints any of these tables, for example `rtc explain material.metal`.
   `-D name=value` may replace, in the root file.
 - `like other` takes every field of another declaration of the same kind, and changes some. `default`
   goes back to the default, `none` takes an optional field away.
+- `material mine like car.material(\"paint\") { ... }` and `camera eye like car.camera(\"Camera\") { ... }`
+  take what they do not say from a mesh file, `asset car`; `rtc show --assets` lists what it has.
 - `name.field` is the value of a field of another declaration: `distance(hero.from, hero.to)`.
 - `instance name[i in 0..6] { ... }` makes `name[0]` to `name[5]`.
 - An object is a shape, another object, or a list of objects, with a place of its own. An instance of a

@@ -18,7 +18,7 @@ pub(crate) mod like;
 mod model;
 
 pub(crate) use import::load;
-pub(crate) use model::Model;
+pub(crate) use model::{InFile, Model};
 
 /// Names that may be compared in search of similar ones; a file full of unknown names would
 /// otherwise take time that grows with the square of its length.

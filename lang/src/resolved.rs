@@ -13,10 +13,11 @@ use std::fmt::{self, Write as _};
 use crate::check::brightness::profile_scale;
 use crate::material::Shown;
 use crate::scene::{
-    AssetFormat, Axis, Camera, CameraKey, Directional, FileFrame, GltfChoice, Instance, Light,
-    LightLinks, Motion, MotionKey, Projection, Scene, Shape, Wrap,
+    AssetFormat, Axis, Camera, CameraKey, CameraOfFile, Directional, FileBase, FileFrame,
+    GltfChoice, Instance, Light, LightLinks, MaterialOfFile, Motion, MotionKey, Opening,
+    Projection, Scene, Shape, Wrap,
 };
-use crate::schema::color_text;
+use crate::schema::{Kind, color_text};
 use crate::shape::MeshEdit;
 use crate::units::{self, Dim};
 
@@ -76,7 +77,19 @@ fn write_all(out: &mut String, scene: &Scene) -> fmt::Result {
             fields.push(("normal.strength", number(map.strength)));
         }
         fields.extend(material.projection.shown());
-        block(out, &format!("material {}: {kind}", material.name.text), &fields)?;
+        let name = &material.name.text;
+        let head = match &material.of_file {
+            Some(MaterialOfFile { base, normal_strength }) => {
+                if material.normal.is_none() {
+                    fields.push(("normal.strength", number(*normal_strength)));
+                    fields.push(("normal", "none".to_owned()));
+                }
+                fields.retain(|(field, _)| base.says(field).is_some());
+                format!("material {name} like {}", in_file(scene, base, Kind::Material))
+            }
+            None => format!("material {name}: {kind}"),
+        };
+        block(out, &head, &fields)?;
     }
     for instance in &scene.instances {
         let fields = instance_fields(scene, instance);
@@ -244,12 +257,21 @@ fn edits(scene: &Scene, instance: &Instance) -> String {
 
 fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {
     let (camera, film, render) = (&scene.camera, &scene.film, &scene.render);
+    let name = &camera.name.text;
     let kind = match camera.projection {
         Projection::Perspective(_) => "perspective",
         Projection::Orthographic { .. } => "orthographic",
         Projection::Panoramic { .. } => "panoramic",
     };
-    block(out, &format!("camera {}: {kind}", camera.name.text), &camera_fields(camera))?;
+    let mut fields = camera_fields(camera);
+    let head = match &camera.of_file {
+        Some(of_file) => {
+            retain_said(of_file, &mut fields);
+            format!("camera {name} like {}", in_file(scene, &of_file.base, Kind::Camera))
+        }
+        None => format!("camera {name}: {kind}"),
+    };
+    block(out, &head, &fields)?;
     let [width, height] = film.size;
     let fields = [
         ("size", format!("({width}, {height})px")),
@@ -285,6 +307,31 @@ fn write_view(out: &mut String, scene: &Scene) -> fmt::Result {
         ("output", output),
     ];
     block(out, &format!("render {}: path", render.name.text), &fields)
+}
+
+/// What a declaration is like.
+fn in_file(scene: &Scene, base: &FileBase, kind: Kind) -> String {
+    let asset = scene.assets.get(base.asset).map_or("", |asset| asset.name.text.as_str());
+    format!("{asset}.{}(\"{}\")", kind.name(), base.name.text)
+}
+
+/// Leaves out what only the file of a camera says, or what follows from that.
+fn retain_said(of_file: &CameraOfFile, fields: &mut Vec<(&'static str, String)>) {
+    let CameraOfFile { base, lens } = of_file;
+    let any = |names: &[&str]| names.iter().any(|name| base.says(name).is_some());
+    let sees = any(&["lens", "fov.horizontal", "fov.vertical"]);
+    fields.retain(|(field, _)| match *field {
+        "from" | "to" | "up" | "focus" => any(&[field]),
+        "fov.horizontal" | "fov.vertical" | "aperture" => sees,
+        _ => true,
+    });
+    if !sees {
+        fields.push(match lens.opening {
+            Opening::Diameter(opening) => ("aperture", length(opening)),
+            Opening::FStop(f_stop) => ("f_stop", number(f_stop)),
+        });
+        fields.push(("sensor.width", length(lens.sensor)));
+    }
 }
 
 fn camera_fields(camera: &Camera) -> Vec<(&'static str, String)> {

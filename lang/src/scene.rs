@@ -11,23 +11,28 @@
 mod common;
 mod file;
 mod instance;
+mod lens;
 mod light;
 mod links;
 mod motion;
 mod view;
 
 pub use common::{Name, Rgb};
-pub use file::{Asset, AssetFormat, Axis, ColorSpace, FileFrame, GltfChoice, Texture, Wrap};
+pub use file::{
+    Asset, AssetFormat, Axis, ColorSpace, FileBase, FileFrame, GltfChoice, MeshImage, Texture, Wrap,
+};
 pub use instance::Instance;
+pub(crate) use lens::across_other;
+pub use lens::{FieldOfView, Lens, LensSpec, Opening};
 pub use light::{Beam, Directional, Light, Profile, Tint};
 pub use links::LightLinks;
 pub use motion::{CameraKey, Keyed, Motion, MotionKey, at_time, bends};
 pub use view::{
-    Camera, Film, Filter, Fit, Layer, Lens, Projection, Render, Sampler, Side, ToneMap,
+    Camera, CameraOfFile, Film, Filter, Fit, Layer, Projection, Render, Sampler, Side, ToneMap,
 };
 
 pub use crate::material::{
-    Color, Inside, Material, MaterialModel, NormalMap, Pattern, Principled, Scalar,
+    Color, Inside, Material, MaterialModel, MaterialOfFile, NormalMap, Pattern, Principled, Scalar,
     TextureProjection,
 };
 pub use crate::medium::{Medium, MediumModel};

@@ -252,8 +252,21 @@ pub enum Base {
     Type(Path),
     /// `like cedar`
     Like(Path),
+    /// `like car.material("paint")`
+    OfFile(OfFile),
     /// Unreadable, already reported.
     Error(Span),
+}
+
+/// `car.material("paint")`: what a mesh file has.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OfFile {
+    /// `car.material`.
+    pub path: Path,
+    /// Its name in the file.
+    pub name: Text,
+    /// With the brackets.
+    pub span: Span,
 }
 
 /// `ring.width = 3.2mm`.

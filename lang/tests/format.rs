@@ -253,7 +253,7 @@ impl Writer<'_> {
             self.operand(1);
             self.pick(&["..6]", " .. 6 ]"]);
         }
-        self.pick(&["", ":wood", " : wood.fine ", " like cedar"]);
+        self.pick(&["", ":wood", " : wood.fine ", " like cedar", " like  car.material( \"a b\") "]);
         self.pick(&[" ", "", " // why\n", "\n"]);
         self.out.push('{');
         for _ in 0..self.choose(4) {

@@ -219,6 +219,29 @@ fn the_lens_and_the_field_of_view_agree() {
 }
 
 #[test]
+fn of_a_camera_of_a_file_is_shown_what_the_text_says() {
+    let shown = |fields: &str| {
+        let text = with_view(&format!(
+            "asset car = gltf(\"car.glb\")\ncamera eye like car.camera(\"Main eye\") {{ {fields} }}"
+        ));
+        let scene = scene_of_text(&text.replace("path { }", "path { camera = eye }"));
+        let resolved = lang::resolved(&scene);
+        let (_, rest) = resolved.split_once("camera ").expect("a camera");
+        rest.split_once("\n}").expect("its end").0.to_owned()
+    };
+    let head = "eye like car.camera(\"Main eye\") {";
+    let rest = "shutter = 0s..0s\n  aperture = 0m\n  sensor.width = 0.036m";
+    assert_eq!(shown(""), format!("{head}\n  {rest}"));
+    let (opening, sharp) = ("f_stop = 2", "focus = 3m");
+    let expected =
+        format!("{head}\n  {sharp}\n  shutter = 0s..0s\n  {opening}\n  sensor.width = 0.036m");
+    assert_eq!(shown(&format!("{opening}, {sharp}")), expected);
+    let seen = shown("fov.vertical = 30deg, up = (0, 0, 1), aperture = 2cm");
+    assert!(seen.contains("up = (0, 0, 1)\n") && seen.contains("fov.vertical = 30deg"), "{seen}");
+    assert!(seen.contains("aperture = 2cm") && !seen.contains("from"), "{seen}");
+}
+
+#[test]
 fn what_is_metered_becomes_middle_grey() {
     let film = |fields: &str| {
         let text = format!(

@@ -81,6 +81,9 @@ fn decl(decl: &Decl) -> String {
     match &decl.base {
         Some(Base::Type(path)) => out.extend([" type:", &path.text()]),
         Some(Base::Like(path)) => out.extend([" like:", &path.text()]),
+        Some(Base::OfFile(base)) => {
+            let _ = write!(out, " like:{}({:?})", base.path.text(), base.name.text);
+        }
         Some(Base::Error(_)) => out += " base:ERROR",
         None => {}
     }

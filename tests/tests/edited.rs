@@ -1,5 +1,8 @@
 //! A mesh file whose materials are replaced by name is the scene in which each part is an instance of its own.
 
+#[path = "edited/of_file.rs"]
+mod of_file;
+
 use std::path::Path;
 
 use compiler::pipeline::Compiled;

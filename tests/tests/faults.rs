@@ -13,6 +13,11 @@ use lang::source::{LoadError, Loader, SourceSet};
 /// What the examples read.
 const FILES: &[(&str, &str)] = &[
     ("good.obj", "g rock\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+    (
+        "glass.obj",
+        "mtllib glass.mtl\nusemtl glass\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 4 3\nf 1 2 4\nf 2 3 4\n",
+    ),
+    ("glass.mtl", "newmtl glass\nillum 7\nNi 1.5\n"),
     ("not_a_mesh.obj", "v 0 0\nf 1 2 3\n"),
     ("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"),
     ("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"),

@@ -175,11 +175,7 @@ fn light_text(light: &FileLight, name: &str, size: f64) -> String {
 }
 
 fn camera_text(camera: &FileCamera, name: &str, size: f64, middle: [f64; 3]) -> String {
-    // It looks at what is in the middle of the file, as far as it looks that way.
-    let to_middle = [0, 1, 2].map(|k| middle[k] - camera.from[k]);
-    let ahead: f64 = (0..3).map(|k| to_middle[k] * camera.along[k]).sum();
-    let ahead = if ahead > 1e-3 * size { ahead } else { size.max(1e-3) };
-    let to = [0, 1, 2].map(|k| camera.from[k] + ahead * camera.along[k]);
+    let to = camera.target(size, middle);
     let upright = camera.up[0].abs() < 1e-4 && camera.along[1].abs() < 0.999 && camera.up[1] > 0.0;
     let level = camera.along[0] * camera.up[2] - camera.along[2] * camera.up[0];
     let up = if upright && level.abs() < 1e-4 {

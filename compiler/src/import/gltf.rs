@@ -39,8 +39,6 @@ use super::file::{Limits, Reader, read_file};
 use super::image_set::ImageSet;
 use super::mesh::{MeshFile, keep};
 use super::report::ImportReport;
-use super::studio::Studio;
-use crate::counted::counted;
 use ::gltf::json::{Accessor, Material, Root, deserialize, mesh, scene};
 use files::ShowPath as _;
 use lang::scene::GltfChoice;
@@ -101,7 +99,6 @@ pub fn read_gltf(
     let buffers = container::buffers(&document, chunk, folder, &mut reader)?;
     let pose = Pose::of(&buffers, choice, &mut reader)?;
     let Walk { placed, studio, skins } = node::walk(&buffers, &pose, &mut reader)?;
-    warn_about_studio(&studio, &document, &mut report);
     let table = primitive::Table::new(&document, variant, &placed, &mut reader, &mut report)?;
     let mut images = ImageSet::default();
     let mut source = Images { document: &document, buffers: &buffers, folder, reader };
@@ -203,20 +200,5 @@ fn warn_about(document: &Document<'_>, choice: &GltfChoice, report: &mut ImportR
     if !variants.is_empty() && choice.variant.is_none() {
         let names = list("its variants are", variants.into_iter());
         report.warn(document.file, format!("{names}; `variant` shows one of them"));
-    }
-}
-
-/// Says that lights and cameras are left out, and where they are to be had.
-fn warn_about_studio(studio: &Studio, document: &Document<'_>, report: &mut ImportReport) {
-    let counts =
-        [(studio.lights.len(), "light", "lights"), (studio.cameras.len(), "camera", "cameras")];
-    let found = counts.into_iter().filter(|(n, ..)| *n > 0);
-    let list: Vec<String> = found.map(|(n, one, several)| counted(n, one, several)).collect();
-    if !list.is_empty() {
-        let n = studio.lights.len() + studio.cameras.len();
-        let (verb, them) = if n == 1 { ("is", "it") } else { ("are", "them") };
-        let what = list.join(" and ");
-        let help = format!("`rtc show --assets` prints {them} as text for the scene");
-        report.warn(document.file, format!("{what} {verb} left out: {help}"));
     }
 }

@@ -68,3 +68,15 @@ pub struct FileCamera {
     /// Unit vector upwards in its image.
     pub up: [f64; 3],
 }
+
+impl FileCamera {
+    /// A point in the middle of its image: as far away as `middle`, that of the file, if that is in front of it, else
+    /// by `size`, that of the file. Metres.
+    #[must_use]
+    pub fn target(&self, size: f64, middle: [f64; 3]) -> [f64; 3] {
+        let to_middle = [0, 1, 2].map(|k| middle[k] - self.from[k]);
+        let ahead: f64 = (0..3).map(|k| to_middle[k] * self.along[k]).sum();
+        let ahead = if ahead > 1e-3 * size { ahead } else { size.max(1e-3) };
+        [0, 1, 2].map(|k| self.from[k] + ahead * self.along[k])
+    }
+}

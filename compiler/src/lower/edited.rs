@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use lang::diagnostic::{Code, Diagnostic, Fix};
 use lang::scene::{EditOf, Instance, MeshEdit, Parts, Scene, Shape};
+use lang::source::Span;
 
 use crate::import::MeshFacts;
 
@@ -79,7 +80,7 @@ impl Cutter<'_> {
 }
 
 /// Material, and where it is named.
-type Look = (Option<usize>, Option<lang::source::Span>);
+type Look = (Option<usize>, Option<Span>);
 
 /// Places in `shown` of the parts that a change holds for. Upper and lower case differ, unless nothing is found.
 fn matching(edit: &MeshEdit<usize>, file: &MeshFacts, shown: &[usize]) -> Vec<usize> {
@@ -141,24 +142,34 @@ fn unknown(
     file: &MeshFacts,
     shown: &[usize],
 ) -> Diagnostic {
-    let mut known: Vec<&str> = shown
+    let known = shown
         .iter()
         .flat_map(|part| names(edit.of, file, *part))
         .filter(|name| !name.is_empty())
         .collect();
-    known.sort_unstable();
-    known.dedup();
     let (what, asset) = (edit.of.word(), &scene.assets[asset]);
     let text = format!("`{}` shows no {what} named `{}`", asset.name.text, edit.pattern);
     let error = Diagnostic::error(Code("E0521"), text)
         .at(edit.pattern_span, "not in the file")
         .because(asset.path_span, "the file");
     let letters: String = edit.pattern.chars().filter(|c| !matches!(c, '*' | '?')).collect();
-    if let [similar, ..] = lang::suggest::suggest(&letters, known.iter().copied()).as_slice()
+    listed(error, (what, &letters, edit.pattern_span), known)
+}
+
+/// Tells of an unknown name which one is meant, or which ones there are; `name`: what is named, its letters, and the
+/// text with its quotes.
+pub(super) fn listed(
+    error: Diagnostic,
+    (what, letters, at): (&str, &str, Span),
+    mut known: Vec<&str>,
+) -> Diagnostic {
+    known.sort_unstable();
+    known.dedup();
+    if let [similar, ..] = lang::suggest::suggest(letters, known.iter().copied()).as_slice()
         && !similar.contains(['"', '\n'])
     {
         let message = format!("a {what} with a similar name exists: `{similar}`");
-        return error.with_fix(Fix::guess(message, edit.pattern_span, format!("\"{similar}\"")));
+        return error.with_fix(Fix::guess(message, at, format!("\"{similar}\"")));
     }
     error.with_note(match known.len() {
         0 => format!("it names no {what}"),

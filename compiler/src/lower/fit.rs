@@ -13,7 +13,7 @@ use crate::import::MeshFacts;
 /// Share of half the image that a thing fills.
 const FILLED: f64 = 0.95;
 /// As for cameras without `fit`: the sine between view and up below which the image has no up.
-const MIN_UP_SINE: f64 = 1e-6;
+pub(super) const MIN_UP_SINE: f64 = 1e-6;
 
 /// The scene with its camera where it is to be; `None` where that frames nothing. Faults go to `diagnostics`.
 pub fn framed(

@@ -10,7 +10,7 @@ use pack::abi::{self, MaterialKind, NONE, material_flag};
 use super::light::tint;
 use table::blank;
 
-pub(super) use table::{MaterialRef, MaterialTable};
+pub(super) use table::{MaterialRef, MaterialTable, linear};
 
 /// Reflectance of surfaces that nobody gave a material: a neutral 50 % grey.
 const DEFAULT_COLOR: f32 = 0.5;

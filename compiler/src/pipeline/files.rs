@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::findings::{failed, find_parts, report};
+use super::findings::{failed, find_parts, left_out, report};
 use super::options::Options;
 use super::session::Session;
 use crate::atmosphere;
@@ -97,6 +97,8 @@ impl<'a> SceneFiles<'a> {
                 }
                 Ok((facts, file)) => {
                     report(&facts.report, asset.path_span, diagnostics);
+                    let camera = scene.camera.of_file.as_ref().map(|of_file| of_file.base.asset);
+                    diagnostics.extend(left_out(&facts.studio, asset, camera == Some(index)));
                     counts.meshes.count(file.is_none());
                     files.extend(facts.report.files.iter().map(|file| FileRead {
                         name: relative(&file.path, root),

@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use lang::diagnostic::{Code, Diagnostic, Fix};
-use lang::scene::{Parts, Scene, Shape};
+use lang::scene::{Asset, Parts, Scene, Shape};
 use lang::source::Span;
 
 use crate::counted::counted;
-use crate::import::{ErrorKind, ImportError, ImportReport, MeshFacts};
+use crate::import::{ErrorKind, ImportError, ImportReport, MeshFacts, Studio};
 
 /// A file that cannot be used, where the scene names it; `written`: its path there.
 pub(super) fn failed(error: &ImportError, span: Span, written: &str) -> Diagnostic {
@@ -88,6 +88,26 @@ pub(super) fn report(report: &ImportReport, span: Span, diagnostics: &mut Vec<Di
         let message = format!("{} more things like these are odd in this file", report.n_untold);
         warn("W0524", "import", message, &None);
     }
+}
+
+/// That lights and cameras of a file are left out, and where they are to be had. Who takes one of its cameras knows that
+/// it has some.
+pub(super) fn left_out(studio: &Studio, asset: &Asset, takes_camera: bool) -> Option<Diagnostic> {
+    let cameras = if takes_camera { 0 } else { studio.cameras.len() };
+    let counts = [(studio.lights.len(), "light", "lights"), (cameras, "camera", "cameras")];
+    let found = counts.into_iter().filter(|(n, ..)| *n > 0);
+    let list: Vec<String> = found.map(|(n, one, several)| counted(n, one, several)).collect();
+    if list.is_empty() {
+        return None;
+    }
+    let one = studio.lights.len() + cameras == 1;
+    let (verb, them) = if one { ("is", "it") } else { ("are", "them") };
+    let message = format!(
+        "{}: {} {verb} left out: `rtc show --assets` prints {them} as text for the scene",
+        asset.path,
+        list.join(" and ")
+    );
+    Some(Diagnostic::warning(Code("W0524"), "import", message).at(asset.path_span, ""))
 }
 
 /// A part that a file does not have is an unknown name, with the names it has.

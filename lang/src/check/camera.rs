@@ -5,7 +5,10 @@ use super::fields::{Fields, moments};
 use super::light::unit;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
-use crate::scene::{Camera, CameraKey, Film, Fit, Lens, Name, Projection, Side, at_time};
+use crate::scene::{
+    Camera, CameraKey, CameraOfFile, FieldOfView, Film, Fit, LensSpec, Name, Opening, Projection,
+    Side, across_other, at_time,
+};
 use crate::schema;
 use crate::schema::camera::CameraType;
 use crate::units::{self, Dim};
@@ -104,7 +107,7 @@ fn lens_note(fields: &Fields) -> String {
     };
     let millimetres = |metres: f64| format!("{}mm", units::show_number(round(metres * 1e3, 1e3)));
     let across = 2.0 * libm::atan(0.5 * width / lens);
-    let up = vertical(across, 9.0 / 16.0);
+    let up = across_other(across, 9.0 / 16.0);
     format!(
         "{} on a {} sensor: {} across, {} up at 16:9",
         millimetres(lens),
@@ -122,11 +125,6 @@ fn round(value: f64, steps: f64) -> f64 {
     (value * steps).round() / steps
 }
 
-/// The angle across the other side of an image whose height over width is `aspect`.
-fn vertical(horizontal: f64, aspect: f64) -> f64 {
-    2.0 * libm::atan(libm::tan(0.5 * horizontal) * aspect)
-}
-
 /// How the camera frames an instance.
 fn fit(instance: Name, fields: &Fields) -> Fit {
     let side = match (fields.has("from"), fields.has("to")) {
@@ -138,7 +136,7 @@ fn fit(instance: Name, fields: &Fields) -> Fit {
 
 /// Where the camera is; for one that frames something where it looks from.
 fn place(fields: &Fields, fit: Option<&Fit>) -> Option<[[f64; 3]; 2]> {
-    match (fields.vector("from"), fields.vector("to"), fit) {
+    match (point(fields, "from", 0.0), point(fields, "to", 0.0), fit) {
         (Some(from), Some(to), _) => Some([from, to]),
         (Some(from), None, Some(_)) => {
             let [x, y, z] = from;
@@ -147,6 +145,12 @@ fn place(fields: &Fields, fit: Option<&Fit>) -> Option<[[f64; 3]; 2]> {
         (None, _, Some(_)) => Some([FRONT, [0.0; 3]]),
         _ => None,
     }
+}
+
+/// Where `from` or `to` is at some moment; anywhere, if a file is to say it.
+fn point(fields: &Fields, name: &str, time: f64) -> Option<[f64; 3]> {
+    let unknown = || if name == "from" { FRONT } else { [0.0; 3] };
+    fields.triple_at(name, time).or_else(|| fields.of_file.as_ref().map(|_| unknown()))
 }
 
 /// Builds the camera; `framed`: the instance that it names. `None` only for fields with faults.
@@ -164,7 +168,7 @@ pub(super) fn camera(
     let keys: Vec<CameraKey> = moments_of(fields)
         .into_iter()
         .map(|time| {
-            let [from, to] = ["from", "to"].map(|name| fields.triple_at(name, time));
+            let [from, to] = ["from", "to"].map(|name| point(fields, name, time));
             Some(CameraKey { time, from: from?, to: to? })
         })
         .collect::<Option<_>>()?;
@@ -178,7 +182,7 @@ pub(super) fn camera(
     let aspect = f64::from(film.size[1]) / f64::from(film.size[0]);
     let projection = match CameraType::of(fields.schema) {
         CameraType::Perspective => {
-            Projection::Perspective(lens(fields, aspect, length(sub(to, from)))?)
+            Projection::Perspective(lens_spec(fields)?.lens(aspect, length(sub(to, from))))
         }
         CameraType::Orthographic => {
             let size = match (fields.number("width"), fields.number("height")) {
@@ -192,37 +196,34 @@ pub(super) fn camera(
             Projection::Panoramic { fov_horizontal: fields.number("fov.horizontal")? }
         }
     };
-    let up = fields.vector("up")?;
+    let of_file = match fields.file_base(&|_| 0) {
+        Some(base) => Some(CameraOfFile { base, lens: lens_spec(fields)? }),
+        None => None,
+    };
+    let up = fields.vector("up").or(of_file.as_ref().map(|_| [0.0, 1.0, 0.0]))?;
     let follows = !fields.has("focus");
-    Some(Camera { name, fit, from, to, up, projection, shutter, keys, follows })
+    Some(Camera { name, fit, from, to, up, projection, shutter, keys, follows, of_file })
 }
 
-/// Builds the lens of a perspective camera; `aspect`: height over width of the film. `None` only for fields with
-/// faults.
-fn lens(fields: &Fields, aspect: f64, distance: f64) -> Option<Lens> {
-    let sensor = fields.number("sensor.width")?;
-    let (across, up) = match (fields.number("fov.horizontal"), fields.number("fov.vertical")) {
-        (Some(across), _) => (across, vertical(across, aspect)),
-        (None, Some(up)) => (vertical(up, 1.0 / aspect), up),
-        (None, None) => {
-            let lens = fields.number("lens").unwrap_or(DEFAULT_LENS);
-            let across = 2.0 * libm::atan(0.5 * sensor / lens);
-            (across, vertical(across, aspect))
-        }
+/// What a camera says of its lens. `None` only for fields with faults.
+fn lens_spec(fields: &Fields) -> Option<LensSpec> {
+    let view = match (fields.number("fov.horizontal"), fields.number("fov.vertical")) {
+        (Some(across), _) => FieldOfView::Horizontal(across),
+        (None, Some(up)) => FieldOfView::Vertical(up),
+        (None, None) => FieldOfView::FocalLength(fields.number("lens").unwrap_or(DEFAULT_LENS)),
     };
-    let focal_length = 0.5 * sensor / libm::tan(0.5 * across);
     let opening = match (fields.number("aperture"), fields.number("f_stop")) {
-        (Some(opening), _) => opening,
-        (None, Some(f_stop)) => focal_length / f_stop,
-        (None, None) => 0.0,
+        (Some(opening), _) => Opening::Diameter(opening),
+        (None, Some(f_stop)) => Opening::FStop(f_stop),
+        (None, None) => Opening::Diameter(0.0),
     };
-    Some(Lens {
-        fov_horizontal: across,
-        fov_vertical: up,
-        radius: 0.5 * opening,
+    Some(LensSpec {
+        sensor: fields.number("sensor.width")?,
+        view,
+        opening,
         blades: fields.integer("blades"),
         rotation: fields.number("rotation")?,
-        focus_distance: fields.number("focus").unwrap_or(distance),
+        focus_distance: fields.number("focus"),
     })
 }
 
@@ -230,7 +231,7 @@ fn lens(fields: &Fields, aspect: f64, distance: f64) -> Option<Lens> {
 pub(super) fn check_built(ev: &mut Evaluator<'_>, camera: &Camera) {
     let (sees, help) = match &camera.projection {
         Projection::Perspective(lens) => {
-            let Some(sees) = beyond_drawing(lens) else { return };
+            let Some(sees) = lens.beyond_drawing() else { return };
             (sees, "choose another field of view, or a film that is less narrow")
         }
         Projection::Orthographic { size: Some(size), .. } => {
@@ -261,17 +262,6 @@ pub(super) fn check_built(ev: &mut Evaluator<'_>, camera: &Camera) {
     let text = format!("`{}` sees {sees}, which cannot be drawn", camera.name.text);
     let error = Diagnostic::error(Code("E0704"), text).at(camera.name.span, "this camera");
     ev.fault(error.with_help(help));
-}
-
-/// What a lens sees, if that cannot be drawn.
-fn beyond_drawing(lens: &Lens) -> Option<String> {
-    let numbers = [lens.fov_horizontal, lens.fov_vertical, lens.radius, lens.focus_distance];
-    let flat = std::f64::consts::PI - 1e-3;
-    let sound = numbers.iter().all(|v| v.is_finite() && *v >= 0.0 && *v < schema::MAX_MAGNITUDE);
-    let angles = [lens.fov_horizontal, lens.fov_vertical];
-    let drawn = sound && angles.iter().all(|v| *v > 1e-9 && *v < flat) && lens.focus_distance > 0.0;
-    let [across, up] = angles.map(|angle| units::show(angle, Dim::ANGLE));
-    (!drawn).then(|| format!("{across} across and {up} up"))
 }
 
 fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

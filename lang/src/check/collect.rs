@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-use super::fields::{Fields, default_value};
+use super::fields::{Fields, default_value, is_said_by_files};
 use super::given::{Given, Givens, OwnFields};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::eval::value::Value;
@@ -140,8 +140,10 @@ impl<'p> Evaluator<'p> {
     pub(crate) fn fields_of(&mut self, id: ItemId) -> Option<Fields> {
         self.check_names(id);
         let givens = self.givens(id);
-        let schema = self.models.get(&id)?.schema;
+        let model = self.models.get(&id)?;
+        let (schema, of_file) = (model.schema, model.of_file.clone());
         let mut fields = Fields::new(schema);
+        fields.of_file = of_file;
         for given in givens.values() {
             let value = self.field_once(id, schema, given);
             fields.put(given.field, value, given.span, given.expr.span);
@@ -188,11 +190,13 @@ impl<'p> Evaluator<'p> {
 
     /// The value of `name.field` where an expression refers to it.
     pub(crate) fn referred_field(&mut self, id: ItemId, field: &'static Field, at: Span) -> Value {
-        let Some(schema) = self.models.get(&id).map(|model| model.schema) else {
-            return Value::Poison;
-        };
+        let Some(model) = self.models.get(&id) else { return Value::Poison };
+        let schema = model.schema;
         let value = match self.givens(id).get(field.name) {
             Some(given) => self.field_once(id, schema, given),
+            None if model.of_file.is_some() && is_said_by_files(schema.kind, field.name) => {
+                return self.said_by_file(id, field, at);
+            }
             None => Value::Default,
         };
         let value = match value {
@@ -211,6 +215,17 @@ impl<'p> Evaluator<'p> {
             Value::Integer(n) => Value::plain(f64::from(n)),
             other => other,
         }
+    }
+
+    /// Reports that an expression refers to what only a file says.
+    fn said_by_file(&mut self, id: ItemId, field: &'static Field, at: Span) -> Value {
+        let name = self.program.name(id);
+        let text = format!("`{}` of `{name}` is not known here", field.name);
+        let error = Diagnostic::error(Code("E0309"), text)
+            .at(at, "its file says it, which is read later")
+            .because(self.program.name_span(id), "declared here")
+            .with_help(format!("set `{}` in `{name}`", field.name));
+        self.fault(error)
     }
 
     /// Reports all required fields that are missing, in one message.

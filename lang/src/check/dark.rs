@@ -6,13 +6,13 @@ use super::instance::Placed;
 use super::material;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::resolve::ItemId;
-use crate::scene::MaterialModel;
+use crate::scene::Material;
 use crate::source::Span;
 
 /// Warnings of groups that are written where nothing gives off light. A mesh that brings its own materials may.
 pub(super) fn groups<'m>(
     placed: &[Placed],
-    model: impl Fn(ItemId) -> Option<&'m MaterialModel>,
+    material: impl Fn(ItemId) -> Option<&'m Material>,
 ) -> Vec<Diagnostic> {
     // By place: one that stands for many instances counts once.
     let mut emits: BTreeMap<Span, (bool, Option<Span>)> = BTreeMap::new();
@@ -20,7 +20,7 @@ pub(super) fn groups<'m>(
         let Some((_, span)) = &thing.group else { continue };
         let (emits, because) = emits.entry(*span).or_default();
         *emits |= match thing.material {
-            Some((id, _)) => model(id).is_some_and(material::emits),
+            Some((id, _)) => material(id).is_some_and(material::emits),
             None => true,
         };
         *because = because.or(thing.material.map(|(_, span)| span));

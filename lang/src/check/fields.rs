@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use crate::eval::value::{Key, Value};
-use crate::resolve::ItemId;
-use crate::scene::{Axis, MotionKey, Rgb, at_time};
-use crate::schema::{self, Default, Field, FieldType, TypeSchema};
+use crate::resolve::{InFile, ItemId};
+use crate::scene::{Axis, FileBase, MotionKey, Name, Rgb, at_time};
+use crate::schema::{self, Default, Field, FieldType, Kind, TypeSchema};
 use crate::shape::Lengths;
 use crate::source::Span;
 use crate::units::{self, Dim};
@@ -18,6 +18,19 @@ pub(crate) struct Fields {
     values: BTreeMap<&'static str, Written>,
     /// Nothing is missing and nothing is poisoned.
     pub(crate) ok: bool,
+    /// What of a mesh file it is like.
+    pub(crate) of_file: Option<InFile>,
+}
+
+/// Whether a file says this of its materials or cameras, so that its default does not count for what is like one.
+pub(crate) fn is_said_by_files(kind: Kind, field: &str) -> bool {
+    match kind {
+        Kind::Material => !["compensation", "projection"].contains(&field),
+        Kind::Camera => {
+            ["from", "to", "up", "lens", "fov.horizontal", "fov.vertical"].contains(&field)
+        }
+        _ => false,
+    }
 }
 
 /// A field that is written in the text.
@@ -87,7 +100,25 @@ pub(super) fn moments<'a>(lists: impl IntoIterator<Item = &'a [Key]>) -> Vec<f64
 impl Fields {
     /// Nothing written: every field has its default, where it has one.
     pub(crate) fn new(schema: &'static TypeSchema) -> Self {
-        Self { schema, values: BTreeMap::new(), ok: true }
+        Self { schema, values: BTreeMap::new(), ok: true, of_file: None }
+    }
+
+    /// The same, with a default for everything that a file says.
+    pub(crate) fn without_file(&self) -> Self {
+        Self { of_file: None, ..self.clone() }
+    }
+
+    /// What it takes from a file, if anything.
+    pub(crate) fn file_base(&self, asset: &dyn Fn(ItemId) -> usize) -> Option<FileBase> {
+        let base = self.of_file.as_ref()?;
+        let said = self.values.iter().map(|(name, written)| (*name, written.span)).collect();
+        let name = Name { text: base.name.clone(), span: base.span };
+        Some(FileBase { asset: asset(base.asset), name, said })
+    }
+
+    /// Whether the file that it is like something of says this field.
+    fn is_in_file(&self, name: &str) -> bool {
+        self.of_file.is_some() && is_said_by_files(self.schema.kind, name)
     }
 
     /// Sets a field. `span` is the whole assignment.
@@ -111,7 +142,10 @@ impl Fields {
             Some(written) => matches!(written.value, Value::Default),
         };
         // A camera that frames something finds its place itself.
-        let found = |field: &&Field| self.has("fit") && ["from", "to"].contains(&field.name);
+        let found = |field: &&Field| {
+            let by_file = self.is_in_file(field.name) && self.span(field.name).is_none();
+            by_file || self.has("fit") && ["from", "to"].contains(&field.name)
+        };
         let required = self.schema.fields.iter().filter(|field| field.is_required());
         required.filter(absent).filter(|field| !found(field)).collect()
     }
@@ -137,10 +171,11 @@ impl Fields {
         self.values.get(name).is_some_and(|written| written.value == Value::None)
     }
 
-    /// The value or its default; `None` where there is neither.
+    /// The value or its default; `None` where there is neither, or where a file says it.
     pub(crate) fn get(&self, name: &str) -> Option<Value> {
         let written = self.values.get(name).map(|written| written.value.clone());
         match written {
+            None if self.is_in_file(name) => None,
             Some(Value::Default) | None => self.schema.field(name).and_then(default_value),
             Some(Value::None) => None,
             other => other,

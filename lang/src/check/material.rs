@@ -7,9 +7,9 @@ use super::pattern;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::eval::value::Value;
-use crate::material::{Lints, TextureProjection, Traits as _};
+use crate::material::{Lints, NoEffect, TextureProjection, Traits as _, without_effect};
 use crate::resolve::ItemId;
-use crate::scene::{Color, MaterialModel, NormalMap};
+use crate::scene::{Color, Material, NormalMap};
 use crate::source::Span;
 use crate::units;
 
@@ -33,15 +33,6 @@ pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {
     }
 }
 
-/// Fields that do nothing because of what another field says, and why.
-const NO_EFFECT: &[(&str, &str, f64, &str)] = &[
-    ("coat.roughness", "coat.weight", 0.0, "there is no coat"),
-    ("anisotropy.rotation", "anisotropy", 0.0, "nothing is brushed"),
-    ("transmission", "metallic", 1.0, "metal lets nothing through"),
-    ("specular", "metallic", 1.0, "what a metal reflects is its `color`"),
-    ("specular.color", "metallic", 1.0, "what a metal reflects is its `color`"),
-];
-
 /// Warns of fields that are written and do nothing.
 fn no_effect(ev: &mut Evaluator<'_>, fields: &Fields) {
     let mut warn = |name: &str, label: &str, because: Option<Span>| {
@@ -54,16 +45,13 @@ fn no_effect(ev: &mut Evaluator<'_>, fields: &Fields) {
             None => warning,
         });
     };
-    for (name, other, value, label) in NO_EFFECT {
-        let zero = fields.number(name) == Some(0.0);
-        if !zero && fields.number(other) == Some(*value) {
-            warn(name, label, fields.span(other));
-        }
+    for NoEffect { field, because, why } in without_effect(|name| fields.number(name)) {
+        warn(field, why, fields.span(because));
     }
     if fields.get("sheen") == Some(Value::Color([0.0; 3])) {
         warn("sheen.roughness", "there is no sheen", fields.span("sheen"));
     }
-    if !fields.has("normal") {
+    if !fields.has("normal") && (fields.of_file.is_none() || fields.is_none("normal")) {
         warn("normal.strength", "there is no normal map", None);
     }
 }
@@ -115,7 +103,8 @@ fn unprojected(ev: &mut Evaluator<'_>, fields: &Fields) {
             .with_help("use the texture coordinates of the shape: `projection = uv`");
         ev.fault(error);
     }
-    if !fields.schema.fields.iter().any(|field| textured(field.name)) {
+    let may_be = fields.of_file.is_some();
+    if !may_be && !fields.schema.fields.iter().any(|field| textured(field.name)) {
         let text = "`projection` has no effect: nothing of this material is a texture";
         let warning =
             Diagnostic::warning(Code("W0404"), "no_effect", text).at(span, "changes nothing");
@@ -158,10 +147,12 @@ pub(super) fn textures(fields: &Fields) -> Vec<ItemId> {
         .collect()
 }
 
-/// Does it give off light?
-pub(super) fn emits(model: &MaterialModel) -> bool {
-    model.emission().is_some_and(|(color, strength)| {
-        let dark = matches!(color, Color::Constant(rgb) if rgb.iter().all(|c| *c == 0.0));
-        strength > 0.0 && !dark
-    })
+/// Does it give off light? What is like a material of a file may.
+pub(super) fn emits(material: &Material) -> bool {
+    let emission = material.model.emission();
+    material.of_file.is_some()
+        || emission.is_some_and(|(color, strength)| {
+            let dark = matches!(color, Color::Constant(rgb) if rgb.iter().all(|c| *c == 0.0));
+            strength > 0.0 && !dark
+        })
 }

@@ -68,7 +68,8 @@ fn why_not(
     checked: &BTreeMap<ItemId, Fields>,
     id: ItemId,
 ) -> Option<&'static str> {
-    let fields = checked.get(&id).filter(|fields| fields.ok)?;
+    // What is like a material of a file is looked at when the file has been read.
+    let fields = checked.get(&id).filter(|fields| fields.ok && fields.of_file.is_none())?;
     // Only traits are asked, which depend on no index.
     let program = ev.program;
     let all = |kind| {

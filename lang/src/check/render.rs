@@ -18,6 +18,8 @@ pub(super) struct View {
     pub(super) render: Render,
     /// The medium that fills the space between things.
     pub(super) atmosphere: Option<ItemId>,
+    /// The mesh file of the camera.
+    pub(super) camera_file: Option<ItemId>,
 }
 
 impl Checker {
@@ -41,7 +43,10 @@ impl Checker {
         let fields_of_camera = self.sound(camera)?;
         let framed = framed(ev, fields_of_camera);
         let camera = camera::camera(name(ev, camera), framed, fields_of_camera, &film)?;
-        camera::check_built(ev, &camera);
+        let camera_file = fields_of_camera.of_file.as_ref().map(|base| base.asset);
+        if camera_file.is_none() {
+            camera::check_built(ev, &camera);
+        }
         let sky = match sky {
             Choice::Item(sky) => Some(sky::read(name(ev, sky), self.sound(sky)?)?),
             Choice::Nothing => None,
@@ -63,13 +68,14 @@ impl Checker {
             layers: fields.words("layers").into_iter().filter_map(Layer::of).collect(),
             output: fields.text("output"),
         };
-        if let Some(fields) =
-            atmosphere.and_then(|id| self.sound(id)).filter(|_| camera.fit.is_none())
+        if let Some(fields) = atmosphere
+            .and_then(|id| self.sound(id))
+            .filter(|_| camera.fit.is_none() && camera_file.is_none())
         {
             medium::warn_of_blindness(ev, fields, &camera, &render);
         }
         warn_of_samples(ev, fields, &render);
-        Some(View { camera, film, sky, render, atmosphere })
+        Some(View { camera, film, sky, render, atmosphere, camera_file })
     }
 
     /// Fields without a fault.

@@ -16,17 +16,17 @@ use crate::eval::value::ShapeValue;
 use crate::material::{Emissive, Reader, TextureProjection};
 use crate::resolve::ItemId;
 use crate::scene::{
-    Asset, Directional, Instance, Light, Material, MaterialModel, Medium, Name, Profile, Scalar,
-    Scene, Shape, Texture, TextureExpression,
+    Asset, Directional, Instance, Light, Material, MaterialModel, MaterialOfFile, Medium, Name,
+    Profile, Scalar, Scene, Shape, Texture, TextureExpression,
 };
 use crate::schema::Kind;
 use crate::shape::{MeshEdit, Parts};
 
-/// Indices in the scene of what materials name: textures, expressions of them, media, materials.
+/// Indices in the scene of what materials name: textures, expressions of them, media, materials, mesh files.
 type Index<'a> = (
     &'a dyn Fn(ItemId) -> usize,
     &'a dyn Fn(&TextureExpression<ItemId>) -> usize,
-    [&'a BTreeMap<ItemId, usize>; 2],
+    [&'a BTreeMap<ItemId, usize>; 3],
 );
 
 impl Checker {
@@ -46,13 +46,7 @@ impl Checker {
             used.iter().filter_map(|id| self.sound(*id)).flat_map(material::textures).collect();
         let profiles = near.iter().filter_map(|(_, profile)| *profile);
         let read: BTreeSet<ItemId> = read.into_iter().chain(profiles).collect();
-        let meshes: BTreeSet<ItemId> = placed
-            .iter()
-            .filter_map(|p| match *p.shape {
-                ShapeValue::Mesh(id, ..) => Some(id),
-                ShapeValue::Plain(_) | ShapeValue::Object(..) | ShapeValue::Objects(_) => None,
-            })
-            .collect();
+        let meshes = self.meshes(&placed, &used, view.camera_file);
         let (texture_order, material_order, asset_order) =
             (sorted(ev, &read), sorted(ev, &used), sorted(ev, &meshes));
         let interiors = used.iter().filter_map(|id| self.sound(*id)?.item("interior"));
@@ -67,18 +61,21 @@ impl Checker {
             intern(&mut expressions.borrow_mut(), of.named(&|id| texture(*id)))
         };
         let material_at = index(&material_order);
-        let indices = [&medium_at, &material_at];
+        let asset_at = index(&asset_order);
+        if let (Some(of_file), Some(asset)) = (&mut view.camera.of_file, view.camera_file) {
+            of_file.base.asset = *asset_at.get(&asset)?;
+        }
+        let indices = [&medium_at, &material_at, &asset_at];
         let materials =
             self.materials(&material_order, &glows, (&texture, &expression, indices))?;
-        let model = |id| Some(&materials.get(*material_at.get(&id)?)?.model);
-        let warnings = dark::groups(&placed, model);
+        let warnings = dark::groups(&placed, |id| materials.get(*material_at.get(&id)?));
         let mut scene = Scene {
             assets: self.assets(&asset_order)?,
             textures: textures(ev, &texture_order)?,
             expressions: expressions.into_inner(),
             materials,
             media: self.media(&medium_order)?,
-            instances: instances(placed, &material_at, &index(&asset_order))?,
+            instances: instances(placed, &material_at, &asset_at)?,
             lights: near.into_iter().map(|light| profiled(light, &texture)).collect(),
             directional,
             sky: view.sky,
@@ -97,6 +94,21 @@ impl Checker {
         motion::check(ev, &scene);
         link_sets::check(ev, &scene);
         Some(scene)
+    }
+
+    /// Mesh files that are shown, or that materials in use or the camera are like something of.
+    fn meshes(
+        &self,
+        placed: &[Placed],
+        used: &BTreeSet<ItemId>,
+        of_camera: Option<ItemId>,
+    ) -> BTreeSet<ItemId> {
+        let shown = placed.iter().filter_map(|placed| match *placed.shape {
+            ShapeValue::Mesh(id, ..) => Some(id),
+            ShapeValue::Plain(_) | ShapeValue::Object(..) | ShapeValue::Objects(_) => None,
+        });
+        let of_materials = used.iter().filter_map(|id| self.sound(*id)?.of_file.as_ref());
+        shown.chain(of_materials.map(|base| base.asset)).chain(of_camera).collect()
     }
 
     /// Lights of the world.
@@ -128,20 +140,35 @@ impl Checker {
         &self,
         order: &[(Name, ItemId)],
         glows: &BTreeMap<ItemId, Emissive>,
-        (textures, expressions, [media, materials]): Index<'_>,
+        (textures, expressions, [media, materials, assets]): Index<'_>,
     ) -> Option<Vec<Material>> {
         let material = |(name, id): &(Name, ItemId)| {
             if let Some(glow) = glows.get(id) {
                 let model = MaterialModel::Emissive(glow.clone());
                 let (normal, projection) = (None, TextureProjection::Uv);
-                return Some(Material { name: name.clone(), model, normal, projection });
+                return Some(Material {
+                    name: name.clone(),
+                    model,
+                    normal,
+                    projection,
+                    of_file: None,
+                });
             }
-            let fields = self.sound(*id)?;
+            let written = self.sound(*id)?;
+            let fields = &written.without_file();
             let reader = Reader { fields, textures, expressions, media, materials };
             let model = MaterialModel::read(&reader)?;
             let normal = material::normal(fields, textures);
             let projection = TextureProjection::of(fields);
-            Some(Material { name: name.clone(), model, normal, projection })
+            let of_file = match written.file_base(&|asset| assets.get(&asset).copied().unwrap_or(0))
+            {
+                Some(base) => {
+                    let normal_strength = fields.number("normal.strength")?;
+                    Some(MaterialOfFile { base, normal_strength })
+                }
+                None => None,
+            };
+            Some(Material { name: name.clone(), model, normal, projection, of_file })
         };
         order.iter().map(material).collect()
     }
@@ -207,7 +234,7 @@ fn add_panel(scene: &mut Scene, panel: Panel) {
     }
     let model = MaterialModel::Emissive(material);
     let (normal, projection) = (None, TextureProjection::Uv);
-    scene.materials.push(Material { name: panel.name, model, normal, projection });
+    scene.materials.push(Material { name: panel.name, model, normal, projection, of_file: None });
 }
 
 fn textures(ev: &Evaluator<'_>, order: &[(Name, ItemId)]) -> Option<Vec<Texture>> {
@@ -222,6 +249,7 @@ fn textures(ev: &Evaluator<'_>, order: &[(Name, ItemId)]) -> Option<Vec<Texture>
                 space: info.space,
                 wrap: info.wrap,
                 placement: info.placement,
+                of_mesh: None,
             })
         })
         .collect()
@@ -321,7 +349,7 @@ fn no_light(ev: &mut Evaluator<'_>, scene: &Scene) {
         || scene.directional.iter().any(|light| light.radiance.iter().any(|c| *c > 0.0))
         || scene.sky.as_ref().is_some_and(|sky| !sky::is_black(sky))
         || scene.instances.iter().any(|instance| {
-            let emits = |material: usize| material::emits(&scene.materials[material].model);
+            let emits = |material: usize| material::emits(&scene.materials[material]);
             instance.material.is_none_or(emits)
                 || instance.edits.iter().filter_map(|edit| edit.material).any(emits)
         });

@@ -4,14 +4,15 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::resolve::{ItemId, item_name, item_word};
 use crate::schema::Kind;
-use crate::syntax::{Base, ItemKind};
+use crate::syntax::{Base, ItemKind, OfFile};
 
 /// Looks at a scene without errors. Names that begin with `_` may be unused.
 pub(super) fn check(ev: &mut Evaluator<'_>) {
     let program = ev.program;
     for id in program.ids() {
         if let Some(decl) = program.decl(id)
-            && let Some(Base::Like(path) | Base::Type(path)) = &decl.base
+            && let Some(Base::Like(path) | Base::Type(path) | Base::OfFile(OfFile { path, .. })) =
+                &decl.base
             && let Some(base) = program.lookup(id.module, path)
         {
             ev.used.insert(base);

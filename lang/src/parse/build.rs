@@ -10,7 +10,7 @@ use crate::scene::Axis;
 use crate::source::{Span, byte_offset};
 use crate::syntax::{
     Arg, Base, BinaryOp, Binding, CompareOp, Edit, Entry, Expr, ExprKind, Field, Ident, Import,
-    ImportNames, Index, Number, Param, Path, Text, Unit,
+    ImportNames, Index, Number, OfFile, Param, Path, Text, Unit,
 };
 
 /// The next part of a rule that always has one.
@@ -93,9 +93,21 @@ impl Reader<'_> {
 
     pub(super) fn base(&self, pair: Pair<'_, Rule>) -> Base {
         let like = pair.as_rule() == Rule::like_base;
-        let path =
-            self.path(pair.into_inner().last().expect("the grammar ends a base with a path"));
-        if like { Base::Like(path) } else { Base::Type(path) }
+        let mut parts = pair.into_inner();
+        let path = parts.find(|part| part.as_rule() == Rule::path);
+        let path = self.path(path.expect("the grammar has a path in a base"));
+        match parts.next() {
+            Some(of_file) => Base::OfFile(self.of_file(path, of_file)),
+            None if like => Base::Like(path),
+            None => Base::Type(path),
+        }
+    }
+
+    fn of_file(&self, path: Path, pair: Pair<'_, Rule>) -> OfFile {
+        let mut parts = pair.into_inner();
+        let name = self.string(&next(&mut parts));
+        let span = path.span.to(self.span(&next(&mut parts)));
+        OfFile { path, name, span }
     }
 
     pub(super) fn field(&mut self, pair: Pair<'_, Rule>) -> Field {

@@ -283,6 +283,17 @@ impl Reader<'_> {
                 .at(at, format!("found {}", self.quoted(third)))
                 .with_fix(Fix::guess("name the type", self.token_span(name).after(), ":"));
         }
+        if let Some(colon) = third.filter(|t| t.text(self.text) == ":")
+            && let Some(bracket) = tokens.iter().find(|t| t.text(self.text) == "(")
+        {
+            return Diagnostic::error(Code("E0101"), "a type has no `(`")
+                .at(self.token_span(*bracket), "not wanted")
+                .with_fix(Fix::guess(
+                    "to take something from a file, write `like`",
+                    self.token_span(*colon),
+                    " like",
+                ));
+        }
         self.explain(Rule::strict_head, span, "the head")
     }
 

@@ -33,6 +33,8 @@ struct Stop {
     expected: Vec<Rule>,
     /// The fault lies in the middle of a token.
     inside_token: bool,
+    /// It is in the head of a declaration.
+    head: bool,
 }
 
 impl Stop {
@@ -142,7 +144,8 @@ impl Reader<'_> {
         let tokens = self.tokens_in(span);
         let n_right = tokens.iter().position(|t| t.end() > at).unwrap_or(tokens.len());
         let inside_token = tokens.get(n_right).is_some_and(|t| t.start() < at);
-        let stop = Stop { tokens, n_right, expected, inside_token };
+        let head = rule == Rule::strict_head;
+        let stop = Stop { tokens, n_right, expected, inside_token, head };
         let (before, found) = (stop.before(), stop.found());
         // After `param … = value` the `in` is optional, so it is not what is missing.
         let must = |keyword: Rule| keyword != Rule::kw_in || rule == Rule::strict_head;
@@ -168,7 +171,13 @@ impl Reader<'_> {
         let name = before
             .is_some_and(|t| matches!(t.text(self.text), "." | "as" | ":" | "like" | "["))
             && stop.wants(&[Rule::ident, Rule::path]);
-        let what = if import || name { "a name" } else { "a value" };
+        // Of a head, what stands in brackets names something in a file.
+        let text = before.is_some_and(|t| t.text(self.text) == "(") && stop.head;
+        let what = match (import || name, text) {
+            (true, _) => "a name",
+            (false, true) => "a text in quotes",
+            (false, false) => "a value",
+        };
         match found.and_then(|found| self.misplaced_word(found, what)) {
             Some(error) => error,
             None => self.expected(what, before, found),

@@ -2,13 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use super::model::Model;
+use super::model::{InFile, Model};
 use super::{Found, ItemId, Program, decl_kind, quoted_list};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::schema::{self, Kind, TypeSchema};
 use crate::source::Span;
 use crate::suggest::suggest;
 use crate::syntax::{Base, Decl, Path};
+
+mod of_file;
 
 /// A chain of `like` may be this long.
 const MAX_LIKE: usize = 8;
@@ -33,12 +35,13 @@ pub(crate) fn models(program: &Program) -> (BTreeMap<ItemId, Model>, Vec<Diagnos
 }
 
 /// What stands between the name and the block.
-#[derive(Clone, Copy)]
 enum Direct {
     /// A type, and an object for instances.
     Type(&'static TypeSchema, Option<(ItemId, Span)>),
     /// Another declaration of the same kind.
     Like(ItemId, Span),
+    /// A material or a camera of a mesh file.
+    OfFile(&'static TypeSchema, InFile),
     /// Already reported.
     Unknown,
 }
@@ -71,6 +74,7 @@ impl Bases<'_> {
             None => self.without_base(kind, decl),
             Some(Base::Type(path)) => self.typed(id, kind, path),
             Some(Base::Like(path)) => self.like(id, kind, path),
+            Some(Base::OfFile(base)) => self.of_file(id, kind, base),
             Some(Base::Error(_)) => Direct::Unknown,
         }
     }
@@ -152,10 +156,16 @@ impl Bases<'_> {
         let found = match self.program.find(id.module, path, Some(kind)) {
             Ok(Found::Item(found, used)) if used == path.segments.len() => found,
             Ok(Found::Poison) => return None,
-            Ok(Found::Item(..)) => {
+            Ok(Found::Item(found, _)) => {
                 let text = format!("`{}` is not the name of {}", path.text(), kind.with_article());
                 let error = Diagnostic::error(Code("E0203"), text).at(path.span, "not a name");
-                self.diagnostics.push(error);
+                let of_asset = super::item_kind(self.program.item(found)) == Some(Kind::Asset);
+                self.diagnostics.push(match path.segments.as_slice() {
+                    [.., last] if of_asset && last.text == kind.name() => {
+                        error.with_help(format!("say which: `like {}(\"name\")`", path.text()))
+                    }
+                    _ => error,
+                });
                 return None;
             }
             Err(error) => {
@@ -181,10 +191,17 @@ impl Bases<'_> {
         let mut chain = vec![id];
         let mut last = id;
         loop {
-            match *self.direct.get(&last)? {
-                Direct::Type(schema, object) => return Some(Model { schema, chain, object }),
+            match self.direct.get(&last)? {
+                Direct::Type(schema, object) => {
+                    let object = *object;
+                    return Some(Model { schema, chain, object, of_file: None });
+                }
+                Direct::OfFile(schema, base) => {
+                    let of_file = Some(base.clone());
+                    return Some(Model { schema, chain, object: None, of_file });
+                }
                 Direct::Unknown => return None,
-                Direct::Like(next, span) => {
+                &Direct::Like(next, span) => {
                     if chain.contains(&next) {
                         self.cycle(id, next, span);
                         return None;

@@ -13,4 +13,16 @@ pub(crate) struct Model {
     pub(crate) chain: Vec<ItemId>,
     /// For `instance name: object`: the object and where it is named.
     pub(crate) object: Option<(ItemId, Span)>,
+    /// What of a mesh file the last of the chain is like.
+    pub(crate) of_file: Option<InFile>,
+}
+
+/// What a declaration takes from a mesh file.
+#[derive(Clone, Debug)]
+pub(crate) struct InFile {
+    pub(crate) asset: ItemId,
+    /// Name in the file.
+    pub(crate) name: String,
+    /// Where the name is written.
+    pub(crate) span: Span,
 }

@@ -83,6 +83,36 @@ pub struct Texture {
     pub wrap: [Wrap; 2],
     /// Where the image lies.
     pub placement: Placement,
+    /// It is an image of a mesh file, as the compiler adds them; a scene declares none.
+    pub of_mesh: Option<MeshImage>,
+}
+
+/// An image of a mesh file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MeshImage {
+    /// Index into `Scene::assets`.
+    pub asset: usize,
+    /// Index into the images of the file.
+    pub image: usize,
+}
+
+/// A material or a camera of a mesh file, of which a declaration takes all that it does not say itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FileBase {
+    /// Index into `Scene::assets`.
+    pub asset: usize,
+    /// Its name in the file, and where the declaration says it.
+    pub name: Name,
+    /// Fields that the declaration says, each with its place.
+    pub said: Vec<(&'static str, Span)>,
+}
+
+impl FileBase {
+    /// Where the declaration says this field, if it does.
+    #[must_use]
+    pub fn says(&self, field: &str) -> Option<Span> {
+        self.said.iter().find(|(known, _)| *known == field).map(|(_, span)| *span)
+    }
 }
 
 words! {

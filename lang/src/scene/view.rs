@@ -1,6 +1,8 @@
 //! Who looks, and what becomes of it.
 
 use super::common::Name;
+use super::file::FileBase;
+use super::lens::{Lens, LensSpec};
 use super::motion::CameraKey;
 use crate::schema::words;
 
@@ -27,6 +29,18 @@ pub struct Camera {
     pub keys: Vec<CameraKey>,
     /// The distance of what is sharp follows the keys.
     pub follows: bool,
+    /// The camera of a mesh file that it is like; then what the declaration does not say of place and view is not known
+    /// yet.
+    pub of_file: Option<CameraOfFile>,
+}
+
+/// What a camera takes from a mesh file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CameraOfFile {
+    /// The camera.
+    pub base: FileBase,
+    /// What the declaration says of its lens; `view` counts if the declaration says it.
+    pub lens: LensSpec,
 }
 
 /// How directions become places on the film.
@@ -46,23 +60,6 @@ pub enum Projection {
         /// Angle between the left and the right edge, radians, in (0, 2 pi].
         fov_horizontal: f64,
     },
-}
-
-/// What a perspective camera looks through.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Lens {
-    /// Horizontal field of view at the film's aspect ratio, radians.
-    pub fov_horizontal: f64,
-    /// Vertical field of view at the film's aspect ratio, radians.
-    pub fov_vertical: f64,
-    /// Its radius, metres; 0 is a pinhole.
-    pub radius: f64,
-    /// Blades of the aperture, 3 ..= 16; `None`: its opening is round.
-    pub blades: Option<u32>,
-    /// By how much they are turned, clockwise in the image, from a corner at the top; radians.
-    pub rotation: f64,
-    /// Distance to the plane of focus, metres, > 0.
-    pub focus_distance: f64,
 }
 
 /// What a camera frames.

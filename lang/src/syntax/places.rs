@@ -61,6 +61,11 @@ fn decl(decl: &mut Decl) {
     }
     match &mut decl.base {
         Some(Base::Type(base) | Base::Like(base)) => path(base),
+        Some(Base::OfFile(base)) => {
+            base.span = NOWHERE;
+            path(&mut base.path);
+            text(&mut base.name);
+        }
         Some(Base::Error(span)) => *span = NOWHERE,
         None => {}
     }

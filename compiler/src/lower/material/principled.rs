@@ -3,7 +3,9 @@
 use lang::scene::{Color, ColorSpace, Placement, Principled, Scalar, TextureExpression, Wrap};
 use pack::abi::{self, MaterialKind, NONE, material_flag};
 
-use super::table::{MaterialTable, blank, channel, covering, factor, image_of, switch, with_ior};
+use super::table::{
+    MaterialTable, blank, channel, covering, factor, image_of, image_ref, switch, with_ior,
+};
 use crate::import::{ImportedMaterial, MapUse};
 use crate::lower::files::ImageRef;
 use crate::lower::texture::{Channel, expression};
@@ -83,10 +85,10 @@ impl MaterialTable<'_> {
             Color::Constant(_) => self.scalars([ONE, ONE, ONE, number]),
             Color::Texture(texture) => {
                 let found = &self.scene.textures[texture];
-                let alpha = channel(number);
+                let alpha = channel(self.scene, number);
                 let is_constant = matches!(number, Scalar::Constant(_));
                 if found.placement == Placement::NONE && (alpha.is_some() || is_constant) {
-                    self.tinted(ImageRef::Scene(texture), found.space, alpha, found.wrap)
+                    self.tinted(image_ref(self.scene, texture), found.space, alpha, found.wrap)
                 } else {
                     self.computed(&TextureExpression::Image(texture), number)
                 }

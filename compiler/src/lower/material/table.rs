@@ -2,7 +2,9 @@
 //!
 //! It does not know how a material becomes a record.
 
-use lang::scene::{self, Color, ColorSpace, Placement, Scalar, Scene, TextureExpression, Wrap};
+use lang::scene::{
+    self, Color, ColorSpace, MeshImage, Placement, Scalar, Scene, TextureExpression, Wrap,
+};
 use pack::abi::{self, MaterialKind, NONE, TextureOp, material_flag};
 
 use crate::import::MapUse;
@@ -222,7 +224,7 @@ impl<'a> MaterialTable<'a> {
     /// A declared image where it is placed.
     fn image(&mut self, texture: usize) -> u32 {
         let scene::Texture { space, wrap, placement, .. } = &self.scene.textures[texture];
-        let id = self.textures.whole(ImageRef::Scene(texture), *space, *wrap);
+        let id = self.textures.whole(image_ref(self.scene, texture), *space, *wrap);
         if *placement == Placement::NONE {
             return id;
         }
@@ -232,13 +234,13 @@ impl<'a> MaterialTable<'a> {
     /// A declared image of the light of a lamp by direction, whatever it is elsewhere.
     pub(super) fn profile(&mut self, texture: usize) -> u32 {
         let wrap = [Wrap::Repeat, Wrap::Clamp];
-        self.textures.whole(ImageRef::Scene(texture), ColorSpace::Linear, wrap)
+        self.textures.whole(image_ref(self.scene, texture), ColorSpace::Linear, wrap)
     }
 
     /// A declared image of normals where it is placed.
     pub(super) fn normals(&mut self, texture: usize) -> u32 {
         let scene::Texture { space, wrap, placement, .. } = &self.scene.textures[texture];
-        let id = self.textures.whole(ImageRef::Scene(texture), *space, *wrap);
+        let id = self.textures.whole(image_ref(self.scene, texture), *space, *wrap);
         if *placement == Placement::NONE {
             return id;
         }
@@ -256,7 +258,7 @@ impl<'a> MaterialTable<'a> {
         let scene = self.scene;
         expression::operations(of, &mut |texture| {
             let scene::Texture { space, wrap, placement, .. } = &scene.textures[texture];
-            let id = self.textures.whole(ImageRef::Scene(texture), linear(*space), *wrap);
+            let id = self.textures.whole(image_ref(scene, texture), linear(*space), *wrap);
             vec![expression::image(id, placement)]
         })
     }
@@ -275,7 +277,10 @@ impl<'a> MaterialTable<'a> {
                 Scalar::Texture { texture, .. } => Some(self.scene.textures[*texture].wrap),
                 Scalar::Constant(_) | Scalar::Expression(_) => None,
             });
-            return self.channels(lanes.map(channel), wrap.unwrap_or([Wrap::Repeat; 2]));
+            return self.channels(
+                lanes.map(|lane| channel(self.scene, lane)),
+                wrap.unwrap_or([Wrap::Repeat; 2]),
+            );
         }
         let mut ops = vec![expression::constant([1.0; 4])];
         for (k, lane) in lanes.into_iter().enumerate() {
@@ -304,7 +309,7 @@ impl<'a> MaterialTable<'a> {
         match scalar {
             Scalar::Constant(_) => 1.0,
             Scalar::Texture { texture, channel } => {
-                self.textures.least((ImageRef::Scene(texture), channel))
+                self.textures.least((image_ref(self.scene, texture), channel))
             }
             Scalar::Expression(index) => self.scene.expressions[index].range()[0] as f32,
         }
@@ -429,11 +434,19 @@ pub(in crate::lower) fn factor(scalar: Scalar) -> f32 {
     }
 }
 
+/// The image of a texture of the scene.
+pub(super) fn image_ref(scene: &Scene, texture: usize) -> ImageRef {
+    match scene.textures[texture].of_mesh {
+        Some(MeshImage { asset, image }) => ImageRef::Asset { asset, image },
+        None => ImageRef::Scene(texture),
+    }
+}
+
 /// The channel of an image that a number is.
-pub(in crate::lower) fn channel(scalar: Scalar) -> Option<(ImageRef, u8)> {
+pub(in crate::lower) fn channel(scene: &Scene, scalar: Scalar) -> Option<(ImageRef, u8)> {
     match scalar {
         Scalar::Constant(_) | Scalar::Expression(_) => None,
-        Scalar::Texture { texture, channel } => Some((ImageRef::Scene(texture), channel)),
+        Scalar::Texture { texture, channel } => Some((image_ref(scene, texture), channel)),
     }
 }
 
@@ -451,7 +464,7 @@ fn tinted_image(of: &TextureExpression<usize>) -> Option<([f32; 3], usize)> {
 }
 
 /// Bytes that are not colours are the same numbers under either linear name.
-fn linear(space: ColorSpace) -> ColorSpace {
+pub(in crate::lower) fn linear(space: ColorSpace) -> ColorSpace {
     match space {
         ColorSpace::Data => ColorSpace::Linear,
         space @ (ColorSpace::Srgb | ColorSpace::Linear) => space,
