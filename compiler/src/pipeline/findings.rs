@@ -107,7 +107,16 @@ pub(super) fn left_out(studio: &Studio, asset: &Asset, takes_camera: bool) -> Op
         asset.path,
         list.join(" and ")
     );
-    Some(Diagnostic::warning(Code("W0524"), "import", message).at(asset.path_span, ""))
+    let warning = Diagnostic::warning(Code("W0524"), "import", message).at(asset.path_span, "");
+    let named = studio.cameras.iter().find(|camera| !camera.name.contains(['"', '\n']));
+    Some(match named.filter(|_| cameras > 0) {
+        Some(camera) => {
+            let (asset, name) = (&asset.name.text, &camera.name);
+            let like = format!("camera eye like {asset}.camera(\"{name}\") {{ }}");
+            warning.with_help(format!("to look through its camera: `{like}`"))
+        }
+        None => warning,
+    })
 }
 
 /// A part that a file does not have is an unknown name, with the names it has.
