@@ -151,6 +151,10 @@ fn patterns_are_what_they_are_called() {
 #[test]
 fn arithmetic_is_that_of_numbers() {
     check_number(DATA, "a.r * 0.5 + 0.25", |u, v| image_at(0, u, v) * 0.5 + 0.25);
+    // A factor is in the record, whether or not another lane of the texture is computed.
+    check_number(DATA, "0.75 * a.g", |u, v| 0.75 * image_at(1, u, v));
+    check_number(DATA, "a.b / 4, metallic = noise(3)", |u, v| image_at(2, u, v) / 4.0);
+    check_number(DATA, "0.5 * a.r, metallic = a.g * 0.25", |u, v| 0.5 * image_at(0, u, v));
     check_number(DATA, "1 - a.g", |u, v| 1.0 - image_at(1, u, v));
     check_number(DATA, "-a.g / 2 + 1", |u, v| 1.0 - image_at(1, u, v) / 2.0);
     check_number(DATA, "clamp((a.b - 0.3) * 4, 0, 1)", |u, v| {
@@ -264,10 +268,10 @@ fn noise_is_as_fine_along_w_as_along_u() {
     assert!((along_w / along_u - 1.0).abs() < 0.05, "along u {along_u:e}, along w {along_w:e}");
 }
 
-/// A product of an image and a colour is a factor of the record; it needs no expression.
+/// A product of an image and a colour, or of a channel and a number, is a factor of the record; it needs no expression.
 #[test]
 fn a_tinted_image_costs_nothing() {
-    let compiled = |color: &str| {
+    let compiled = |material: &str| {
         let dir = tempfile::tempdir().expect("a temporary directory can be made");
         image::RgbaImage::new(2, 2)
             .save(dir.path().join("a.png"))
@@ -275,7 +279,7 @@ fn a_tinted_image_costs_nothing() {
         let text = format!(
             "rts 1
 texture a = image(\"a.png\", space: srgb)
-material m: diffuse {{ color = {color} }}
+material m: {material}
 instance s {{ shape = sphere(radius: 1m), material = m }}
 sky day: constant {{ color = linear(1) }}
 camera eye: perspective {{ from = (0, 0, 5)m, to = (0, 0, 0)m }}
@@ -285,12 +289,23 @@ render main: path {{ camera = eye, film = f, samples = 16, depth = 2 }}
         );
         scene::compile_in(dir.path(), &text)
     };
-    let [plain, tinted, mixed] =
-        ["a.rgb", "a.rgb * linear(0.5, 0.25, 1)", "a.rgb + linear(0)"].map(compiled);
+    let [plain, tinted, mixed] = ["a.rgb", "a.rgb * linear(0.5, 0.25, 1)", "a.rgb + linear(0)"]
+        .map(|color| compiled(&format!("diffuse {{ color = {color} }}")));
     assert_eq!(plain.kernel, tinted.kernel);
     assert_eq!(
         tinted.lowered.materials[0].color.map(f32::to_bits),
         [0.5_f32, 0.25, 1.0].map(f32::to_bits)
     );
     assert!(mixed.kernel.text.len() > plain.kernel.text.len());
+    let [plain, scaled] = ["", "0.25 * "].map(|factor| {
+        let fields = format!("roughness = {factor}n.g, metallic = n.b, alpha = {factor}n.a");
+        let material =
+            format!("principled {{ {fields}, sheen.roughness = 0.5 * n.r, sheen = a.rgb }}");
+        compiled(&format!("{material}\ntexture n = image(\"a.png\", space: data)"))
+    });
+    assert_eq!(plain.kernel, scaled.kernel);
+    assert_eq!(plain.lowered.textures, scaled.lowered.textures);
+    let record = scaled.lowered.materials[0];
+    let found = [record.roughness, record.metallic, record.alpha, record.sheen_roughness];
+    assert_eq!(found.map(f32::to_bits), [0.25_f32, 1.0, 0.25, 0.5].map(f32::to_bits));
 }

@@ -8,7 +8,7 @@ use lang::scene::{self, MaterialModel, Scalar, TextureProjection};
 use pack::abi::{self, MaterialKind, NONE, material_flag};
 
 use super::principled::ONE;
-use super::table::{MaterialRef, MaterialTable, blank, factor, set_normal_map, switch, with_ior};
+use super::table::{MaterialRef, MaterialTable, blank, set_normal_map, switch, with_ior};
 use crate::lower::fresnel;
 
 /// Veins of stone are this share of its colour where the scene says nothing else.
@@ -114,7 +114,7 @@ impl MaterialTable<'_> {
         }
         let [a, b] = [from.a, from.b].map(|part| self.index(MaterialRef::Scene(part.0)));
         abi::Material {
-            weight: factor(from.amount),
+            weight: self.factor(from.amount),
             color_texture: self.scalars([from.amount, ONE, ONE, ONE]),
             priority: a | b << 16,
             ..blank(MaterialKind::Mix)
@@ -126,7 +126,7 @@ impl MaterialTable<'_> {
         abi::Material {
             color,
             color_texture,
-            roughness: factor(from.roughness),
+            roughness: self.factor(from.roughness),
             metallic_roughness_texture: self.roughness_texture(from.roughness),
             anisotropy: from.anisotropy as f32,
             compensation: switch(from.compensation),
@@ -171,7 +171,7 @@ impl MaterialTable<'_> {
             with_ior(blank(MaterialKind::Dielectric), from.ior)
         } else {
             abi::Material {
-                roughness: factor(roughness),
+                roughness: self.factor(roughness),
                 metallic_roughness_texture: self.roughness_texture(roughness),
                 compensation: switch(from.compensation),
                 ..with_ior(blank(MaterialKind::RoughDielectric), from.ior)

@@ -3,9 +3,7 @@
 use lang::scene::{Color, ColorSpace, Placement, Principled, Scalar, TextureExpression, Wrap};
 use pack::abi::{self, MaterialKind, NONE, material_flag};
 
-use super::table::{
-    MaterialTable, blank, channel, covering, factor, image_of, image_ref, switch, with_ior,
-};
+use super::table::{MaterialTable, blank, covering, image_of, image_ref, switch, with_ior};
 use crate::import::{ImportedMaterial, MapUse};
 use crate::lower::files::ImageRef;
 use crate::lower::texture::{Channel, expression};
@@ -24,8 +22,8 @@ impl MaterialTable<'_> {
             color_texture,
             emission,
             emission_texture,
-            roughness: factor(from.roughness),
-            metallic: factor(from.metallic),
+            roughness: self.factor(from.roughness),
+            metallic: self.factor(from.metallic),
             metallic_roughness_texture: metallic_roughness,
             flags: material_flag::EMIT_BOTH_SIDES,
             compensation: switch(from.compensation),
@@ -35,7 +33,7 @@ impl MaterialTable<'_> {
         self.coat(&mut record, from);
         self.sheen(&mut record, from);
         brush(&mut record, from.anisotropy, from.anisotropy_rotation);
-        let transmission = factor(from.transmission);
+        let transmission = self.factor(from.transmission);
         if transmission > 0.0 {
             record.transmission = transmission;
             record.transmission_texture = self.scalars([from.transmission, ONE, ONE, ONE]);
@@ -48,10 +46,10 @@ impl MaterialTable<'_> {
     /// Cuts out where `alpha` is below `cutoff`; without one `alpha` is the share that is there.
     pub(super) fn cover(&mut self, record: &mut abi::Material, alpha: Scalar, cutoff: Option<f64>) {
         let least = self.least(alpha);
-        let Some((flag, cutoff)) = covering(cutoff, factor(alpha), least) else { return };
+        let Some((flag, cutoff)) = covering(cutoff, self.factor(alpha), least) else { return };
         record.flags |= flag;
         record.alpha_cutoff = cutoff;
-        record.alpha = factor(alpha);
+        record.alpha = self.factor(alpha);
         record.alpha_texture = self.scalars([ONE, ONE, ONE, alpha]);
     }
 
@@ -61,7 +59,7 @@ impl MaterialTable<'_> {
     }
 
     fn specular(&mut self, record: &mut abi::Material, from: &Principled) {
-        record.specular = factor(from.specular);
+        record.specular = self.factor(from.specular);
         if let Color::Constant(rgb) = from.specular_color {
             record.tint = rgb.map(|c| c as f32);
         }
@@ -74,7 +72,7 @@ impl MaterialTable<'_> {
             Color::Texture(_) | Color::Expression(_) => [1.0; 3],
         };
         if record.has_sheen() {
-            record.sheen_roughness = factor(from.sheen_roughness);
+            record.sheen_roughness = self.factor(from.sheen_roughness);
             record.sheen_texture = self.color_and_number(from.sheen, from.sheen_roughness);
         }
     }
@@ -85,7 +83,7 @@ impl MaterialTable<'_> {
             Color::Constant(_) => self.scalars([ONE, ONE, ONE, number]),
             Color::Texture(texture) => {
                 let found = &self.scene.textures[texture];
-                let alpha = channel(self.scene, number);
+                let alpha = self.channel(number);
                 let is_constant = matches!(number, Scalar::Constant(_));
                 if found.placement == Placement::NONE && (alpha.is_some() || is_constant) {
                     self.tinted(image_ref(self.scene, texture), found.space, alpha, found.wrap)
@@ -124,9 +122,9 @@ impl MaterialTable<'_> {
     }
 
     fn coat(&mut self, record: &mut abi::Material, from: &Principled) {
-        let coat = factor(from.coat);
+        let coat = self.factor(from.coat);
         if coat > 0.0 {
-            (record.coat, record.coat_roughness) = (coat, factor(from.coat_roughness));
+            (record.coat, record.coat_roughness) = (coat, self.factor(from.coat_roughness));
             record.coat_texture = self.scalars([from.coat, from.coat_roughness, ONE, ONE]);
         }
     }

@@ -11,7 +11,7 @@ use crate::import::MapUse;
 use crate::lower::files::{Files, ImageRef};
 use crate::lower::light::luminance;
 use crate::lower::medium::{OwnMedium, has_inside};
-use crate::lower::texture::{TextureTable, expression};
+use crate::lower::texture::{Channel, TextureTable, expression};
 use crate::stage::Stages;
 
 /// Where a material is declared.
@@ -263,8 +263,36 @@ impl<'a> MaterialTable<'a> {
         })
     }
 
-    /// A texture whose channels are these numbers, 1 for those that are the same everywhere; `NONE` if all are.
+    /// A number as a constant factor and the rest, which is a channel where the number is nothing but their product.
+    fn split(&self, scalar: Scalar) -> (f64, Scalar) {
+        match scalar {
+            Scalar::Constant(value) => (value, Scalar::Constant(1.0)),
+            Scalar::Texture { .. } => (1.0, scalar),
+            Scalar::Expression(index) => match scaled_channel(&self.scene.expressions[index]) {
+                Some((factor, (texture, channel))) => {
+                    (factor, Scalar::Texture { texture, channel })
+                }
+                None => (1.0, scalar),
+            },
+        }
+    }
+
+    /// The constant factor of a number; that of its texture is in the texture.
+    pub(super) fn factor(&self, scalar: Scalar) -> f32 {
+        self.split(scalar).0 as f32
+    }
+
+    /// The channel of an image that a number is, but for its factor.
+    pub(super) fn channel(&self, scalar: Scalar) -> Option<Channel> {
+        match self.split(scalar).1 {
+            Scalar::Constant(_) | Scalar::Expression(_) => None,
+            Scalar::Texture { texture, channel } => Some((image_ref(self.scene, texture), channel)),
+        }
+    }
+
+    /// A texture whose channels are these numbers but for their factors, 1 for those that are the same everywhere; `NONE` if all are.
     pub(super) fn scalars(&mut self, lanes: [Scalar; 4]) -> u32 {
+        let lanes = lanes.map(|lane| self.split(lane).1);
         let is_plain = |lane: &Scalar| match lane {
             Scalar::Constant(_) => true,
             Scalar::Texture { texture, .. } => {
@@ -277,10 +305,8 @@ impl<'a> MaterialTable<'a> {
                 Scalar::Texture { texture, .. } => Some(self.scene.textures[*texture].wrap),
                 Scalar::Constant(_) | Scalar::Expression(_) => None,
             });
-            return self.channels(
-                lanes.map(|lane| channel(self.scene, lane)),
-                wrap.unwrap_or([Wrap::Repeat; 2]),
-            );
+            let channels = lanes.map(|lane| self.channel(lane));
+            return self.channels(channels, wrap.unwrap_or([Wrap::Repeat; 2]));
         }
         let mut ops = vec![expression::constant([1.0; 4])];
         for (k, lane) in lanes.into_iter().enumerate() {
@@ -292,10 +318,10 @@ impl<'a> MaterialTable<'a> {
         self.textures.expression(ops)
     }
 
-    /// The operations that leave a number; none for one that is the same everywhere.
+    /// The operations that leave a number but for its factor; none for one that is the same everywhere.
     pub(super) fn number(&mut self, scalar: Scalar) -> Option<Vec<TextureOp>> {
         let scene = self.scene;
-        match scalar {
+        match self.split(scalar).1 {
             Scalar::Constant(_) => None,
             Scalar::Texture { texture, channel } => {
                 Some(self.operations(&TextureExpression::Channel(texture, channel)))
@@ -306,7 +332,7 @@ impl<'a> MaterialTable<'a> {
 
     /// The least that a number is anywhere, in proportion to its factor.
     pub(super) fn least(&mut self, scalar: Scalar) -> f32 {
-        match scalar {
+        match self.split(scalar).1 {
             Scalar::Constant(_) => 1.0,
             Scalar::Texture { texture, channel } => {
                 self.textures.least((image_ref(self.scene, texture), channel))
@@ -427,26 +453,11 @@ pub(in crate::lower) fn switch(on: bool) -> f32 {
     if on { 1.0 } else { 0.0 }
 }
 
-pub(in crate::lower) fn factor(scalar: Scalar) -> f32 {
-    match scalar {
-        Scalar::Constant(value) => value as f32,
-        Scalar::Texture { .. } | Scalar::Expression(_) => 1.0,
-    }
-}
-
 /// The image of a texture of the scene.
 pub(super) fn image_ref(scene: &Scene, texture: usize) -> ImageRef {
     match scene.textures[texture].of_mesh {
         Some(MeshImage { asset, image }) => ImageRef::Asset { asset, image },
         None => ImageRef::Scene(texture),
-    }
-}
-
-/// The channel of an image that a number is.
-pub(in crate::lower) fn channel(scene: &Scene, scalar: Scalar) -> Option<(ImageRef, u8)> {
-    match scalar {
-        Scalar::Constant(_) | Scalar::Expression(_) => None,
-        Scalar::Texture { texture, channel } => Some((image_ref(scene, texture), channel)),
     }
 }
 
@@ -461,6 +472,18 @@ fn tinted_image(of: &TextureExpression<usize>) -> Option<([f32; 3], usize)> {
         _ => return None,
     };
     Some((factor.map(|c| c as f32), *texture))
+}
+
+/// The constant factor and the channel of what is nothing but their product.
+fn scaled_channel(of: &TextureExpression<usize>) -> Option<(f64, (usize, u8))> {
+    let TextureExpression::Product(parts) = of else { return None };
+    match parts.as_slice() {
+        [TextureExpression::Channel(texture, channel), TextureExpression::Number(x)]
+        | [TextureExpression::Number(x), TextureExpression::Channel(texture, channel)] => {
+            Some((*x, (*texture, *channel)))
+        }
+        _ => None,
+    }
 }
 
 /// Bytes that are not colours are the same numbers under either linear name.
