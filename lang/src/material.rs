@@ -300,6 +300,8 @@ materials! {
         ("refraction", "Blender"),
         ("roughdielectric", "Mitsuba"),
         ("roughglass", "LuxCore"),
+        ("subsurface", "pbrt"),
+        ("skin", "common use"),
     ],
         lints: Lints::NONE,
         fields: {
@@ -574,7 +576,7 @@ materials! {
         doc: "A petal: fuzz on the surface, a waxy skin, and a thin layer in which light is scattered \
           many times (random walk). Texture coordinates 0..1 span one petal.",
         example: "material sakura: petal { color = srgb(#f6c9d6) }",
-        elsewhere: &[("subsurface", "pbrt-v3 and Mitsuba"), ("skin", "common use")],
+        elsewhere: &[],
         lints: Lints::NONE,
         fields: {
             /// Factor on the light from inside, 0 ..= 1.

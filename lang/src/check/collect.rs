@@ -125,6 +125,13 @@ impl<'p> Evaluator<'p> {
                 "metals take `color`, their reflectance at normal incidence: \
                  ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2) in each channel",
             ),
+            _ if is_subsurface(schema, name) => error
+                .at(name.span, "not known")
+                .with_note("light that wanders below a surface does so in the `interior` of a `dielectric`")
+                .with_help(
+                    "declare `medium wax: homogeneous { mean_free_path = (12, 5, 3)mm, albedo = linear(0.998, 0.99, 0.96) }` \
+                     and `material skin: dielectric { roughness = 0.3, interior = wax }` for a closed mesh",
+                ),
             _ if !group.is_empty() => error
                 .at(name.span, "a group of fields")
                 .with_help(format!("set what is meant: {}", quoted_list(&group))),
@@ -354,6 +361,13 @@ fn missing_arguments(
 /// Refractive index or extinction of a metal, as other renderers ask for them.
 fn is_optical_constant(schema: &TypeSchema, name: &Ident) -> bool {
     schema.name == "conductor" && ["ior", "eta", "k", "n"].contains(&name.text.as_str())
+}
+
+/// Subsurface scattering, as other renderers ask for it.
+fn is_subsurface(schema: &TypeSchema, name: &Ident) -> bool {
+    let own = ["radius", "scattering_radius", "mfp", "sss"];
+    let of_surface = ["principled", "dielectric", "diffuse"].contains(&schema.name);
+    of_surface && (own.contains(&name.text.as_str()) || name.text.starts_with("subsurface"))
 }
 
 /// The fields whose names begin with `name` and a dot.
