@@ -156,8 +156,8 @@ fn unknown(
     listed(error, (what, &letters, edit.pattern_span), known)
 }
 
-/// Tells of an unknown name which one is meant, or which ones there are; `name`: what is named, its letters, and the
-/// text with its quotes.
+/// Adds to the report of an unknown name the similar one that `known` has, or all that there are; `what` is named, with
+/// these `letters`, `at` a text in quotes.
 pub(super) fn listed(
     error: Diagnostic,
     (what, letters, at): (&str, &str, Span),

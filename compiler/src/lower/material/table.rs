@@ -290,7 +290,8 @@ impl<'a> MaterialTable<'a> {
         }
     }
 
-    /// A texture whose channels are these numbers but for their factors, 1 for those that are the same everywhere; `NONE` if all are.
+    /// A texture whose channels are these numbers but for their factors, 1 for those that are the same everywhere;
+    /// `NONE` if all are.
     pub(super) fn scalars(&mut self, lanes: [Scalar; 4]) -> u32 {
         let lanes = lanes.map(|lane| self.split(lane).1);
         let is_plain = |lane: &Scalar| match lane {
