@@ -8,8 +8,8 @@ use tests::pitfalls::mixture;
 use tests::pitfalls::random_walk::{self, Medium, Steps};
 use tests::pitfalls::sphere_light::{self, Setting, Shadow};
 use tests::pitfalls::{
-    TOPICS, brightness, bump, field, fog, fresnel, fuzz, offsets, phase, refraction, seeds, slab,
-    traversal, triangle,
+    TOPICS, brightness, bump, field, fog, fresnel, fuzz, offsets, phase, refraction, roulette,
+    seeds, slab, traversal, triangle,
 };
 use tests::statistics::Mean;
 
@@ -51,6 +51,25 @@ fn the_metal_has_a_density() {
     }
     let [cosine, own] = fuzz::furnace(0.2, 10_000);
     assert!((own.value() - 1.0).abs() < 1e-6 && cosine.value() > 20.0);
+}
+
+#[test]
+fn a_path_survives_with_twice_its_throughput() {
+    let same = |bounce, throughput: f32| {
+        let after = roulette::survivors(throughput, bounce, 1000);
+        after.iter().all(|after| after.to_bits() == throughput.to_bits())
+    };
+    assert!(same(2, 0.01) && same(3, 0.51) && same(9, 0.9));
+    let n = 4096;
+    let after = roulette::survivors(0.1, 3, n);
+    let mut mean = Mean::default();
+    for after in &after {
+        mean.add(f64::from(*after));
+    }
+    is(&mean, 0.1, "throughput after roulette");
+    let living: Vec<f32> = after.into_iter().filter(|after| *after > 0.0).collect();
+    assert!(living.iter().all(|after| (after - 0.5).abs() < 1e-6));
+    assert!((living.len() as f64 / f64::from(n) - 0.2).abs() < 0.03, "{} of {n}", living.len());
 }
 
 #[test]

@@ -73,7 +73,7 @@ const PATH: TypeSchema = TypeSchema {
         Field::new(
             "roulette",
             FieldType::Integer(0, 1024),
-            Default::Number(4.0),
+            Default::Number(3.0),
             "Bounce from which weak paths may end early; 1024 never ends one, unless `depth` is `unlimited`.",
         )
         .foreign(&[("rr_depth", "Mitsuba"), ("rrthreshold", "pbrt-v3")]),

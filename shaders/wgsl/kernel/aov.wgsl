@@ -128,12 +128,12 @@ fn aov_surface(path: ptr<function, Path>, found: ptr<function, AovSample>, hit: 
     (*path).start = dispatch_start_plain();
     (*path).key.bounce += 1u;
     (*path).throughput *= next.weight;
-    (*path).eta_scale *= next.eta2;
+    (*path).roulette_scale *= next.eta2;
     (*path).dir = next.wi;
 }
 
 // `color` as the camera sees it, over what is specular; 0 ..= 1. What refraction takes until the path comes out again
 // is given back.
 fn aov_albedo(path: ptr<function, Path>, color: vec3f) -> vec3f {
-    return clamp((*path).throughput * (*path).eta_scale * color, vec3f(0.0), vec3f(1.0));
+    return clamp((*path).throughput * (*path).roulette_scale * color, vec3f(0.0), vec3f(1.0));
 }

@@ -21,9 +21,9 @@ struct Path {
     scattered: u32,
     // Product of f |cos| / pdf over the vertices, roulette included.
     throughput: vec3f,
-    // Product of eta^2: what refraction has taken from `throughput` for good until the path comes out again.
-    // Roulette must not mistake it for absorption.
-    eta_scale: f32,
+    // What Russian roulette multiplies `throughput` with: the product of eta^2, which refraction has taken from it
+    // until the path comes out again and which is no absorption, over its largest channel after the first bounce.
+    roulette_scale: f32,
     // Last vertex: on its surface, or the camera.
     point: vec3f,
     // Density per steradian with which `dir` was sampled; 0 for the camera and for delta lobes.

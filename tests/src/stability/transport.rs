@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use pack::abi::{Camera, MaterialKind, SamplerKind, material_flag};
 use runtime::convergence::{Measure, Point};
+use runtime::kernel::f32::ROULETTE_SURVIVAL;
 use runtime::{
     Control, Counters, DeviceChoice, Event, Job, Precision, Rect, SampleRange, Scene, Stop, render,
 };
@@ -141,12 +142,15 @@ instance spark {{ shape = sphere(radius: 1mm), material = lamp, at = (0, 5, 0)m 
     let means = estimates(&whole);
     let off = [0, 1].map(|i| (means[i].mean / truth[i] - 1.0).abs());
     let depth = whole.each_ref().map(|film| f64::from(film.counters.depth));
-    // Each bounce is survived with the reflectance; the longest that a pack allows is 65535.
+    // No path ends before its throughput asks for less than certainty, that of the first bounce taken out; from there on
+    // each bounce is survived with the reflectance. The longest that a pack allows is 65535.
     let paths = roulette[0].total_samples() as f64;
-    let length = (1.0 - rho.powi(65_535)) / (1.0 - rho);
+    let certain = 1.0 - f64::from(ROULETTE_SURVIVAL).ln() / rho.ln();
+    let chance = (1.0 - rho.powf(65_535.0 - certain)) / (1.0 - rho);
+    let length = certain + chance;
     let lengths = roulette.each_ref().map(|film| {
         let mean = film.counters.rays as f64 / paths;
-        Estimate { mean, error: length / paths.sqrt() }
+        Estimate { mean, error: chance / paths.sqrt() }
     });
     vec![
         Row::near("bounces without roulette", f64::from(n), 0.0, depth),
