@@ -22,7 +22,8 @@ struct Path {
     // Product of f |cos| / pdf over the vertices, roulette included.
     throughput: vec3f,
     // What Russian roulette multiplies `throughput` with: the product of eta^2, which refraction has taken from it
-    // until the path comes out again and which is no absorption, over its largest channel after the first bounce.
+    // until the path comes out again and which is no absorption. From the first bounce on, that of later refractions
+    // over the largest channel of `throughput` then.
     roulette_scale: f32,
     // Last vertex: on its surface, or the camera.
     point: vec3f,

@@ -113,10 +113,11 @@ fn vertex_leave(path: ptr<function, Path>, next: Scattered, pdf: f32) {
     let key = (*path).key;
     (*path).key.bounce = key.bounce + 1u;
     (*path).throughput *= next.weight;
-    (*path).roulette_scale *= next.eta2;
     if (key.bounce == 0u) {
         // A dark pixel needs its paths as much as a bright one.
-        (*path).roulette_scale /= max(vector_max((*path).throughput), 1.1754944e-38);
+        (*path).roulette_scale = 1.0 / max(vector_max((*path).throughput), 1.1754944e-38);
+    } else {
+        (*path).roulette_scale *= next.eta2;
     }
     (*path).dir = next.wi;
     (*path).pdf = pdf;
@@ -136,14 +137,15 @@ fn vertex_emit(path: ptr<function, Path>, s: Surface, m: MaterialHead) {
     }
 }
 
-// How many times what it asks for a path survives Russian roulette with. With 1 a path is ended too early, and what is
-// left is noise: docs/cpu.md has other factors. A power of two, which no compiler rounds elsewhere.
+// A path is certain to survive Russian roulette until its throughput has fallen to one over this. Ending paths sooner
+// makes more noise than it saves time: docs/cpu.md has other factors. A power of two, so that no driver's order of the
+// product changes its bits.
 const ROULETTE_SURVIVAL: f32 = 2.0;
 
 // Russian roulette: from the bounce that the frame says, the path survives with a probability in proportion to its
-// largest throughput over that after the first bounce, refraction's own factor taken out. No cap below 1: capped
-// roulette has infinite variance where albedo^2 exceeds the cap. False if the path ends; otherwise the throughput makes
-// up for those that did.
+// largest throughput over that after the first bounce, the factor 1/eta^2 of refraction taken out of both. No cap below
+// 1: capped roulette has infinite variance where albedo^2 exceeds the cap. False if the path ends; otherwise the
+// throughput makes up for those that did.
 fn vertex_roulette(path: ptr<function, Path>, key: SampleKey) -> bool {
     let largest = vector_max((*path).throughput);
     if (largest <= 0.0) {

@@ -92,6 +92,26 @@ pub fn survivors(before: f32, bounce: u32, n: u32) -> Vec<f32> {
     (0..n).map(&mut after).collect()
 }
 
+/// Share of `n` paths that are alive after scattering with each of `weights` and squares of relative index in turn,
+/// upwards of bounce 0; roulette from the fourth vertex.
+#[must_use]
+pub fn alive(weights: &[(f32, f32)], n: u32) -> f64 {
+    let bench = Bench::new().roulette_from(3);
+    let mut kernel = bench.single();
+    let ray = single::CameraRay { origin: Vec3::ZERO, dir: Vec3::Z };
+    let mut lives = |sample| {
+        let key = kernel.sample_key(Vec2::ZERO.as_uvec2(), sample, 139);
+        let mut path = kernel.state_at_camera(key, ray);
+        weights.iter().all(|&(weight, eta2)| {
+            let next =
+                single::Scattered { wi: Vec3::Z, pdf: 0.0, weight: Vec3::splat(weight), eta2 };
+            kernel.vertex_leave(&mut path, next, 0.0);
+            path.open
+        })
+    };
+    f64::from((0..n).map(|sample| u32::from(lives(sample))).sum::<u32>()) / f64::from(n)
+}
+
 /// Measures the topic.
 #[must_use]
 pub fn topic() -> Topic {
