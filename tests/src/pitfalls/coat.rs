@@ -97,8 +97,7 @@ pub fn topic() -> Topic {
             white(0.1),
         ],
         fact: "The highlight of a clear coat is white whatever it covers; averaging it with the \
-            base tints and darkens it. The base gets what the coat lets through, on the way in and \
-            on the way out. Light that bounces between base and coat is left out here too, as the \
-            rows of the white base show.",
+            base tints and darkens it. The base gets what the coat does not give back, by its \
+            directional albedo: a white base under it loses nothing.",
     }
 }
