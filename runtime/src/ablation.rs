@@ -36,6 +36,8 @@ const OTHER_NOISE: u32 = 0x5bd1_e995;
 pub struct Plan {
     /// Timed renders of each kernel; the median counts.
     pub rounds: u32,
+    /// Whether the kernel with all features is measured. Some drivers take minutes to build it.
+    pub full: bool,
     /// Whether each absent feature is measured alone.
     pub each: bool,
 }
@@ -119,7 +121,7 @@ pub struct Ablation {
     pub software: bool,
     /// One sample of every pixel with the CPU kernel, which has all features, milliseconds.
     pub cpu_ms: f64,
-    /// The specialised kernel first, then the full one, then one feature each.
+    /// The specialised kernel first, then what the plan asks for: the full one, then one feature each.
     pub rows: Vec<Row>,
     /// Whether it ended early; then rows are missing.
     pub interrupted: bool,
@@ -209,7 +211,7 @@ pub fn ablate(
 /// Name and text of the kernels that `ablate` compares, the pack's own first.
 #[must_use]
 pub fn kernel_texts(scene: &Scene, each: bool) -> Vec<(String, String)> {
-    kernels(&scene.setup(&Job::of_scene(scene)), Plan { rounds: 0, each })
+    kernels(&scene.setup(&Job::of_scene(scene)), Plan { rounds: 0, full: true, each })
 }
 
 /// The pack's own kernel, put together again from the table of declarations as the others are: the same declarations,
@@ -225,7 +227,8 @@ pub fn relinked(scene: &Scene) -> Option<String> {
 fn kernels(setup: &Setup<'_>, plan: Plan) -> Vec<(String, String)> {
     let own = setup.kernel().to_owned();
     let mut all = vec![("specialised".to_owned(), own.clone())];
-    if setup.stack_need() <= crate::kernel::f32::STACK_SIZE && !has_windows(&own) {
+    let fits = setup.stack_need() <= crate::kernel::f32::STACK_SIZE && !has_windows(&own);
+    if plan.full && fits {
         all.push(("full".to_owned(), FULL.to_owned()));
     }
     if plan.each {

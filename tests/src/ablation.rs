@@ -133,7 +133,7 @@ fn compared(
     let mut job = Job::of_scene(scene);
     job.resize(effort.size);
     job.samples = SampleRange { start: 0, end: effort.samples };
-    let plan = Plan { rounds: effort.rounds, each };
+    let plan = Plan { rounds: effort.rounds, full: true, each };
     Ok(ablate(scene, &job, device, plan, &Control::default(), &mut |_| {})?)
 }
 

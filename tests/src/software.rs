@@ -35,7 +35,9 @@ pub fn device_without_optimiser(this: &str) -> Option<DeviceChoice> {
     }
     let program = env::current_exe().expect("a test has a program");
     let mut again = Command::new(program);
-    again.args([this, "--exact", "--nocapture"]).env(NO_OPTIMISER.0, NO_OPTIMISER.1);
+    again
+        .args([this, "--exact", "--nocapture", "--include-ignored"])
+        .env(NO_OPTIMISER.0, NO_OPTIMISER.1);
     let output = again.output().expect("a test can be started");
     let text = String::from_utf8_lossy(&output.stdout);
     assert!(text.contains("1 passed"), "{text}{}", String::from_utf8_lossy(&output.stderr));

@@ -167,34 +167,33 @@ fn every_kernel_with_a_feature_more_is_valid() {
 fn on_a_software_adapter_every_kernel_gives_the_bits_of_the_cpu() {
     let this = "on_a_software_adapter_every_kernel_gives_the_bits_of_the_cpu";
     let Some(device) = software::device_without_optimiser(this) else { return };
-    for (name, each) in [("sky alone", true), ("triangles alone", false)] {
-        let scene = scene_of(named(name));
-        let mut job = Job::of_scene(&scene);
-        job.resize([16, 12]);
-        job.samples = SampleRange { start: 0, end: 2 };
-        let (mut begun, mut ended) = (Vec::new(), Vec::new());
-        let mut tell = |event: Event<'_>| match event {
-            Event::Begin(name) => begun.push(name.to_owned()),
-            Event::End(row) => ended.push(row.kernel.clone()),
-        };
-        let plan = Plan { rounds: 1, each };
-        let found = ablate(&scene, &job, &device, plan, &Control::default(), &mut tell);
-        let found = found.expect("the adapter is there");
-        assert_eq!(begun, ended);
-        assert_eq!(found.rows.len(), ended.len());
-        assert_eq!(found.rows[1].kernel, "full");
-        assert!(found.rows.len() > if each { 4 } else { 1 }, "{}", found.rows.len());
-        assert!(found.wrong().is_empty(), "{:?}", found.wrong());
-        let own = &found.rows[0];
-        let told = scene.pack().manifest().expect("readable").kernel;
-        assert_eq!((own.wgsl_lines, own.spirv_words), (told.lines, Some(told.words)));
-        for row in &found.rows[1..] {
-            let Row { kernel, wgsl_lines, spirv_words, measured } = row;
-            assert!(*wgsl_lines >= told.lines && *spirv_words >= Some(told.words), "{kernel}");
-            let measured = measured.expect("there is a device");
-            assert!(measured.ms > 0.0 && measured.specialised_ms > 0.0, "{kernel}");
-            assert!(measured.build_s > 0.0, "{kernel}");
-        }
+    let scene = scene_of(named("sky alone"));
+    let mut job = Job::of_scene(&scene);
+    job.resize([16, 12]);
+    job.samples = SampleRange { start: 0, end: 2 };
+    let (mut begun, mut ended) = (Vec::new(), Vec::new());
+    let mut tell = |event: Event<'_>| match event {
+        Event::Begin(name) => begun.push(name.to_owned()),
+        Event::End(row) => ended.push(row.kernel.clone()),
+    };
+    // The driver takes minutes for the full kernel; `contract` has one with nearly everything, where asked for.
+    let plan = Plan { rounds: 1, full: false, each: true };
+    let found = ablate(&scene, &job, &device, plan, &Control::default(), &mut tell);
+    let found = found.expect("the adapter is there");
+    assert_eq!(begun, ended);
+    assert_eq!(found.rows.len(), ended.len());
+    assert!(found.rows.len() > 3, "{}", found.rows.len());
+    assert!(found.rows.iter().all(|row| row.kernel != "full"));
+    assert!(found.wrong().is_empty(), "{:?}", found.wrong());
+    let own = &found.rows[0];
+    let told = scene.pack().manifest().expect("readable").kernel;
+    assert_eq!((own.wgsl_lines, own.spirv_words), (told.lines, Some(told.words)));
+    for row in &found.rows[1..] {
+        let Row { kernel, wgsl_lines, spirv_words, measured } = row;
+        assert!(*wgsl_lines >= told.lines && *spirv_words >= Some(told.words), "{kernel}");
+        let measured = measured.expect("there is a device");
+        assert!(measured.ms > 0.0 && measured.specialised_ms > 0.0, "{kernel}");
+        assert!(measured.build_s > 0.0, "{kernel}");
     }
 }
 

@@ -102,7 +102,7 @@ mod with_gpu {
     ) -> Result<Ablation, AblationError> {
         reset_interrupts();
         let over = AtomicBool::new(false);
-        let plan = Plan { rounds: ROUNDS, each: args.ablate == Some(AblateArg::Each) };
+        let plan = Plan { rounds: ROUNDS, full: true, each: args.ablate == Some(AblateArg::Each) };
         let mut first: Option<Row> = None;
         let mut tell = |event: Event<'_>| {
             let row = match event {
