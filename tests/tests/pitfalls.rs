@@ -77,16 +77,16 @@ fn roulette_is_relative_to_the_first_bounce_and_blind_to_refraction() {
     let eta2 = 2.25;
     let into = (0.9 / eta2, eta2);
     let out = (0.9 * eta2, 1.0 / eta2);
-    // What is lost after the first bounce, and the chance of twice what is left.
+    // The chance to survive is twice what is left of the throughput after the first bounce.
     let routes = [
         ([(0.01, 1.0), (0.5, 1.0), (0.5, 1.0), (0.5, 1.0)], 0.25),
         ([into, (0.2, 1.0), out, (0.9, 1.0)], 0.324),
         ([into, (0.2, 1.0), (0.9, 1.0), (0.9, 1.0)], 0.324),
         ([(0.1, 1.0), into, (0.2, 1.0), (0.9, 1.0)], 0.324),
     ];
-    for (weights, chance) in routes {
-        let found = roulette::alive(&weights, 4096);
-        assert!((found - chance).abs() < 0.03, "{found} for {chance}: {weights:?}");
+    for (route, chance) in routes {
+        let found = roulette::alive(&route, 4096);
+        assert!((found - chance).abs() < 0.03, "{found} for {chance}: {route:?}");
     }
 }
 

@@ -50,6 +50,12 @@ pub fn room(rho: f64, rule: Rule, n: u64) -> Mean {
     mean
 }
 
+/// A path at the camera.
+fn begin(kernel: &mut single::Kernel<'_>, sample: u32) -> single::Path {
+    let key = kernel.sample_key(Vec2::ZERO.as_uvec2(), sample, 139);
+    kernel.state_at_camera(key, single::CameraRay { origin: Vec3::ZERO, dir: Vec3::Z })
+}
+
 /// The same room with the kernel's roulette.
 #[must_use]
 #[expect(clippy::cast_possible_truncation, reason = "the kernel's paths have f32 throughput")]
@@ -80,10 +86,8 @@ pub fn room_of_kernel(rho: f64, n: u32) -> Mean {
 pub fn survivors(before: f32, bounce: u32, n: u32) -> Vec<f32> {
     let bench = Bench::new().roulette_from(3);
     let mut kernel = bench.single();
-    let ray = single::CameraRay { origin: Vec3::ZERO, dir: Vec3::Z };
     let mut after = |sample| {
-        let key = kernel.sample_key(Vec2::ZERO.as_uvec2(), sample, 139);
-        let mut path = kernel.state_at_camera(key, ray);
+        let mut path = begin(&mut kernel, sample);
         path.key.bounce = bounce;
         path.throughput = Vec3::new(0.0, before, 0.5 * before);
         let key = path.key;
@@ -92,17 +96,15 @@ pub fn survivors(before: f32, bounce: u32, n: u32) -> Vec<f32> {
     (0..n).map(&mut after).collect()
 }
 
-/// Share of `n` paths that are alive after scattering with each of `weights` and squares of relative index in turn,
-/// upwards of bounce 0; roulette from the fourth vertex.
+/// Share of `n` paths that survive all of `route`: the weight and the square of the relative index of each scattering,
+/// from the first on. Roulette from the fourth vertex.
 #[must_use]
-pub fn alive(weights: &[(f32, f32)], n: u32) -> f64 {
+pub fn alive(route: &[(f32, f32)], n: u32) -> f64 {
     let bench = Bench::new().roulette_from(3);
     let mut kernel = bench.single();
-    let ray = single::CameraRay { origin: Vec3::ZERO, dir: Vec3::Z };
     let mut lives = |sample| {
-        let key = kernel.sample_key(Vec2::ZERO.as_uvec2(), sample, 139);
-        let mut path = kernel.state_at_camera(key, ray);
-        weights.iter().all(|&(weight, eta2)| {
+        let mut path = begin(&mut kernel, sample);
+        route.iter().all(|&(weight, eta2)| {
             let next =
                 single::Scattered { wi: Vec3::Z, pdf: 0.0, weight: Vec3::splat(weight), eta2 };
             kernel.vertex_leave(&mut path, next, 0.0);
