@@ -136,7 +136,9 @@ fn a_coarse_picture_comes_first_and_is_no_part_of_one() {
 fn a_long_batch_shows_in_the_picture_tile_by_tile() {
     let folder = folder();
     let path = folder.path().join("a.exr");
-    // Slow, so that a batch takes many times as long as writing a picture.
+    // Slow, so that a batch takes hundreds of times as long as writing a picture.
+    std::fs::write(folder.path().join("marbles.pack"), common::pack_with_long_paths())
+        .expect("it can be written");
     let slow = ["--precision", "f64", "--threads", "1", "--size", "1280x720", "--spp", "10000000"];
     let args = [&slow[..], &["--write-every", "50ms", "-o", "a.exr"]].concat();
     let run = start(folder.path(), &args);

@@ -42,6 +42,11 @@ fn sphere(center: [f32; 3], radius: f32, material: u32) -> Sphere {
     Sphere { center, radius, material, light: NONE, ..Sphere::default() }
 }
 
+/// The ball on the left.
+fn diffuse_ball() -> Sphere {
+    sphere([-0.3, -0.15, 0.0], 0.12, 0)
+}
+
 /// The kernel that the compiler would link for this scene.
 pub(crate) fn features() -> FeatureSet {
     use pack::abi::MaterialKind::{Dielectric, Diffuse, Emissive, Metal};
@@ -63,16 +68,22 @@ pub(crate) fn pack_bytes(features: &FeatureSet) -> Vec<u8> {
 
 /// The bytes of the pack with any kernel.
 pub(crate) fn pack_with_kernel(kernel: &str) -> Vec<u8> {
-    pack(kernel, None)
+    pack(kernel, None, diffuse_ball())
+}
+
+/// The bytes of the pack inside a ball of metal: its paths are many times as long.
+pub(crate) fn pack_with_long_paths() -> Vec<u8> {
+    let kernel = shaders::link(&features()).expect("the modules link").text;
+    pack(&kernel, None, sphere([0.0; 3], 5.0, 1))
 }
 
 /// The bytes of the pack that asks for an output.
 pub(crate) fn pack_with_output(output: &str) -> Vec<u8> {
     let kernel = shaders::link(&features()).expect("the modules link").text;
-    pack(&kernel, Some(output.to_owned()))
+    pack(&kernel, Some(output.to_owned()), diffuse_ball())
 }
 
-fn pack(kernel: &str, output: Option<String>) -> Vec<u8> {
+fn pack(kernel: &str, output: Option<String>, ball: Sphere) -> Vec<u8> {
     let materials = [
         material(MaterialKind::Diffuse, [0.7, 0.3, 0.2]),
         Material { fuzz: 0.1, ..material(MaterialKind::Metal, [0.8, 0.8, 0.9]) },
@@ -81,7 +92,7 @@ fn pack(kernel: &str, output: Option<String>) -> Vec<u8> {
         material(MaterialKind::Diffuse, [0.5; 3]),
     ];
     let spheres = [
-        sphere([-0.3, -0.15, 0.0], 0.12, 0),
+        ball,
         sphere([0.0, -0.15, 0.0], 0.12, 1),
         sphere([0.3, -0.15, 0.0], 0.12, 2),
         Sphere { light: 0, ..sphere([0.1, 0.5, 0.3], 0.06, 3) },
@@ -90,9 +101,9 @@ fn pack(kernel: &str, output: Option<String>) -> Vec<u8> {
     let shades = [TriShade { material: 4, light: NONE, ..TriShade::default() }; 2];
     let word = |child: ChildRef| child.encode().expect("small references have a word");
     let nodes = [Node {
-        left_lo: [-0.43, -0.28, -0.13],
+        left_lo: [-0.43, -0.28, -0.13].map(|x: f32| x.min(-ball.radius)),
         left: word(ChildRef::Spheres { first: 0, count: 4 }),
-        left_hi: [0.43, 0.57, 0.37],
+        left_hi: [0.43, 0.57, 0.37].map(|x: f32| x.max(ball.radius)),
         right: word(ChildRef::Triangles { first: 0, count: 2 }),
         right_lo: [-0.6, -0.27, -0.6],
         right_hi: [0.6, -0.27, 0.6],
