@@ -51,6 +51,9 @@ impl Mapping {
     }
 }
 
+/// Which of the three axes.
+pub(super) type Axes = [bool; 3];
+
 /// Boxes and counts per axis and bin.
 #[derive(Clone)]
 pub(super) struct Bins {
@@ -148,6 +151,33 @@ impl Bins {
         found.map(|(axis, bin)| self.split_at(axis, bin))
     }
 
+    /// The axes along which a spatial split may cost less than `limit`: those with a plane that would, if fragments
+    /// could be cut at it without being counted twice, and those that have no plane to tell by.
+    pub(super) fn axes_worth_cutting(&self, limit: f32) -> Axes {
+        [0, 1, 2].map(|axis| {
+            let (bounds, counts) = (&self.bounds[axis], &self.counts[axis]);
+            let mut above = [Side::EMPTY; N_BINS];
+            let mut right = Side::EMPTY;
+            for bin in (1..N_BINS).rev() {
+                right = right.with(bounds[bin], counts[bin]);
+                above[bin] = right;
+            }
+            let mut left = Side::EMPTY;
+            let mut has_plane = false;
+            for bin in 0..N_BINS - 1 {
+                left = left.with(bounds[bin], counts[bin]);
+                let right = above[bin + 1];
+                if left.n > 0 && right.n > 0 {
+                    has_plane = true;
+                    if cost_of_free_cut(axis, left, right) < limit {
+                        return true;
+                    }
+                }
+            }
+            !has_plane
+        })
+    }
+
     fn split_at(&self, axis: usize, bin: usize) -> BinSplit {
         let (low, high) = self.bounds[axis].split_at(bin + 1);
         let all = |part: &[Bounds]| part.iter().fold(Bounds::EMPTY, |a, b| a.union(*b));
@@ -159,6 +189,33 @@ impl Bins {
             right: all(high),
         }
     }
+}
+
+/// What is on one side of a plane.
+#[derive(Clone, Copy)]
+struct Side {
+    bounds: Bounds,
+    n: u32,
+}
+
+impl Side {
+    const EMPTY: Self = Self { bounds: Bounds::EMPTY, n: 0 };
+
+    fn with(self, bounds: Bounds, n: u32) -> Self {
+        Self { bounds: self.bounds.union(bounds), n: self.n + n }
+    }
+}
+
+/// The least cost of two sides that a plane cuts somewhere between the beginning of the right one and the end of the
+/// left one. The cost is linear in the place of the plane, so one of these two ends is best.
+fn cost_of_free_cut(axis: usize, left: Side, right: Side) -> f32 {
+    let overlap = (left.bounds.hi[axis] - right.bounds.lo[axis]).max(0.0);
+    let [(a, saved_a), (b, saved_b)] = [left, right].map(|Side { bounds, n }| {
+        let d = (bounds.hi - bounds.lo).to_array();
+        let girth = d[(axis + 1) % 3] + d[(axis + 2) % 3];
+        (bounds.half_area() * n as f32, overlap.min(d[axis]) * girth * n as f32)
+    });
+    a + b - saved_a.max(saved_b)
 }
 
 /// Moves the fragments of the left side to the front. Returns the bounds of the doubled centroids
@@ -194,4 +251,41 @@ pub(super) fn partition(
     }
     debug_assert_eq!(i, split.n_left);
     sides
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Part of the best other split's cost that a spatial split must stay below.
+    const LESS: f32 = 0.985;
+
+    /// Boxes of `size` in a row along x, 1 apart.
+    fn row(size: [f32; 3]) -> Vec<Fragment> {
+        let at = |i: u8| {
+            let lo = [f32::from(i), 0.0, 0.0];
+            Fragment::new(lo, [lo[0] + size[0], size[1], size[2]], u32::from(i))
+        };
+        (0..64).map(at).collect()
+    }
+
+    fn worth_cutting(frags: &[Fragment]) -> Axes {
+        let centroids = frags.iter().fold(Bounds::EMPTY, |b, f| b.with_point(f.centroid2()));
+        let bins = Bins::fill(frags, &Mapping::new(&centroids));
+        let cost = bins.best().map_or(f32::INFINITY, |split| split.cost(frags.len()));
+        bins.axes_worth_cutting(LESS * cost)
+    }
+
+    #[test]
+    fn only_what_overlaps_is_worth_cutting() {
+        // Along y and z nothing tells what a cut would give.
+        assert_eq!(worth_cutting(&row([0.9, 1.0, 1.0])), [false, true, true]);
+        assert_eq!(worth_cutting(&row([30.0, 1.0, 1.0])), [true, true, true]);
+        // Apart along x; along the other axes a split costs more even if what it cuts counts once.
+        let stairs = (0..64_u8).map(|i| {
+            let lo = [f32::from(i), f32::from(i % 8) * 0.125, 0.0];
+            Fragment::new(lo, [lo[0] + 0.9, lo[1] + 1.0, f32::from(1 + i % 2)], u32::from(i))
+        });
+        assert_eq!(worth_cutting(&stairs.collect::<Vec<_>>()), [false; 3]);
+    }
 }

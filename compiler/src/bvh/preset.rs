@@ -80,10 +80,10 @@ impl Preset {
         match self {
             Self::Fast => "binned16-sweep24-v1, leaf 8, inner levels 47, node cost 1",
             Self::Default => {
-                "sbvh16-v2, leaf 8, inner levels 47, node cost 1, extra 0.3, overlap 0.1, patience 6"
+                "sbvh16-v3, leaf 8, inner levels 47, node cost 1, extra 0.3, overlap 0.1, patience 6"
             }
             Self::Extreme => {
-                "sbvh32-v2, leaf 8, inner levels 47, node cost 1, extra 0.6, overlap 0.01"
+                "sbvh32-v3, leaf 8, inner levels 47, node cost 1, extra 0.6, overlap 0.01"
             }
             Self::ObjectMedian => "object-median-v1, leaf 2, inner levels 47",
             Self::SpatialMedian => "spatial-median-v1, leaf 2, inner levels 47",

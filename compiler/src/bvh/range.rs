@@ -96,8 +96,9 @@ fn share(free: usize, sides: [&[Fragment]; 2], unit: f32) -> usize {
         return 0;
     }
     let step = (sides[0].len() + sides[1].len()).div_ceil(ASKED).max(1);
+    let scale = SIZE_STEPS / unit;
     let wants = |part: &[Fragment]| {
-        let asked = part.iter().step_by(step).map(|f| size(f, unit));
+        let asked = part.iter().step_by(step).map(|f| u64::from(size(f, scale)));
         asked.sum::<u64>().saturating_mul(step as u64)
     };
     let [l, r] = sides.map(|part| u128::from(wants(part)) + part.len() as u128);
@@ -108,14 +109,14 @@ fn share(free: usize, sides: [&[Fragment]; 2], unit: f32) -> usize {
     for_left.min(most[0]).max(free.saturating_sub(most[1]))
 }
 
-/// The length of a fragment as a whole number, so that sums do not depend on their order.
-fn size(f: &Fragment, unit: f32) -> u64 {
-    let parts = f.bounds().half_area().sqrt() / unit * SIZE_STEPS;
+/// The length of a fragment, in units of `1 / scale`, as a whole number, so that sums do not depend on their order.
+fn size(f: &Fragment, scale: f32) -> u32 {
+    let parts = f.bounds().half_area().sqrt() * scale;
     if f.is_whole() || !parts.is_finite() {
         return 0;
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 2^30")]
     {
-        parts as u64
+        parts as u32
     }
 }

@@ -11,11 +11,12 @@
 //!
 //! Looking for spatial splits costs several times what the other splits do, and in most meshes it is in vain. Where they
 //! pay, they pay from large nodes downwards. So large ranges ask a sample of their fragments first, and small ranges look
-//! only where one of the last splits above them was worth it; elsewhere the tree is that of `build`.
+//! only where one of the last splits above them was worth it; elsewhere the tree is that of `build`. Either looks only
+//! along axes on which the bins of the other splits leave something to gain.
 
 use pack::abi::{CHILD_INNER, MAX_LEAF, Node};
 
-use super::binned::{self, Bins, Mapping};
+use super::binned::{self, Axes, Bins, Mapping};
 use super::build::{self, NODE_COST, PARALLEL_BINS_MIN, PARALLEL_MIN, Part, Rule};
 use super::cut::Cut;
 use super::fragment::{Bounds, Fragment};
@@ -144,7 +145,8 @@ fn divide<'a>(mut range: Range<'a>, context: Context) -> [Range<'a>; 2] {
         Some(_) => 0.0,
         None => range.bounds.half_area() * range.n as f32,
     };
-    if let Some(sides) = spatial(&mut range, context, limit, parallel) {
+    let axes = bins.axes_worth_cutting(MAX_COST * limit);
+    if let Some(sides) = spatial(&mut range, context, limit, axes, parallel) {
         return range.part(&sides);
     }
     let frags = &mut range.frags[..range.n];
@@ -174,7 +176,7 @@ fn small(range: &mut Range, context: Context) -> Option<Sides> {
         None => true,
     };
     let limit = if looks { cost.min(as_leaf) } else { 0.0 };
-    if let Some(sides) = spatial(range, context, limit, false) {
+    if let Some(sides) = spatial(range, context, limit, [true; 3], false) {
         return Some(sides);
     }
     if may_be_leaf && cost >= as_leaf {
@@ -189,14 +191,21 @@ fn small(range: &mut Range, context: Context) -> Option<Sides> {
     Some(Sides { counts: [s.n_left, n - s.n_left], bounds: [s.left, s.right], centroids })
 }
 
-/// Makes the best spatial split if it costs less than `MAX_COST * limit` and there is room for its
+/// Makes the best spatial split along `axes` if it costs less than `MAX_COST * limit` and there is room for its
 /// pieces; remembers whether it was worth looking.
-fn spatial(range: &mut Range, context: Context, limit: f32, parallel: bool) -> Option<Sides> {
+fn spatial(
+    range: &mut Range,
+    context: Context,
+    limit: f32,
+    axes: Axes,
+    parallel: bool,
+) -> Option<Sides> {
     if range.splits.is_empty() || !(limit > 0.0 && limit.is_finite()) {
         return None;
     }
-    let looks = !context.gives_up(range) || is_promising(range, context);
-    let sides = if looks { cheaper(range, context, limit, parallel) } else { None };
+    let looks =
+        axes.contains(&true) && (!context.gives_up(range) || is_promising(range, context, axes));
+    let sides = if looks { cheaper(range, context, limit, axes, parallel) } else { None };
     range.patience = match &sides {
         Some(_) => context.rules.patience.unwrap_or(0),
         None => range.patience.saturating_sub(1),
@@ -204,26 +213,32 @@ fn spatial(range: &mut Range, context: Context, limit: f32, parallel: bool) -> O
     sides
 }
 
-/// Whether a spatial split of some of the fragments costs less than another split of them. Both are of the same
+/// Whether a spatial split of some of the fragments along `axes` costs less than another split of them. Both are of the same
 /// sample, whose boxes are too small for either.
-fn is_promising(range: &Range, context: Context) -> bool {
+fn is_promising(range: &Range, context: Context, axes: Axes) -> bool {
     let (every, least) = SAMPLE;
     let step = every.min(range.n / least).max(1);
     let sample: Vec<Fragment> = range.frags[..range.n].iter().step_by(step).copied().collect();
     let object = Bins::fill(&sample, &Mapping::new(&range.centroids)).best();
     let Some(object) = object else { return true };
-    let slabs = Slabs::<16>::new(&range.bounds);
+    let slabs = Slabs::<16>::new(&range.bounds, axes);
     let spatial = SpatialBins::fill(&sample, context.corners, &slabs).best(&slabs);
     spatial.is_some_and(|s| s.cost < object.cost(sample.len()))
 }
 
 /// The best spatial split, see [`spatial`].
-fn cheaper(range: &mut Range, context: Context, limit: f32, parallel: bool) -> Option<Sides> {
+fn cheaper(
+    range: &mut Range,
+    context: Context,
+    limit: f32,
+    axes: Axes,
+    parallel: bool,
+) -> Option<Sides> {
     let limit = limit * MAX_COST;
     let best = match context.rules.bins {
-        Fineness::Coarse if range.n <= SWEEP_MAX => candidate::<8>(range, context, parallel),
-        Fineness::Fine if range.n > SWEEP_MAX => candidate::<32>(range, context, parallel),
-        Fineness::Coarse | Fineness::Fine => candidate::<16>(range, context, parallel),
+        Fineness::Coarse if range.n <= SWEEP_MAX => candidate::<8>(range, context, axes, parallel),
+        Fineness::Fine if range.n > SWEEP_MAX => candidate::<32>(range, context, axes, parallel),
+        Fineness::Coarse | Fineness::Fine => candidate::<16>(range, context, axes, parallel),
     };
     let best = best.filter(|s| s.cost < limit)?;
     let mut cut = Cut::new(&range.frags[..range.n], context.corners, best.plane);
@@ -241,9 +256,10 @@ fn cheaper(range: &mut Range, context: Context, limit: f32, parallel: bool) -> O
 fn candidate<const N: usize>(
     range: &Range,
     context: Context,
+    axes: Axes,
     parallel: bool,
 ) -> Option<SpatialSplit> {
-    let slabs = Slabs::<N>::new(&range.bounds);
+    let slabs = Slabs::<N>::new(&range.bounds, axes);
     let frags = &range.frags[..range.n];
     let bins = if parallel {
         SpatialBins::fill_parallel(frags, context.corners, &slabs)

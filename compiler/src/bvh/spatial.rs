@@ -1,7 +1,7 @@
 //! Candidates for spatial splits.
 //!
-//! Turns a range of fragments into the best of 3 x (n - 1) planes that cut the box of the range into
-//! n equal slabs. A fragment that crosses planes counts on both sides, with the boxes of its parts.
+//! Turns a range of fragments into the best of the n - 1 planes of each axis asked for that cut the box of the range
+//! into n equal slabs. A fragment that crosses planes counts on both sides, with the boxes of its parts.
 //! The parts are in `f32` and only guide the choice; `clip` makes the real ones. Minimum, maximum and
 //! counting are exact, so threads change nothing.
 //!
@@ -10,6 +10,7 @@
 use glam::Vec4;
 use rayon::prelude::*;
 
+use super::binned::Axes;
 use super::clip::Plane;
 use super::fragment::{Bounds, Fragment};
 use super::input::Corners;
@@ -20,12 +21,13 @@ const CHUNK: usize = 1 << 13;
 /// 1.5 * 2^23: see `binned`.
 const ROUND: f32 = 12_582_912.0;
 
-/// Cuts a box into `N` slabs along every axis; `N` is a power of two.
+/// Cuts a box into `N` slabs along some axes; `N` is a power of two.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slabs<const N: usize> {
     lo: Vec4,
     extent: Vec4,
     scale: Vec4,
+    axes: Axes,
 }
 
 /// The cheapest plane and its cost: half-areas weighted by counts.
@@ -36,14 +38,20 @@ pub(super) struct SpatialSplit {
 }
 
 impl<const N: usize> Slabs<N> {
-    pub(super) fn new(bounds: &Bounds) -> Self {
+    pub(super) fn new(bounds: &Bounds, axes: Axes) -> Self {
         let bounds = bounds.without_lanes();
         let extent = bounds.hi - bounds.lo;
         let scale = extent.to_array().map(|e| {
             let s = N as f32 / e;
             if s.is_finite() { s } else { 0.0 }
         });
-        Self { lo: bounds.lo, extent, scale: Vec4::from_array(scale) }
+        Self { lo: bounds.lo, extent, scale: Vec4::from_array(scale), axes }
+    }
+
+    #[inline]
+    fn axes(&self) -> impl Iterator<Item = usize> {
+        let axes = self.axes;
+        (0..3).filter(move |axis| axes[*axis])
     }
 
     /// The slabs that a point is in; the fourth lane means nothing.
@@ -88,7 +96,7 @@ impl<const N: usize> SpatialBins<N> {
             let b = f.bounds();
             let (from, to) = (slabs.of(b.lo), slabs.of(b.hi));
             let mut points = None;
-            for axis in 0..3 {
+            for axis in slabs.axes() {
                 let (from, to) = (from[axis], to[axis]);
                 bins.enter[axis][from] += 1;
                 bins.leave[axis][to] += 1;
@@ -144,10 +152,7 @@ impl<const N: usize> SpatialBins<N> {
     /// lower plane.
     pub(super) fn best(&self, slabs: &Slabs<N>) -> Option<SpatialSplit> {
         let mut best: Option<SpatialSplit> = None;
-        for axis in 0..3 {
-            if slabs.scale[axis] == 0.0 {
-                continue;
-            }
+        for axis in slabs.axes().filter(|axis| slabs.scale[*axis] != 0.0) {
             let bounds = &self.bounds[axis];
             let mut above = [(0.0_f32, 0_u32); N];
             let (mut acc, mut n) = (Bounds::EMPTY, 0);
