@@ -11,8 +11,8 @@
 //!
 //! Looking for spatial splits costs several times what the other splits do, and in most meshes it is in vain. Where they
 //! pay, they pay from large nodes downwards. So large ranges ask a sample of their fragments first, and small ranges look
-//! only where one of the last splits above them was worth it; elsewhere the tree is that of `build`. Either looks only
-//! along axes on which the bins of the other splits leave something to gain.
+//! only where one of the last splits above them was worth it; elsewhere the tree is that of `build`. Both look only
+//! along axes on which the bins of the object split leave something to gain.
 
 use pack::abi::{CHILD_INNER, MAX_LEAF, Node};
 
@@ -145,8 +145,7 @@ fn divide<'a>(mut range: Range<'a>, context: Context) -> [Range<'a>; 2] {
         Some(_) => 0.0,
         None => range.bounds.half_area() * range.n as f32,
     };
-    let axes = bins.axes_worth_cutting(MAX_COST * limit);
-    if let Some(sides) = spatial(&mut range, context, limit, axes, parallel) {
+    if let Some(sides) = spatial(&mut range, context, limit, Some(&bins), parallel) {
         return range.part(&sides);
     }
     let frags = &mut range.frags[..range.n];
@@ -176,7 +175,7 @@ fn small(range: &mut Range, context: Context) -> Option<Sides> {
         None => true,
     };
     let limit = if looks { cost.min(as_leaf) } else { 0.0 };
-    if let Some(sides) = spatial(range, context, limit, [true; 3], false) {
+    if let Some(sides) = spatial(range, context, limit, None, false) {
         return Some(sides);
     }
     if may_be_leaf && cost >= as_leaf {
@@ -191,21 +190,35 @@ fn small(range: &mut Range, context: Context) -> Option<Sides> {
     Some(Sides { counts: [s.n_left, n - s.n_left], bounds: [s.left, s.right], centroids })
 }
 
-/// Makes the best spatial split along `axes` if it costs less than `MAX_COST * limit` and there is room for its
-/// pieces; remembers whether it was worth looking.
+/// What a spatial split is looked for with.
+#[derive(Clone, Copy)]
+struct Search {
+    /// It must cost less than this.
+    limit: f32,
+    /// Axes of its plane.
+    axes: Axes,
+    /// On all threads.
+    parallel: bool,
+}
+
+/// Makes the best spatial split if it costs less than `MAX_COST * limit` and there is room for its
+/// pieces; remembers whether it was worth looking. `bins` are those of the object split, if it has any.
 fn spatial(
     range: &mut Range,
     context: Context,
     limit: f32,
-    axes: Axes,
+    bins: Option<&Bins>,
     parallel: bool,
 ) -> Option<Sides> {
     if range.splits.is_empty() || !(limit > 0.0 && limit.is_finite()) {
         return None;
     }
+    let limit = limit * MAX_COST;
+    let axes = bins.map_or([true; 3], |bins| bins.axes_worth_cutting(limit));
     let looks =
         axes.contains(&true) && (!context.gives_up(range) || is_promising(range, context, axes));
-    let sides = if looks { cheaper(range, context, limit, axes, parallel) } else { None };
+    let search = Search { limit, axes, parallel };
+    let sides = if looks { cheaper(range, context, search) } else { None };
     range.patience = match &sides {
         Some(_) => context.rules.patience.unwrap_or(0),
         None => range.patience.saturating_sub(1),
@@ -213,8 +226,8 @@ fn spatial(
     sides
 }
 
-/// Whether a spatial split of some of the fragments along `axes` costs less than another split of them. Both are of the same
-/// sample, whose boxes are too small for either.
+/// Whether a spatial split of some of the fragments along `axes` costs less than an object split of them. Both are of
+/// the same sample, whose boxes are too small for either.
 fn is_promising(range: &Range, context: Context, axes: Axes) -> bool {
     let (every, least) = SAMPLE;
     let step = every.min(range.n / least).max(1);
@@ -227,18 +240,12 @@ fn is_promising(range: &Range, context: Context, axes: Axes) -> bool {
 }
 
 /// The best spatial split, see [`spatial`].
-fn cheaper(
-    range: &mut Range,
-    context: Context,
-    limit: f32,
-    axes: Axes,
-    parallel: bool,
-) -> Option<Sides> {
-    let limit = limit * MAX_COST;
+fn cheaper(range: &mut Range, context: Context, search: Search) -> Option<Sides> {
+    let limit = search.limit;
     let best = match context.rules.bins {
-        Fineness::Coarse if range.n <= SWEEP_MAX => candidate::<8>(range, context, axes, parallel),
-        Fineness::Fine if range.n > SWEEP_MAX => candidate::<32>(range, context, axes, parallel),
-        Fineness::Coarse | Fineness::Fine => candidate::<16>(range, context, axes, parallel),
+        Fineness::Coarse if range.n <= SWEEP_MAX => candidate::<8>(range, context, search),
+        Fineness::Fine if range.n > SWEEP_MAX => candidate::<32>(range, context, search),
+        Fineness::Coarse | Fineness::Fine => candidate::<16>(range, context, search),
     };
     let best = best.filter(|s| s.cost < limit)?;
     let mut cut = Cut::new(&range.frags[..range.n], context.corners, best.plane);
@@ -256,12 +263,11 @@ fn cheaper(
 fn candidate<const N: usize>(
     range: &Range,
     context: Context,
-    axes: Axes,
-    parallel: bool,
+    search: Search,
 ) -> Option<SpatialSplit> {
-    let slabs = Slabs::<N>::new(&range.bounds, axes);
+    let slabs = Slabs::<N>::new(&range.bounds, search.axes);
     let frags = &range.frags[..range.n];
-    let bins = if parallel {
+    let bins = if search.parallel {
         SpatialBins::fill_parallel(frags, context.corners, &slabs)
     } else {
         SpatialBins::fill(frags, context.corners, &slabs)
