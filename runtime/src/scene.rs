@@ -2,7 +2,7 @@
 
 use crate::kernel::walk::{Geometry, Tree};
 use pack::abi::RenderSettings;
-use pack::{Checked, Pack, features};
+use pack::{Checked, Pack};
 use std::fmt::Write as _;
 use std::sync::OnceLock;
 
@@ -66,7 +66,8 @@ fn tree_of(pack: &Pack<Checked>) -> Option<Tree> {
         triangles: pack.records(),
         instances: pack.records(),
         root: pack.render().root,
-        uncut: pack.features() & (features::ALPHA_CLIP | features::ALPHA_BLEND) == 0,
+        shades: pack.records(),
+        materials: pack.records(),
     };
     (!nodes.is_empty()).then(|| Tree::new(&geometry))
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use compiler::bvh::{self, Joined, Layout, Preset};
 use glam::UVec4;
-use pack::abi::{Frame, NONE, TriShade, Triangle, WideNode};
+use pack::abi::{Frame, Material, NONE, TriShade, Triangle, WideNode};
 use runtime::kernel::f32 as kernel;
 use runtime::kernel::walk::{Companion, Geometry, Tree};
 
@@ -248,7 +248,9 @@ impl Words {
     /// Makes the tree that the CPU walks by hand.
     fn walk_by_hand(&mut self, nodes: &[WideNode], root: u32) {
         let triangles = bytemuck::cast_slice(self.triangles.words());
-        let geometry = Geometry { nodes, triangles, instances: &[], root, uncut: true };
+        let shades = bytemuck::cast_slice(&self.shades);
+        let materials = &[Material::default()];
+        let geometry = Geometry { nodes, triangles, instances: &[], root, shades, materials };
         self.tree = Some(Tree::new(&geometry));
     }
 

@@ -12,7 +12,7 @@ use crate::rays::Rays;
 use crate::target;
 use glam::UVec4;
 use kernel_f32::kernel as scalar;
-use kernel_f32::walk::{self, Block, FAR_END, Few, Node, Step, Tree};
+use kernel_f32::walk::{self, Block, FAR_END, Few, Marked, Node, Step, Tree};
 use scalar::NONE;
 use std::borrow::Borrow;
 
@@ -49,8 +49,6 @@ struct Packet<'r> {
     sheared: Sheared,
     /// The lanes of shadow rays.
     shadow: v::B,
-    /// Nothing is cut out of a triangle.
-    uncut: bool,
     /// The lanes that start on a triangle, and the id of its first corner.
     skip: v::B,
     skip_id: v::U,
@@ -60,7 +58,7 @@ struct Packet<'r> {
 #[target]
 pub(crate) fn trace(kernel: &mut Kernel<'_>, tree: &Tree, mask: v::B, ray: &Ray) -> Hit {
     let mut scratch = std::mem::take(&mut kernel.companion.scratch);
-    let packet = Packet::new(kernel, tree, mask, ray);
+    let packet = Packet::new(kernel, mask, ray);
     let hit = match tree.few() {
         Some(few) if v::bits(mask).count_ones() > FEW_OF_LIST => {
             packet.test_all(kernel, few, &mut scratch.corners, mask)
@@ -73,7 +71,7 @@ pub(crate) fn trace(kernel: &mut Kernel<'_>, tree: &Tree, mask: v::B, ray: &Ray)
 
 impl<'r> Packet<'r> {
     #[target]
-    fn new(kernel: &mut Kernel<'_>, tree: &Tree, mask: v::B, ray: &'r Ray) -> Self {
+    fn new(kernel: &mut Kernel<'_>, mask: v::B, ray: &'r Ray) -> Self {
         let other = v::ne_u(v::and_u(ray.skip.x, v::u(scalar::PRIM_OTHER)), v::u(0));
         let skip = v::but_b(v::and_b(mask, v::eq_u(ray.skip.y, v::u(NONE))), other);
         let skip_id =
@@ -87,7 +85,6 @@ impl<'r> Packet<'r> {
             shear,
             sheared: Sheared::new(ray, shear),
             shadow: v::and_b(mask, v::ne_u(ray.light, v::u(NONE))),
-            uncut: tree.is_uncut(),
             skip,
             skip_id,
         }
@@ -157,9 +154,9 @@ impl<'r> Packet<'r> {
                 missing &= missing - 1;
                 corners[k] = self.sheared.corner(few.corners[k]);
             }
-            for triangle in &few.triangles[leaf.triangles.clone()] {
-                let [a, b, c] = triangle.corners.map(|k| &corners[usize::from(k)]);
-                let named = (triangle.index, triangle.ids);
+            for listed in &few.triangles[leaf.triangles.clone()] {
+                let [a, b, c] = listed.corners.map(|k| &corners[usize::from(k)]);
+                let named = (listed.triangle, listed.ids);
                 let ended = self.triangle(kernel, named, &[a, b, c], active, &mut hit);
                 (active, left) = (v::but_b(active, ended), v::but_b(left, ended));
             }
@@ -229,56 +226,58 @@ impl<'r> Packet<'r> {
         hit: &mut Hit,
     ) -> v::B {
         let mut ended = v::b(false);
-        for i in blocks.iter().flat_map(|block| block.triangles) {
-            // The rest of a block that is not full.
-            let Some(&[a, b, c]) =
-                kernel.tri_words.get(3 * i as usize..).and_then(<[_]>::first_chunk)
-            else {
-                continue;
-            };
+        for marked in blocks.iter().flat_map(|block| block.triangles) {
+            let rows = kernel.tri_words.get(3 * marked.index() as usize..);
+            // None for the rest of a block that is not full.
+            let Some(&[a, b, c]) = rows.and_then(<[_]>::first_chunk) else { continue };
             let corner = |row: UVec4| self.sheared.corner(bytemuck::cast(row.to_array()));
             let corners = [corner(a), corner(b), corner(c)];
-            let new = self.triangle(kernel, (i, [a.w, b.w, c.w]), &corners, active, hit);
+            let new = self.triangle(kernel, (marked, [a.w, b.w, c.w]), &corners, active, hit);
             ended = v::or_b(ended, new);
         }
         ended
     }
 
-    /// Tests the triangle with this number and these ids; as `triangles`.
+    /// Tests a triangle with these ids; as `triangles`.
     #[target]
     #[inline]
     fn triangle(
         &self,
         kernel: &mut Kernel<'_>,
-        (i, ids): (u32, [u32; 3]),
+        (marked, ids): (Marked, [u32; 3]),
         corners: &[impl Borrow<Corner>; 3],
         active: v::B,
         hit: &mut Hit,
     ) -> v::B {
         if let Some((met, new)) = self.sheared.intersect(corners, ids, active, hit.t) {
-            let counts = self.counts(kernel, (i, ids[0]), met, &new, hit);
+            let counts = self.counts(kernel, (marked, ids[0]), met, &new, hit);
             if v::any(counts) {
-                let new = Hit { t: new.t, prim: v::u(i), b: new.b(), instance: v::u(NONE) };
+                let new =
+                    Hit { t: new.t, prim: v::u(marked.index()), b: new.b(), instance: v::u(NONE) };
                 *hit = Hit::select(counts, &new, hit);
-                return self.ended(kernel, counts, hit);
+                return if marked.questions().ends() {
+                    self.ended(kernel, counts, hit)
+                } else {
+                    v::and_b(counts, self.shadow)
+                };
             }
         }
         v::b(false)
     }
 
-    /// Which of the new hits `met` of one triangle, whose number and the id of whose first corner are given, replace
-    /// the old ones, which are no nearer.
+    /// Which of the new hits `met` of a triangle, the id of whose first corner is given, replace the old ones, which are
+    /// no nearer.
     #[target]
     #[inline]
     fn counts(
         &self,
         kernel: &mut Kernel<'_>,
-        (triangle, first_id): (u32, u32),
+        (marked, first_id): (Marked, u32),
         met: v::B,
         new: &Crossing,
         hit: &Hit,
     ) -> v::B {
-        let (ray, i) = (self.ray, v::u(triangle));
+        let (ray, i) = (self.ray, v::u(marked.index()));
         let between = v::and_b(v::gt_f(new.t, ray.t_min), v::lt_f(new.t, hit.t));
         let mut counts = v::and_b(met, between);
         let tie = v::but_b(v::and_b(met, v::ge_f(new.t, ray.t_min)), between);
@@ -292,10 +291,8 @@ impl<'r> Packet<'r> {
             let skipped = kernel.order_skipped(same, i, ray);
             counts = v::but_b(counts, v::and_b(same, skipped));
         }
-        let asked = if self.uncut { v::and_b(counts, self.shadow) } else { counts };
-        if v::any(asked) {
-            let candidates = kernel.candidate_triangle(asked, i, new.b(), ray);
-            counts = v::but_b(counts, v::but_b(asked, candidates));
+        if marked.questions().counts() && v::any(counts) {
+            counts = v::and_b(counts, kernel.candidate_triangle(counts, i, new.b(), ray));
         }
         counts
     }

@@ -16,12 +16,14 @@ mod crossings;
 mod few;
 mod lanes;
 mod node;
+mod questions;
 mod stack;
 mod tree;
 mod triangles;
 
 pub use build::Geometry;
 pub use few::{Ends, Few, Leaf, Listed, MOST_CORNERS, SphereLeaf};
+pub use questions::{Marked, Questions};
 pub use stack::FAR_END;
 pub use tree::{Block, Companion, Node, Step, Tree};
 
@@ -161,8 +163,6 @@ impl Walk<'_, '_> {
         if let Some(crossed) = &mut crossed {
             crossed.clear();
         }
-        // Such a ray can be hit by every triangle.
-        let all = tree.uncut && !shadow;
         if child == NONE {
             return hit;
         }
@@ -188,7 +188,9 @@ impl Walk<'_, '_> {
                 if child & (CHILD_SPHERES | MOVING) == 0 {
                     let blocks = tree.blocks(child);
                     let crossed = crossed.as_deref_mut();
-                    hit = triangles::leaf(kernel, blocks, &walk.ray, &sheared, all, (hit, crossed));
+                    let also = tree.questions(walk.ray.instance);
+                    hit =
+                        triangles::leaf(kernel, blocks, &walk.ray, &sheared, also, (hit, crossed));
                 } else {
                     let leaf = if child & CHILD_SPHERES != 0 { child } else { tree.moving(child) };
                     let found = kernel.leaf_trace(leaf, walk.ray, walk.leaf, hit);

@@ -5,8 +5,11 @@
 
 use super::collapse::{Child, Item, Plan, Source};
 use super::few::{Content, Few};
+use super::questions::{Marked, Questions};
 use super::tree::{BLOCK, Block, MOVING, Node, TWO_BLOCKS, Tree, WIDTH};
-use pack::abi::{CHILD_INNER, CHILD_SPHERES, ChildRef, Instance, NONE, Triangle, WideNode};
+use pack::abi::{
+    CHILD_INNER, CHILD_SPHERES, ChildRef, Instance, Material, NONE, TriShade, Triangle, WideNode,
+};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -24,16 +27,18 @@ pub struct Geometry<'a> {
     pub instances: &'a [Instance],
     /// The root of the world, a `ChildRef`.
     pub root: u32,
-    /// Nothing is cut out of a triangle.
-    pub uncut: bool,
+    /// How they look; tells what has to be asked about a hit.
+    pub shades: &'a [TriShade],
+    /// All materials.
+    pub materials: &'a [Material],
 }
 
 impl Tree {
     /// The tree over the same triangles, spheres and instances as the nodes of `geometry`.
     #[must_use]
     pub fn new(geometry: &Geometry<'_>) -> Tree {
-        let Geometry { nodes, triangles, instances, root, uncut } = *geometry;
-        let source = Source { nodes, triangles };
+        let Geometry { nodes, triangles, instances, root, shades, materials } = *geometry;
+        let source = Source { nodes, triangles, shades, materials };
         let mut top = Piece::default();
         let mut roots: BTreeMap<u32, u32> = BTreeMap::new();
         for word in std::iter::once(root).chain(instances.iter().map(|instance| instance.root)) {
@@ -54,7 +59,7 @@ impl Tree {
             root: roots[&root],
             roots: instances.iter().map(|instance| roots[&instance.root]).collect(),
             need: 0,
-            uncut,
+            in_instances: Questions::of_instances(materials, instances),
             few: None,
         };
         tree.need = stack_need(&tree);
@@ -137,7 +142,7 @@ impl Piece {
     fn block(&mut self, source: &Source<'_>, triangles: &[u32]) -> u32 {
         let last = triangles.len() - 1;
         let triangle = |lane: usize| &source.triangles[triangles[lane.min(last)] as usize];
-        let index = |lane: usize| triangles.get(lane).copied().unwrap_or(NONE);
+        let index = |lane: usize| triangles.get(lane).map_or(Marked::NONE, |i| source.marked(*i));
         self.blocks.push(Block::of([0, 1, 2, 3].map(triangle), [0, 1, 2, 3].map(index)));
         number(self.blocks.len() - 1)
     }
@@ -221,7 +226,7 @@ impl Node {
 }
 
 impl Block {
-    fn of(each: [&Triangle; BLOCK], triangles: [u32; BLOCK]) -> Self {
+    fn of(each: [&Triangle; BLOCK], triangles: [Marked; BLOCK]) -> Self {
         let mut corners = [[[0.0; BLOCK]; 3]; 3];
         for (lane, triangle) in each.into_iter().enumerate() {
             for (lanes, corner) in corners.iter_mut().zip([triangle.v0, triangle.v1, triangle.v2]) {
@@ -245,7 +250,7 @@ fn few(tree: &Tree, triangles: &[Triangle]) -> Option<Few> {
                 return (ends, Content::Spheres(child));
             }
             let indices = tree.blocks(child).iter().flat_map(|block| block.triangles);
-            (ends, Content::Triangles(indices.filter(|index| *index != NONE).collect()))
+            (ends, Content::Triangles(indices.filter(|marked| !marked.is_none()).collect()))
         })
     });
     if tree.is_small() && !tree.nodes.is_empty() { Few::of(leaves, triangles) } else { None }

@@ -5,8 +5,9 @@
 //! Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", HPG, section 3.1). A node and a
 //! block cost the area of their boxes, as the surface-area heuristic has it. It does not number anything.
 
+use super::questions::{Marked, Questions};
 use super::tree::{BLOCK, WIDTH};
-use pack::abi::{ChildRef, MOVES, Triangle, WideNode};
+use pack::abi::{ChildRef, MOVES, Material, TriShade, Triangle, WideNode};
 
 /// Lower and upper corner.
 type Corners = [[f32; 3]; 2];
@@ -15,6 +16,8 @@ type Corners = [[f32; 3]; 2];
 pub(super) struct Source<'a> {
     pub(super) nodes: &'a [WideNode],
     pub(super) triangles: &'a [Triangle],
+    pub(super) shades: &'a [TriShade],
+    pub(super) materials: &'a [Material],
 }
 
 /// What a child is.
@@ -114,6 +117,11 @@ impl Source<'_> {
             }
             ChildRef::Spheres { .. } | ChildRef::Instance(_) | ChildRef::Empty => Item::Other(word),
         }
+    }
+
+    /// Triangle `i`, and what has to be asked about it.
+    pub(super) fn marked(&self, i: u32) -> Marked {
+        Marked::new(i, Questions::of(self.materials, self.shades.get(i as usize)))
     }
 
     /// Whether one of these triangles moves while the shutter is open.

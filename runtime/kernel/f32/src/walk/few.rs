@@ -4,6 +4,7 @@
 //! traced together come to most of the tree: then a list costs less than nodes and a stack, and each corner is taken into
 //! the frames of the rays once, for all triangles that share it.
 
+use super::questions::Marked;
 use pack::abi::Triangle;
 use std::ops::Range;
 
@@ -26,8 +27,8 @@ pub type Ends = [[f32; 2]; 3];
 /// A triangle of a list.
 #[derive(Clone, Copy, Debug)]
 pub struct Listed {
-    /// Which one of the pack.
-    pub index: u32,
+    /// Which one.
+    pub triangle: Marked,
     /// Places in `Few::corners`.
     pub corners: [u8; 3],
     /// Ids of its corners.
@@ -70,7 +71,7 @@ pub struct Few {
 /// What lies in a leaf.
 pub(super) enum Content {
     /// Triangles that stand still.
-    Triangles(Vec<u32>),
+    Triangles(Vec<Marked>),
     /// Spheres: their reference.
     Spheres(u32),
 }
@@ -103,16 +104,16 @@ impl Few {
     }
 
     /// Adds a leaf of the triangles `indices`, unless it is too much.
-    fn add(&mut self, ends: Ends, indices: &[u32], triangles: &[Triangle]) -> Option<()> {
+    fn add(&mut self, ends: Ends, indices: &[Marked], triangles: &[Triangle]) -> Option<()> {
         let (first, mut mask) = (self.triangles.len(), 0);
-        for index in indices {
-            let Triangle { v0, v1, v2, id0, id1, id2, .. } = triangles[*index as usize];
+        for triangle in indices {
+            let Triangle { v0, v1, v2, id0, id1, id2, .. } = triangles[triangle.index() as usize];
             let mut corners = [0; 3];
             for (place, [x, y, z]) in corners.iter_mut().zip([v0, v1, v2]) {
                 *place = self.place([x, y, z, 0.0])?;
                 mask |= 1 << *place;
             }
-            self.triangles.push(Listed { index: *index, corners, ids: [id0, id1, id2] });
+            self.triangles.push(Listed { triangle: *triangle, corners, ids: [id0, id1, id2] });
         }
         let end = self.triangles.len();
         self.leaves.push(Leaf { ends, corners: mask, triangles: first..end });
@@ -139,6 +140,7 @@ fn area(ends: &Ends) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::questions::Questions;
     use super::*;
 
     /// Two triangles of a square of side 1.
@@ -156,6 +158,11 @@ mod tests {
         [triangle([a, b, c]), triangle([a, c, d])]
     }
 
+    /// Triangle `i`, of which nothing has to be asked.
+    fn plain(i: u32) -> Marked {
+        Marked::new(i, Questions::default())
+    }
+
     /// A box of which one corner is the origin.
     fn up_to(x: f32, y: f32, z: f32) -> Ends {
         [[0.0, x], [0.0, y], [0.0, z]]
@@ -164,8 +171,8 @@ mod tests {
     #[test]
     fn triangles_share_corners_and_small_leaves_are_first() {
         let leaves = [
-            (up_to(1.0, 1.0, 0.0), Content::Triangles(vec![0, 1])),
-            (up_to(1.0, 0.5, 0.0), Content::Triangles(vec![0])),
+            (up_to(1.0, 1.0, 0.0), Content::Triangles(vec![plain(0), plain(1)])),
+            (up_to(1.0, 0.5, 0.0), Content::Triangles(vec![plain(0)])),
             (up_to(0.1, 0.1, 0.1), Content::Spheres(7)),
         ];
         let few = Few::of(leaves.into_iter(), &square()).expect("a list");
@@ -179,12 +186,12 @@ mod tests {
 
     #[test]
     fn there_is_no_list_of_much_or_of_what_rays_seldom_meet() {
-        let leaf = |n: usize| (up_to(1.0, 1.0, 0.0), Content::Triangles(vec![0; n]));
+        let leaf = |n: usize| (up_to(1.0, 1.0, 0.0), Content::Triangles(vec![plain(0); n]));
         let of = |leaves: Vec<(Ends, Content)>| Few::of(leaves.into_iter(), &square());
         let leaves = |n: usize| (0..n).map(|_| leaf(1)).collect();
         assert!(of(vec![leaf(MOST)]).is_some() && of(vec![leaf(MOST + 1)]).is_none());
         assert!(of(leaves(MOST_LEAVES)).is_some() && of(leaves(MOST_LEAVES + 1)).is_none());
         let far = [[9.0, 10.0], [9.0, 10.0], [0.0, 0.0]];
-        assert!(of(vec![leaf(1), (far, Content::Triangles(vec![1]))]).is_none());
+        assert!(of(vec![leaf(1), (far, Content::Triangles(vec![plain(1)]))]).is_none());
     }
 }

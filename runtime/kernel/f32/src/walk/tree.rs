@@ -5,6 +5,7 @@
 
 use super::crossings::Crossings;
 use super::few::Few;
+use super::questions::{Marked, Questions};
 use super::stack::Stack;
 use pack::abi::{CHILD_INNER, CHILD_INSTANCE, CHILD_SPHERES, NONE};
 
@@ -43,8 +44,8 @@ pub struct Node {
 pub struct Block {
     /// For each corner x, y and z; lanes without a triangle of their own repeat the last.
     pub(super) corners: [[[f32; BLOCK]; 3]; 3],
-    /// Which triangles of the pack they are; `NONE` in the other lanes.
-    pub triangles: [u32; BLOCK],
+    /// Which triangles they are; none in the other lanes.
+    pub triangles: [Marked; BLOCK],
 }
 
 /// A tree, and those of its instances.
@@ -59,8 +60,8 @@ pub struct Tree {
     pub(super) roots: Vec<u32>,
     /// Entries that the stack needs.
     pub(super) need: usize,
-    /// Nothing is cut out of a triangle.
-    pub(super) uncut: bool,
+    /// What is to be asked about a triangle in an instance beside its own questions.
+    pub(super) in_instances: Questions,
     /// All that is in it, if that is little.
     pub(super) few: Option<Few>,
 }
@@ -99,11 +100,10 @@ impl Tree {
         self.few.as_ref()
     }
 
-    /// Nothing is cut out of a triangle.
-    #[must_use]
+    /// What is to be asked about a triangle in `instance`, or in none, beside its own questions.
     #[inline(always)]
-    pub fn is_uncut(&self) -> bool {
-        self.uncut
+    pub(super) fn questions(&self, instance: u32) -> Questions {
+        if instance == NONE { Questions::default() } else { self.in_instances }
     }
 
     /// What the reference `child` leads to.

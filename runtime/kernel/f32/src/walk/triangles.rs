@@ -4,8 +4,9 @@
 //! their order, so that its bits are the same. Which hit counts is then asked one by one.
 
 use super::crossings::Crossings;
+use super::questions::{Marked, Questions};
 use super::tree::{BLOCK, Block};
-use crate::kernel::{Hit, Kernel, NONE, PRIM_OTHER, Ray, TriangleShear};
+use crate::kernel::{Hit, Kernel, PRIM_OTHER, Ray, TriangleShear};
 use bytemuck::cast;
 use glam::{UVec4, Vec2};
 use wide::{f32x4, i32x4};
@@ -77,22 +78,22 @@ impl Sheared {
     }
 }
 
-/// The better of `best` and the hits in `blocks`; `all`: none is to be asked whether it counts for such a ray. Of a shadow
-/// ray a hit that hides its light, or else `best`, up to the distance where `crossed` has all that the ray goes through.
+/// The better of `best` and the hits in `blocks`; `also`: what is to be asked about each beside its own questions. Of a
+/// shadow ray a hit that hides its light, or else `best`, up to the distance where `crossed` has all that the ray goes through.
 #[inline(always)]
 pub(super) fn leaf(
     kernel: &mut Kernel<'_>,
     blocks: &[Block],
     ray: &Ray,
     sheared: &Sheared,
-    all: bool,
+    also: Questions,
     (best, crossed): (Hit, Option<&mut Crossings>),
 ) -> Hit {
     // Asked once, and not in every test.
     match sheared.axis {
-        0 => leaf_along::<0>(kernel, blocks, ray, sheared, all, (best, crossed)),
-        1 => leaf_along::<1>(kernel, blocks, ray, sheared, all, (best, crossed)),
-        _ => leaf_along::<2>(kernel, blocks, ray, sheared, all, (best, crossed)),
+        0 => leaf_along::<0>(kernel, blocks, ray, sheared, also, (best, crossed)),
+        1 => leaf_along::<1>(kernel, blocks, ray, sheared, also, (best, crossed)),
+        _ => leaf_along::<2>(kernel, blocks, ray, sheared, also, (best, crossed)),
     }
 }
 
@@ -102,7 +103,7 @@ fn leaf_along<const AXIS: u32>(
     blocks: &[Block],
     ray: &Ray,
     sheared: &Sheared,
-    all: bool,
+    also: Questions,
     (best, mut crossed): (Hit, Option<&mut Crossings>),
 ) -> Hit {
     let mut hit = best;
@@ -118,10 +119,11 @@ fn leaf_along<const AXIS: u32>(
         while left != 0 {
             let lane = left.trailing_zeros() as usize & 3;
             left &= left - 1;
-            let i = block.triangles[lane];
-            if i == NONE {
+            let marked = block.triangles[lane];
+            if marked.is_none() {
                 break;
             }
+            let (i, questions) = (marked.index(), marked.questions() | also);
             let mut new = met.hit(lane, i, ray);
             if let Some(t) = sheared.flat::<AXIS>(block, lane) {
                 new.t = t;
@@ -130,10 +132,10 @@ fn leaf_along<const AXIS: u32>(
                 && new.t <= hit.t
                 && comes_first(kernel, &new, &hit, ray)
                 && !sheared.skips(kernel, block, lane, i, ray)
-                && (all || kernel.candidate_triangle(i, new.b, *ray))
+                && (!questions.counts() || kernel.candidate_triangle(i, new.b, *ray))
             {
                 match &mut crossed {
-                    Some(crossed) if !kernel.dispatch_ends(new) => {
+                    Some(crossed) if questions.ends() && !kernel.dispatch_ends(new) => {
                         hit.t = crossed.add(kernel, new, hit.t);
                     }
                     Some(_) => return new,
@@ -170,7 +172,10 @@ impl Corner {
 #[inline(always)]
 fn ids(block: &Block, words: &[UVec4]) -> [i32x4; 3] {
     [0, 1, 2].map(|corner| {
-        let id = |i: u32| words.get(3 * i as usize + corner).map_or(0, |row| row.w.cast_signed());
+        let id = |marked: Marked| {
+            let row = words.get(3 * marked.index() as usize + corner);
+            row.map_or(0, |row| row.w.cast_signed())
+        };
         i32x4::new(block.triangles.map(id))
     })
 }

@@ -44,6 +44,11 @@ impl Random {
     }
 }
 
+/// A tree over triangles that look like nothing.
+fn source<'a>(nodes: &'a [WideNode], triangles: &'a [Triangle]) -> Source<'a> {
+    Source { nodes, triangles, shades: &[], materials: &[] }
+}
+
 /// What the children of a node cost, with all below them.
 fn cost(plan: &Plan, children: &[Child]) -> f32 {
     assert!(children.len() <= WIDTH);
@@ -80,7 +85,7 @@ fn no_other_collapse_costs_less() {
         let leaves = 2 + random.below(13);
         random.tree(leaves);
         let triangles = vec![Triangle::default(); random.n_triangles as usize];
-        let source = Source { nodes: &random.nodes, triangles: &triangles };
+        let source = source(&random.nodes, &triangles);
         let plan = Plan::new(&source, 0, usize::MAX);
         let root = plan.root.unwrap();
         let least = match plan.subtrees[root].content {
@@ -117,7 +122,7 @@ fn a_plan_may_end_early_and_loses_nothing() {
     let mut random = Random { state: 7, nodes: Vec::new(), n_triangles: 0 };
     random.tree(60);
     let triangles = vec![Triangle::default(); random.n_triangles as usize];
-    let source = Source { nodes: &random.nodes, triangles: &triangles };
+    let source = source(&random.nodes, &triangles);
     for (left, ends_early) in [(1, true), (5, true), (usize::MAX, false)] {
         let plan = Plan::new(&source, 0, left);
         let mut stubs = 0;
