@@ -68,6 +68,8 @@ fn tree_of(pack: &Pack<Checked>) -> Option<Tree> {
         root: pack.render().root,
         shades: pack.records(),
         materials: pack.records(),
+        textures: pack.records(),
+        texels: pack.texels().as_flattened(),
     };
     (!nodes.is_empty()).then(|| Tree::new(&geometry))
 }

@@ -250,7 +250,16 @@ impl Words {
         let triangles = bytemuck::cast_slice(self.triangles.words());
         let shades = bytemuck::cast_slice(&self.shades);
         let materials = &[Material::default()];
-        let geometry = Geometry { nodes, triangles, instances: &[], root, shades, materials };
+        let geometry = Geometry {
+            nodes,
+            triangles,
+            instances: &[],
+            root,
+            shades,
+            materials,
+            textures: &[],
+            texels: &[],
+        };
         self.tree = Some(Tree::new(&geometry));
     }
 

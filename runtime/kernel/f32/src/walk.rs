@@ -10,6 +10,7 @@
 //! in all of it.
 #![expect(clippy::inline_always, reason = "what is not inlined is not compiled for the processor")]
 
+mod alpha_map;
 mod build;
 mod collapse;
 mod crossings;
@@ -186,11 +187,8 @@ impl Walk<'_, '_> {
                 }
             } else {
                 if child & (CHILD_SPHERES | MOVING) == 0 {
-                    let blocks = tree.blocks(child);
-                    let crossed = crossed.as_deref_mut();
-                    let also = tree.questions(walk.ray.instance);
-                    hit =
-                        triangles::leaf(kernel, blocks, &walk.ray, &sheared, also, (hit, crossed));
+                    let best = (hit, crossed.as_deref_mut());
+                    hit = triangles::leaf(kernel, (tree, child), &walk.ray, &sheared, best);
                 } else {
                     let leaf = if child & CHILD_SPHERES != 0 { child } else { tree.moving(child) };
                     let found = kernel.leaf_trace(leaf, walk.ray, walk.leaf, hit);

@@ -3,12 +3,14 @@
 //! Turns each tree of the pack, from the top down, into nodes of eight. What is below the top is made in parallel, in
 //! pieces that do not depend on the number of threads, and joined in their order.
 
+use super::alpha_map::AlphaMaps;
 use super::collapse::{Child, Item, Plan, Source};
 use super::few::{Content, Few};
 use super::questions::{Marked, Questions};
 use super::tree::{BLOCK, Block, MOVING, Node, TWO_BLOCKS, Tree, WIDTH};
 use pack::abi::{
-    CHILD_INNER, CHILD_SPHERES, ChildRef, Instance, Material, NONE, TriShade, Triangle, WideNode,
+    CHILD_INNER, CHILD_SPHERES, ChildRef, Instance, Material, NONE, Texture, TriShade, Triangle,
+    WideNode,
 };
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -31,13 +33,17 @@ pub struct Geometry<'a> {
     pub shades: &'a [TriShade],
     /// All materials.
     pub materials: &'a [Material],
+    /// All textures.
+    pub textures: &'a [Texture],
+    /// The texels of all textures.
+    pub texels: &'a [u32],
 }
 
 impl Tree {
     /// The tree over the same triangles, spheres and instances as the nodes of `geometry`.
     #[must_use]
     pub fn new(geometry: &Geometry<'_>) -> Tree {
-        let Geometry { nodes, triangles, instances, root, shades, materials } = *geometry;
+        let Geometry { nodes, triangles, instances, root, shades, materials, .. } = *geometry;
         let source = Source { nodes, triangles, shades, materials };
         let mut top = Piece::default();
         let mut roots: BTreeMap<u32, u32> = BTreeMap::new();
@@ -59,6 +65,7 @@ impl Tree {
             root: roots[&root],
             roots: instances.iter().map(|instance| roots[&instance.root]).collect(),
             need: 0,
+            alpha: AlphaMaps::new(materials, geometry.textures, geometry.texels),
             in_instances: Questions::of_instances(materials, instances),
             few: None,
         };

@@ -3,6 +3,7 @@
 //! It is not in the pack: `build` makes it from the pack's wide nodes when a scene is first rendered on a CPU. What it
 //! decides is only which triangles a ray is tested with, and in what order.
 
+use super::alpha_map::AlphaMaps;
 use super::crossings::Crossings;
 use super::few::Few;
 use super::questions::{Marked, Questions};
@@ -62,6 +63,8 @@ pub struct Tree {
     pub(super) need: usize,
     /// What is to be asked about a triangle in an instance beside its own questions.
     pub(super) in_instances: Questions,
+    /// Where triangles are cut out by alpha.
+    pub(super) alpha: AlphaMaps,
     /// All that is in it, if that is little.
     pub(super) few: Option<Few>,
 }

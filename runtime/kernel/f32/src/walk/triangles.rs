@@ -4,8 +4,8 @@
 //! their order, so that its bits are the same. Which hit counts is then asked one by one.
 
 use super::crossings::Crossings;
-use super::questions::{Marked, Questions};
-use super::tree::{BLOCK, Block};
+use super::questions::Marked;
+use super::tree::{BLOCK, Block, Tree};
 use crate::kernel::{Hit, Kernel, PRIM_OTHER, Ray, TriangleShear};
 use bytemuck::cast;
 use glam::{UVec4, Vec2};
@@ -78,36 +78,34 @@ impl Sheared {
     }
 }
 
-/// The better of `best` and the hits in `blocks`; `also`: what is to be asked about each beside its own questions. Of a
-/// shadow ray a hit that hides its light, or else `best`, up to the distance where `crossed` has all that the ray goes through.
+/// The better of `best` and the hits in the leaf `child` of `tree`. Of a shadow ray a hit that hides its light, or else `best`, up to the distance where `crossed` has all that the ray goes through.
 #[inline(always)]
 pub(super) fn leaf(
     kernel: &mut Kernel<'_>,
-    blocks: &[Block],
+    (tree, child): (&Tree, u32),
     ray: &Ray,
     sheared: &Sheared,
-    also: Questions,
     (best, crossed): (Hit, Option<&mut Crossings>),
 ) -> Hit {
     // Asked once, and not in every test.
     match sheared.axis {
-        0 => leaf_along::<0>(kernel, blocks, ray, sheared, also, (best, crossed)),
-        1 => leaf_along::<1>(kernel, blocks, ray, sheared, also, (best, crossed)),
-        _ => leaf_along::<2>(kernel, blocks, ray, sheared, also, (best, crossed)),
+        0 => leaf_along::<0>(kernel, (tree, child), ray, sheared, (best, crossed)),
+        1 => leaf_along::<1>(kernel, (tree, child), ray, sheared, (best, crossed)),
+        _ => leaf_along::<2>(kernel, (tree, child), ray, sheared, (best, crossed)),
     }
 }
 
 #[inline(always)]
 fn leaf_along<const AXIS: u32>(
     kernel: &mut Kernel<'_>,
-    blocks: &[Block],
+    (tree, child): (&Tree, u32),
     ray: &Ray,
     sheared: &Sheared,
-    also: Questions,
     (best, mut crossed): (Hit, Option<&mut Crossings>),
 ) -> Hit {
     let mut hit = best;
-    for block in blocks {
+    let also = tree.questions(ray.instance);
+    for block in tree.blocks(child) {
         let [a, b, c] = &block.corners;
         let corner = |corner| Corner::new::<AXIS>(corner, sheared);
         let corners = [corner(a), corner(b), corner(c)];
@@ -132,7 +130,7 @@ fn leaf_along<const AXIS: u32>(
                 && new.t <= hit.t
                 && comes_first(kernel, &new, &hit, ray)
                 && !sheared.skips(kernel, block, lane, i, ray)
-                && (!questions.counts() || kernel.candidate_triangle(i, new.b, *ray))
+                && (!questions.counts() || tree.alpha.is_candidate(kernel, i, new.b, ray))
             {
                 match &mut crossed {
                     Some(crossed) if questions.ends() && !kernel.dispatch_ends(new) => {
