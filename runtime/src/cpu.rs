@@ -24,6 +24,9 @@ use {crate::region::Rect, rayon::prelude::*};
 /// Pixels of a block: 32 × 32.
 pub(crate) const BLOCK: u64 = 32 * 32;
 
+/// Pixels of the first block of each thread, which is rendered without the tree.
+const FIRST_BLOCK: u64 = 16 * 16;
+
 /// The CPU kernel cannot render.
 #[derive(Debug, Error)]
 pub(crate) enum CpuError {
@@ -164,7 +167,7 @@ fn render_with(
 ) -> Result<(), CpuError> {
     let pool = pool(setup, job)?;
     // A first block each shows something before the tree is made, which takes all threads a moment, and may be all.
-    let rendered = pool.broadcast(|_| next_block(tile, setup, run, &mut Vec::new()));
+    let rendered = pool.broadcast(|_| next_block(tile, setup, run, FIRST_BLOCK, &mut Vec::new()));
     if rendered.into_iter().all(|rendered| rendered) {
         pool.install(|| setup.tree());
         pool.broadcast(|_| worker(tile, setup, run));
@@ -237,7 +240,7 @@ pub(crate) fn render_item(
 /// Claims block after block. Blocks are claimed in order, so batches are completed in order.
 fn worker(tile: RenderTile, setup: &Setup<'_>, run: &Run<'_>) {
     let mut pixels = Vec::new();
-    while next_block(tile, setup, run, &mut pixels) {}
+    while next_block(tile, setup, run, BLOCK, &mut pixels) {}
 }
 
 /// Claims and renders a block, in a place for its pixels that is used again; false if none is left.
@@ -245,9 +248,10 @@ fn next_block(
     tile: RenderTile,
     setup: &Setup<'_>,
     run: &Run<'_>,
+    size: u64,
     pixels: &mut Vec<FilmPixel>,
 ) -> bool {
-    let Some(item) = run.claim_blocking(BLOCK) else { return false };
+    let Some(item) = run.claim_blocking(size) else { return false };
     let n = usize::try_from(item.tile.pixels()).expect("a block is small");
     pixels.clear();
     pixels.resize(n, FilmPixel::default());
