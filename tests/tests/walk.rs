@@ -3,6 +3,7 @@
 
 use compiler::bvh::{Layout, Preset};
 use pack::Pack;
+use pack::abi::{Instance, Material, material_flag};
 use rayon::prelude::*;
 use runtime::CpuWay;
 use tests::features::{CASES, Case, compiled, named};
@@ -80,6 +81,57 @@ render main: path { samples = 16, depth = 6 }
     let pack = Pack::from_bytes(bytes).expect("readable");
     let lit = picture::cpu(pack, |_| {}).film().means().iter().filter(|rgb| rgb[1] > 0.0).count();
     assert!(lit > 300, "{lit} pixels have light");
+}
+
+/// A mesh that is stored once and looks otherwise in some of its places: plain, cut out, and letting light through.
+#[test]
+fn what_an_instance_is_made_of_counts_and_not_its_mesh() {
+    let folder = tempfile::tempdir().expect("a temporary directory can be made");
+    std::fs::write(folder.path().join("globe.obj"), globe()).expect("it can be written");
+    let text = "rts 1
+sky day: constant { color = linear(0.3) }
+light lamp: sphere { center = (0.3, 6, 0.2)m, radius = 40cm, strength = 300 }
+material plain: diffuse { color = linear(0.5) }
+material pane: principled { color = linear(0.9, 0.95, 1), transmission = 1, roughness = 0 }
+material lace: principled { color = linear(0.4, 0.7, 0.3), alpha = checker(8, 8), alpha.clip = 50% }
+asset globe = obj(\"globe.obj\", unit: m, up: +y)
+instance ground { shape = rectangle(size: (9, 9)m), material = plain }
+instance a[i in 0..4] { shape = globe, material = plain, at = (i - 1.5, 0.5, -1)m, scale = 0.5 }
+instance b[i in 0..4] { shape = globe, material = lace, at = (i - 1.5, 0.5, 1)m, scale = 0.5 }
+instance c[i in 0..4] { shape = globe, material = pane, at = (i - 1.5, 1.5, 0)m, scale = 0.5 }
+camera eye: perspective { from = (0, 2, 5)m, to = (0, 0.6, 0)m, fov.vertical = 50deg }
+film tiny { size = (48, 32)px }
+render main: path { samples = 16, depth = 6 }
+";
+    let bytes = scene::bytes(&scene::compile_in(folder.path(), text));
+    assert_eq!(difference("instances of three materials", &bytes), None);
+    let pack = Pack::from_bytes(bytes).expect("readable");
+    let instances: &[Instance] = pack.records();
+    let materials: &[Material] = pack.records();
+    for flag in [material_flag::ALPHA_CLIP, material_flag::THROUGH] {
+        let has =
+            |i: &Instance| materials.get(i.material as usize).is_some_and(|m| m.flags & flag != 0);
+        assert!(instances.iter().filter(|i| has(i)).count() > 1, "{flag}");
+    }
+}
+
+/// A sphere of triangles with texture coordinates, as OBJ.
+fn globe() -> String {
+    let (columns, rows) = (24_u16, 12_u16);
+    let corner = |row: u16, column: u16| {
+        let (u, v) = (f32::from(column) / f32::from(columns), f32::from(row) / f32::from(rows));
+        let (sin, cos) = (std::f32::consts::TAU * u).sin_cos();
+        let (r, y) = (std::f32::consts::PI * v).sin_cos();
+        format!("v {} {y} {}\nvt {u} {v}\n", r * cos, r * sin)
+    };
+    let square = |row: u16, column: u16| {
+        let a = 1 + row * (columns + 1) + column;
+        let (b, c, d) = (a + 1, a + columns + 1, a + columns + 2);
+        format!("f {a}/{a} {b}/{b} {d}/{d}\nf {a}/{a} {d}/{d} {c}/{c}\n")
+    };
+    let corners = (0..=rows).flat_map(|row| (0..=columns).map(move |column| corner(row, column)));
+    let squares = (0..rows).flat_map(|row| (0..columns).map(move |column| square(row, column)));
+    corners.chain(squares).collect()
 }
 
 /// A scene with a binary tree has no other walk.
