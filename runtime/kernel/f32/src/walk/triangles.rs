@@ -78,7 +78,8 @@ impl Sheared {
     }
 }
 
-/// The better of `best` and the hits in the leaf `child` of `tree`. Of a shadow ray a hit that hides its light, or else `best`, up to the distance where `crossed` has all that the ray goes through.
+/// The better of `best` and the hits in the leaf `child` of `tree`. Of a shadow ray a hit that hides its light, or else
+/// `best`, up to the distance where `crossed` has all that the ray goes through.
 #[inline(always)]
 pub(super) fn leaf(
     kernel: &mut Kernel<'_>,
