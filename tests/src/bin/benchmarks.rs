@@ -12,7 +12,7 @@ use tests::{benchmarks, console};
 /// Measures the tables of `docs/benchmarks.md`, in CPU seconds of this machine.
 #[derive(Debug, Parser)]
 #[command(after_help = "Examples:\n  \
-    benchmarks               measures everything, which takes long, and rewrites docs/benchmarks.md\n  \
+    benchmarks               measures all tables (this takes long) and rewrites docs/benchmarks.md\n  \
     benchmarks open first    prints two tables and writes nothing")]
 struct Args {
     /// Tables to print, instead of all in `docs/benchmarks.md`.

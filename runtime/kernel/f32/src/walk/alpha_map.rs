@@ -10,16 +10,16 @@ use pack::abi::{Material, Texture, TextureFormat, Wrap, material_flag};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Squares of a map along one side, at most, and those across the edge.
-const MOST: u32 = 256;
+/// Squares along the longer side of an image, at most, but for the one that begins at its last texel.
+const MOST_SQUARES: u32 = 256;
 
-/// The least side of a square: two to this power.
-const LEAST: u32 = 2;
+/// The least side of a square, in texels: two to this power.
+const LEAST_SIDE: u32 = 2;
 
 /// More than the rounding of a lookup, relative to alpha.
 const SLACK: f32 = 1e-5;
 
-/// Answers: what both of two squares have, `&` tells.
+/// Answers; `&` joins those of two texels.
 const THERE: u8 = 1;
 const CUT: u8 = 2;
 
@@ -66,7 +66,7 @@ impl AlphaMaps {
         }
         let own = kernel.load_tri_shade_material(i);
         let material = kernel.dispatch_placed_material(ray.instance, own);
-        let place = (*self.of.get(material as usize)?)?;
+        let place = self.of.get(material as usize).copied().flatten()?;
         let map = self.maps.get(place)?;
         let uv = kernel.triangle_texture_point(i, b).uv;
         map.tell(kernel, uv)
@@ -84,8 +84,8 @@ struct AlphaMap {
 
 impl AlphaMap {
     fn new(material: &Material, texture: &Texture, texels: &[u32]) -> Self {
-        let side = (texture.width.max(texture.height) / MOST).next_power_of_two().ilog2();
-        let side = side.max(LEAST);
+        let side = (texture.width.max(texture.height) / MOST_SQUARES).next_power_of_two().ilog2();
+        let side = side.max(LEAST_SIDE);
         let columns = Axis { texels: texture.width, wrap: texture.wrap_u, side };
         let rows = Axis { texels: texture.height, wrap: texture.wrap_v, side };
         let answers = answers(material);
@@ -152,7 +152,7 @@ fn answers(material: &Material) -> [u8; 256] {
 struct Axis {
     texels: u32,
     wrap: u32,
-    /// The side of a square: two to this power.
+    /// The side of a square, in texels: two to this power.
     side: u32,
 }
 

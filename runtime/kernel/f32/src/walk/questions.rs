@@ -29,7 +29,7 @@ impl Questions {
         if_any(cut, Self::COUNTS) | if_any(material_flag::THROUGH, Self::ENDS)
     }
 
-    /// Those about a triangle with the material it has been given itself.
+    /// Those about a triangle with the material of its own mesh.
     pub(super) fn of(materials: &[Material], shade: Option<&TriShade>) -> Self {
         let Some(shade) = shade else { return Self::ALL };
         let light = if shade.light == NONE { Self::NOTHING } else { Self::COUNTS };
@@ -75,12 +75,12 @@ impl Marked {
     /// No triangle.
     pub(super) const NONE: Self = Self(NONE);
 
-    /// Triangle `i`; trees have no more than bits 0 to 26 can tell apart.
+    /// Triangle `i`, below 2^27 as in every tree.
     pub(super) fn new(i: u32, questions: Questions) -> Self {
         Self(i | questions.0)
     }
 
-    /// Its number; of no triangle one that no triangle has.
+    /// Its number; for `NONE` one that no triangle has.
     #[must_use]
     #[inline(always)]
     pub fn index(self) -> u32 {
