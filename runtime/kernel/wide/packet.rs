@@ -1,10 +1,10 @@
 //! A ray a lane at once through a tree of eights.
 //!
 //! Turns rays into their hits, the bits that walks one by one find: a box, a triangle or a leaf of spheres is tested
-//! with all rays that come to it. Of the smallest trees a list is gone through instead (`walk::Few`). A ray that comes
-//! to a node alone walks by itself from there, and so does every ray that comes to an instance or to triangles that
-//! move. Worth it where most rays meet most of the tree, and for rays of the camera, which stay together; others soon
-//! part in large trees.
+//! with all rays that come to it. Of the smallest trees a list is gone through instead (`walk::Few`). Few rays that
+//! come to a node walk one by one from there, and so does every ray that comes to an instance or to triangles that
+//! move. Worth it in small trees, of which rays share much, and for rays of the camera, which stay together; others
+//! soon part in large trees.
 
 use crate::kernel::{Hit, Kernel, Ray, TriangleShear, v};
 use crate::packet_triangle::{Corner, Crossing, Sheared};
@@ -16,11 +16,9 @@ use kernel_f32::walk::{self, Block, FAR_END, Few, Marked, Node, Step, Tree};
 use scalar::NONE;
 use std::borrow::Borrow;
 
-/// No more rays than this leave a packet at a node, to walk on one by one: each meets all eight boxes at once.
-const FEW: u32 = 1;
-
-/// As many rays or fewer walk through a tree of which there is a list.
-const FEW_OF_LIST: u32 = 3;
+/// No more rays than this leave a packet at a node, to walk on one by one: each meets all eight boxes at once. As many
+/// do not go through the list of a tree.
+const FEW: u32 = 3;
 
 /// A child that some rays meet.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +58,7 @@ pub(crate) fn trace(kernel: &mut Kernel<'_>, tree: &Tree, mask: v::B, ray: &Ray)
     let mut scratch = std::mem::take(&mut kernel.companion.scratch);
     let packet = Packet::new(kernel, mask, ray);
     let hit = match tree.few() {
-        Some(few) if v::bits(mask).count_ones() > FEW_OF_LIST => {
+        Some(few) if v::bits(mask).count_ones() > FEW => {
             packet.test_all(kernel, few, &mut scratch.corners, mask)
         }
         _ => packet.walk(kernel, tree, &mut scratch.waiting, mask),

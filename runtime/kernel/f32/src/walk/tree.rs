@@ -26,8 +26,8 @@ pub(super) const BLOCK_INDEX: u32 = TWO_BLOCKS - 1;
 /// Paths that one kernel takes forward side by side, at most.
 const LANES: usize = 16;
 
-/// The nodes of a small tree, at most.
-const SMALL: usize = 128;
+/// The nodes of a small tree, at most: those of some 100,000 triangles.
+const SMALL: usize = 8_192;
 
 /// Up to eight children. That of a child that is not there is inside out: no ray meets it.
 #[derive(Clone, Copy, Debug)]
@@ -90,7 +90,7 @@ impl Tree {
         self.root
     }
 
-    /// Few nodes, over what stands still in the world: most rays come to most of it.
+    /// Few nodes, over what stands still in the world: rays that walk together share enough of them.
     #[must_use]
     pub fn is_small(&self) -> bool {
         self.nodes.len() <= SMALL && self.moving.is_empty() && self.roots.is_empty()
