@@ -5,7 +5,7 @@
     cargo build --release -p compiler -p runtime
     venv/bin/python tests/peers/builds.py OLD_FOLDER target/release [SCENE.rts ...] > docs/builds.md
 
-prints a page. The scenes are those of `scenes.py` without large meshes, those of `builds/`, and all that are named.
+prints a page. The scenes are those of `scenes.py`, those of `builds/`, and all that are named.
 The builds take turns on the same machine. Each says its own noise by how its pictures of several seeds differ, so that
 models may have changed in between.
 """
@@ -43,9 +43,6 @@ Old: {old}. New: {new}. {spp} samples a pixel, {seeds} pictures of each; {thread
 - **CPU s for equal error**: cost times relMSE, as errors of independent samples go. Sobol's fall a little faster, so a
   gain in noise is worth slightly more than shown.
 """
-
-# Too long to build for what they say here.
-LEFT_OUT = ("court", "meadow")
 
 
 def arguments():
@@ -112,14 +109,19 @@ def luminance(path):
         return error.luminance(np.stack([channels[c].pixels for c in "RGB"], axis=-1))
 
 
-def written(work):
-    """The scenes by name: those of all renderers at half their size, and those that are there as text."""
-    found = {}
-    for name, scene in scenes.ALL.items():
-        if name not in LEFT_OUT:
-            found[name] = work / f"{name}.rts"
-            found[name].write_text(to_rts.text(scene, [n // 2 for n in scene.size]))
-    return found | {path.stem: path for path in sorted((HERE / "builds").glob("*.rts"))}
+def written(args, work):
+    """The scenes by name that are asked for: those of all renderers at half their size, and those that are there as
+    text."""
+    texts = [*sorted((HERE / "builds").glob("*.rts")), *args.scenes]
+    found = {name: work / f"{name}.rts" for name in scenes.ALL} | {path.stem: path for path in texts}
+    if args.only:
+        if unknown := set(args.only) - found.keys():
+            sys.exit(f"--only: no scene is named {', '.join(sorted(unknown))}; there are {', '.join(found)}")
+        found = {name: path for name, path in found.items() if name in args.only}
+    for name in found.keys() & scenes.ALL:
+        scene = scenes.ALL[name]
+        to_rts.write(work, scene, [n // 2 for n in scene.size])
+    return found
 
 
 def compare(name, scene, args, work):
@@ -143,9 +145,7 @@ def main():
     args = arguments()
     with tempfile.TemporaryDirectory() as folder:
         work = Path(folder)
-        found = written(work) | {path.stem: path for path in args.scenes}
-        rows = [compare(name, path, args, work) for name, path in found.items()
-                if not args.only or name in args.only]
+        rows = [compare(name, path, args, work) for name, path in written(args, work).items()]
     head = ["scene", "CPU s a sample, old", "new", "old / new", "relMSE, old", "new", "old / new",
             "CPU s for equal error, old / new"]
     print(PAGE.format(old=args.old_name, new=args.new_name, spp=args.spp, seeds=args.seeds, threads=args.threads,

@@ -11,7 +11,6 @@ from pathlib import Path
 import numpy as np
 
 import mesh_files
-import meshes
 import scenes
 import to_rts
 
@@ -108,16 +107,7 @@ def write(folder):
     return len(triangles)
 
 
-def write_meadow(folder):
-    """The scene that all renderers are given, and its meshes; the number of triangles."""
-    scene, count = scenes.MEADOW, 0
-    for name in scene.meshes():
-        vertices, triangles = meshes.make(name)
-        mesh_files.write_glb(folder / f"{name}.glb", vertices, triangles)
-        count += len(triangles)
-    (folder / "meadow.rts").write_text(to_rts.text(scene, scene.size))
-    return count
-
-
 if __name__ == "__main__":
-    print(write(Path(sys.argv[1])), write_meadow(Path(sys.argv[1])), "triangles")
+    folder = Path(sys.argv[1])
+    # The meadow as all renderers are given it.
+    print(write(folder), to_rts.write(folder, scenes.MEADOW, scenes.MEADOW.size), "triangles")

@@ -1,5 +1,7 @@
-"""A neutral scene → the text that `rtc` compiles."""
+"""A neutral scene → the text that `rtc` compiles, and its meshes."""
 
+import mesh_files
+import meshes
 import model
 
 
@@ -80,3 +82,14 @@ def text(scene, size):
         f"render main: path {{ samples = 64, depth = {scene.depth} }}",
     ]
     return "\n".join(lines) + "\n"
+
+
+def write(folder, scene, size):
+    """Writes the scene, named after itself, and its meshes into the folder; the number of triangles of the meshes."""
+    count = 0
+    for name in scene.meshes():
+        vertices, triangles = meshes.make(name)
+        mesh_files.write_glb(folder / f"{name}.glb", vertices, triangles)
+        count += len(triangles)
+    (folder / f"{scene.name}.rts").write_text(text(scene, size))
+    return count
