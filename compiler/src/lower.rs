@@ -29,6 +29,7 @@ mod linking;
 mod listing;
 mod lowered;
 mod material;
+mod measured;
 mod medium;
 mod motion;
 mod object;

@@ -28,7 +28,8 @@ pub use light::{Beam, Directional, Light, Profile, Tint};
 pub use links::LightLinks;
 pub use motion::{CameraKey, Keyed, Motion, MotionKey, at_time, bends};
 pub use view::{
-    Camera, CameraOfFile, Film, Filter, Fit, Layer, Projection, Render, Sampler, Side, ToneMap,
+    Camera, CameraOfFile, Film, Filter, Fit, Layer, MIN_UP_SINE, Projection, Render, Sampler, Side,
+    ToneMap,
 };
 
 pub use crate::material::{

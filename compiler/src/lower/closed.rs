@@ -5,9 +5,10 @@ use lang::material::Traits as _;
 use lang::scene::{Instance, Parts, Scene, Shape};
 
 use super::files::Files;
+use super::measured;
 use crate::counted::counted;
 use crate::import::{ImportError, Topology, topology};
-use crate::stage::{KeyOf, Stages};
+use crate::stage::Stages;
 
 /// What stands in the text about an inside: the name of the medium, or of the material.
 struct Filling<'a> {
@@ -54,17 +55,7 @@ pub(super) fn surface(
     parts: &Parts,
     (files, stages): (&dyn Files, &Stages),
 ) -> Result<Topology, ImportError> {
-    let facts = &files.assets()[asset];
-    let parts = facts.chosen(parts);
-    let mut key = KeyOf::stage("topology");
-    for part in &parts {
-        key.bytes(&facts.parts[*part].content);
-    }
-    stages.try_value(key.end(), || {
-        let meshes = files.load_meshes(&[asset].into())?;
-        let parts: Vec<_> = parts.iter().map(|part| &meshes[&asset].parts[*part]).collect();
-        Ok(topology(&parts))
-    })
+    measured::of_parts("topology", (asset, parts), &[], (files, stages), topology)
 }
 
 fn filling<'a>(scene: &'a Scene, instance: &Instance) -> Option<Filling<'a>> {

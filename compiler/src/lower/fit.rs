@@ -5,15 +5,13 @@
 
 use glam::DVec3;
 use lang::diagnostic::{Code, Diagnostic};
-use lang::scene::{Camera, Fit, Instance, Lens, Projection, Scene, Side};
+use lang::scene::{Camera, Fit, Instance, Lens, MIN_UP_SINE, Projection, Scene, Side};
 
 use super::bounds::{Bounds, ball, corners};
 use crate::import::MeshFacts;
 
 /// Share of half the image that a thing fills.
 const FILLED: f64 = 0.95;
-/// As for cameras without `fit`: the sine between view and up below which the image has no up.
-pub(super) const MIN_UP_SINE: f64 = 1e-6;
 
 /// The scene with its camera where it is to be; `None` where that frames nothing. Faults go to `diagnostics`.
 pub fn framed(

@@ -3,17 +3,17 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use glam::DVec3;
 use lang::diagnostic::{Code, Diagnostic};
 use lang::material::{Brightness, Emissive};
-use lang::scene::{Instance, MaterialModel, Scene, Shape};
+use lang::scene::{Instance, MaterialModel, Parts, Scene, Shape};
 
 use super::closed;
 use super::geometry::body::{Bodies, Body, Form};
 use super::geometry::transform::Transform;
 use super::material::{MaterialRef, MaterialTable};
-use crate::import::ImportError;
-use crate::stage::{KeyOf, Stages};
+use super::measured;
+use crate::import::{ImportError, Part};
+use crate::stage::Stages;
 
 /// Gives materials that say their power the radiance that follows.
 ///
@@ -81,32 +81,23 @@ fn area_of(
         (Form::Sphere(ball), _) => Ok(4.0 * PI * ball.radius * ball.radius),
         (Form::Faces(faces, _), _) => Ok(faces.iter().map(|face| face.area).sum()),
         (Form::Mesh(_) | Form::Stored(..), Shape::Mesh { asset, parts }) => {
-            let parts = materials.files.assets()[*asset].chosen(parts);
-            area_of_mesh((*asset, &parts), &body.transform, (materials, stages))
+            area_of_mesh((*asset, parts), &body.transform, (materials, stages))
         }
         (Form::Nothing | Form::Mesh(_) | Form::Stored(..), _) => Ok(0.0),
     }
 }
 
 fn area_of_mesh(
-    (asset, parts): (usize, &[usize]),
+    mesh: (usize, &Parts),
     transform: &Transform,
     (materials, stages): (&MaterialTable<'_>, &Stages),
 ) -> Result<f64, ImportError> {
-    let files = materials.files;
-    let mut key = KeyOf::stage("area");
-    for part in parts {
-        key.bytes(&files.assets()[asset].parts[*part].content);
-    }
-    key.floats(&transform.numbers());
-    stages.try_value(key.end(), || {
-        let meshes = files.load_meshes(&[asset].into())?;
-        let area = |part: &usize| -> f64 {
-            let part = &meshes[&asset].parts[*part];
-            let point = |p: [f32; 3]| transform.point(DVec3::from(p.map(f64::from)));
-            let corners = (0..part.triangles.len()).map(|i| part.corners(i).map(point));
-            corners.map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum()
-        };
-        Ok(parts.iter().map(area).sum())
+    let area = |part: &&Part| -> f64 {
+        let triangles = measured::placed(part, transform);
+        triangles.map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum()
+    };
+    let known = (materials.files, stages);
+    measured::of_parts("area", mesh, &transform.numbers(), known, |parts| {
+        parts.iter().map(area).sum()
     })
 }

@@ -6,8 +6,8 @@ use super::light::unit;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::eval::Evaluator;
 use crate::scene::{
-    Camera, CameraKey, CameraOfFile, FieldOfView, Film, Fit, LensSpec, Name, Opening, Projection,
-    Side, across_other, at_time,
+    Camera, CameraKey, CameraOfFile, FieldOfView, Film, Fit, LensSpec, MIN_UP_SINE, Name, Opening,
+    Projection, Side, across_other, at_time,
 };
 use crate::schema;
 use crate::schema::camera::CameraType;
@@ -18,9 +18,6 @@ const DEFAULT_LENS: f64 = 0.05;
 
 /// From where a camera looks at what it frames when nothing is said: the front, the right and above.
 const FRONT: [f64; 3] = [0.6, 0.45, 1.0];
-
-/// Sine of the smallest angle between view and up, where the image would still be upright.
-const MIN_UP_SINE: f64 = 1e-6;
 
 /// Checks how the fields of a camera go together.
 pub(super) fn check(ev: &mut Evaluator<'_>, fields: &Fields) {

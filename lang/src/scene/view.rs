@@ -6,6 +6,9 @@ use super::lens::{Lens, LensSpec};
 use super::motion::CameraKey;
 use crate::schema::words;
 
+/// Sine of the smallest angle between view and `Camera::up` at which the image has an upper side.
+pub const MIN_UP_SINE: f64 = 1e-6;
+
 /// A camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {

@@ -15,6 +15,7 @@ use crate::import::{ImportError, PartFacts};
 use crate::lower::grain;
 use crate::lower::light;
 use crate::lower::material::{MaterialRef, MaterialTable};
+use crate::lower::measured;
 use crate::lower::object::Thing;
 use crate::lower::share::Plan;
 use crate::lower::sheet::Sheets;
@@ -456,35 +457,16 @@ impl Maker<'_, '_> {
             }
             Form::Mesh(_) | Form::Stored(..) => {
                 let Shape::Mesh { asset, parts } = &self.instance.shape else { return Ok(None) };
-                let parts = self.materials.files.assets()[*asset].chosen(parts);
-                self.beam_of_mesh(thing, *asset, &parts)?
+                let (mesh, numbers) = ((*asset, parts), self.transform.numbers());
+                let known = (self.materials.files, self.stages);
+                measured::of_parts("beam", mesh, &numbers, known, |parts| {
+                    let placed =
+                        parts.iter().flat_map(|part| measured::placed(part, self.transform));
+                    grain::beam(thing, &placed.collect::<Vec<_>>())
+                })?
             }
         };
         Ok(beam.and_then(|beam| grain::check(self.scene, self.instance, &beam)))
-    }
-
-    fn beam_of_mesh(
-        &self,
-        thing: &Thing,
-        asset: usize,
-        parts: &[usize],
-    ) -> Result<Option<grain::Beam>, ImportError> {
-        let files = self.materials.files;
-        let mut key = KeyOf::stage("beam");
-        for part in parts {
-            key.bytes(&files.assets()[asset].parts[*part].content);
-        }
-        key.floats(&self.transform.numbers());
-        self.stages.try_value(key.end(), || {
-            let meshes = files.load_meshes(&[asset].into())?;
-            let triangles = |part: &usize| {
-                let part = &meshes[&asset].parts[*part];
-                let point = |p: [f32; 3]| self.transform.point(DVec3::from(p.map(f64::from)));
-                (0..part.triangles.len()).map(move |tri_idx| part.corners(tri_idx).map(point))
-            };
-            let corners: Vec<[DVec3; 3]> = parts.iter().flat_map(triangles).collect();
-            Ok(grain::beam(thing, &corners))
-        })
     }
 }
 

@@ -3,13 +3,13 @@
 use glam::DVec3;
 use lang::diagnostic::{Code, Diagnostic};
 use lang::scene::{
-    Camera, CameraKey, CameraOfFile, FieldOfView, FileBase, LensSpec, Projection, Scene, at_time,
+    Camera, CameraKey, CameraOfFile, FieldOfView, FileBase, LensSpec, MIN_UP_SINE, Projection,
+    Scene, at_time,
 };
 
 use super::named::named;
 use crate::import::{FileCamera, FileView, MeshFacts};
 use crate::lower::Bounds;
-use crate::lower::fit::MIN_UP_SINE;
 
 /// Fields of the field of view.
 const VIEW: [&str; 3] = ["lens", "fov.horizontal", "fov.vertical"];
