@@ -18,26 +18,29 @@ fn tree_choose(p: vec3f, receiver: vec4f, u: f32) -> LightChoice {
         return tree_few_choose(few, p, receiver, u);
     }
     var at = 0u;
+    var child = load_light_node_child(at);
     var pmf = 1.0;
     var rest = u;
     loop {
-        let child = load_light_node_child(at);
         if ((child & LIGHT_LEAF) != 0u) { break; }
-        let share = tree_share(at, child, p, receiver);
+        let split = tree_split(at, child, p, receiver);
+        let share = split.share;
         if (share < 0.0) {
             return LightChoice(0u, 0.0, 0.0);
         }
         if (rest < share) {
             at = at + 1u;
+            child = split.first;
             rest = light_choice_unit(rest / share);
             pmf = pmf * share;
         } else {
             at = child;
+            child = split.second;
             rest = light_choice_unit((rest - share) / (1.0 - share));
             pmf = pmf * (1.0 - share);
         }
     }
-    return LightChoice(load_light_node_child(at) & LIGHT_LEAF_INDEX, pmf, rest);
+    return LightChoice(child & LIGHT_LEAF_INDEX, pmf, rest);
 }
 
 // Probability with which `tree_choose` finds light `index` from `p`, whose way from the root is in its `trail`: bit
@@ -49,20 +52,22 @@ fn tree_pmf(index: u32, p: vec3f, receiver: vec4f) -> f32 {
     }
     var trail = load_light_trail(index);
     var at = 0u;
+    var child = load_light_node_child(at);
     var pmf = 1.0;
     loop {
-        let child = load_light_node_child(at);
         if ((child & LIGHT_LEAF) != 0u || pmf <= 0.0) { break; }
-        let share = tree_share(at, child, p, receiver);
-        if (share < 0.0) {
+        let split = tree_split(at, child, p, receiver);
+        if (split.share < 0.0) {
             return 0.0;
         }
         if ((trail & 1u) == 0u) {
             at = at + 1u;
-            pmf = pmf * share;
+            child = split.first;
+            pmf = pmf * split.share;
         } else {
             at = child;
-            pmf = pmf * (1.0 - share);
+            child = split.second;
+            pmf = pmf * (1.0 - split.share);
         }
         trail = trail >> 1u;
     }
@@ -128,8 +133,17 @@ fn tree_few_pmf(n_nodes: u32, index: u32, p: vec3f, receiver: vec4f) -> f32 {
     return importance / sum;
 }
 
-// Probability of the first child of inner node `at`, whose second is `second`; -1 if neither can light `p`.
-fn tree_share(at: u32, second: u32, p: vec3f, receiver: vec4f) -> f32 {
+// The two children of an inner node.
+struct TreeSplit {
+    // Probability of the first; -1 if neither can light the point.
+    share: f32,
+    // `LightNode::child` of each.
+    first: u32,
+    second: u32,
+}
+
+// Splits inner node `at`, whose second child is `second`, for the point `p`.
+fn tree_split(at: u32, second: u32, p: vec3f, receiver: vec4f) -> TreeSplit {
     let first_node = load_light_node(at + 1u);
     let second_node = load_light_node(second);
     // Where both are seen in nearly the same direction the receiver has the same cosine for both.
@@ -140,10 +154,8 @@ fn tree_share(at: u32, second: u32, p: vec3f, receiver: vec4f) -> f32 {
     let a = tree_importance(first_node, p, own);
     let b = tree_importance(second_node, p, own);
     let sum = a + b;
-    if (sum <= 0.0) {
-        return -1.0;
-    }
-    return a / sum;
+    let share = select(a / sum, -1.0, sum <= 0.0);
+    return TreeSplit(share, first_node.child, second_node.child);
 }
 
 // The sky, which is not in the tree, with its share of the table; share 0 where it is no light.
