@@ -5,9 +5,9 @@
     cargo build --release -p compiler -p runtime
     venv/bin/python tests/peers/builds.py OLD_FOLDER target/release [SCENE.rts ...] > docs/builds.md
 
-prints a page. The scenes are those of `scenes.py`, those of `builds/`, and all that are named.
-The builds take turns on the same machine. Each says its own noise by how its pictures of several seeds differ, so that
-models may have changed in between.
+prints a page. The scenes are those of `scenes.py`, those of `builds/`, and all that are named. The builds take turns on
+the same machine. The noise of each is estimated from its own pictures of several seeds, so that models may have changed
+in between.
 """
 
 import argparse
@@ -110,8 +110,7 @@ def luminance(path):
 
 
 def written(args, work):
-    """The scenes by name that are asked for: those of all renderers at half their size, and those that are there as
-    text."""
+    """The scenes asked for, by name: those of all renderers at half their size, and those that exist as text."""
     texts = [*sorted((HERE / "builds").glob("*.rts")), *args.scenes]
     found = {name: work / f"{name}.rts" for name in scenes.ALL} | {path.stem: path for path in texts}
     if args.only:

@@ -1,4 +1,4 @@
-//! Parts of a mesh file → what is worked out from their triangles alone, kept from one compilation to the next.
+//! Parts of a mesh file → what is worked out from their triangles, cached from one compilation to the next.
 
 use glam::DVec3;
 use lang::scene::Parts;
@@ -10,8 +10,8 @@ use super::geometry::transform::Transform;
 use crate::import::{ImportError, Part};
 use crate::stage::{KeyOf, Stages};
 
-/// What `measure` finds out about the parts of an asset that a shape shows; kept under the name `stage`. `numbers` are
-/// all that it depends on beside the parts.
+/// What `measure` finds out about the parts of an asset that a shape shows; cached as `stage`. Beside the parts it may
+/// depend on `numbers` only.
 ///
 /// # Errors
 /// When the file cannot be loaded.

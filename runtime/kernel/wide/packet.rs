@@ -1,10 +1,10 @@
 //! A ray a lane at once through a tree of eights.
 //!
 //! Turns rays into their hits, the bits that walks one by one find: a box, a triangle or a leaf of spheres is tested
-//! with all rays that come to it. Of the smallest trees a list is gone through instead (`walk::Few`). Few rays that
-//! come to a node walk one by one from there, and so does every ray that comes to an instance or to triangles that
-//! move. Worth it in small trees, of which rays share much, and for rays of the camera, which stay together; others
-//! soon part in large trees.
+//! with all rays that come to it. Of the smallest trees a list is gone through instead (`walk::Few`). Where
+//! few rays come to a node they walk on one by one, and so does every ray that comes to an instance or to triangles
+//! that move. Worth it in small trees, where rays visit much the same nodes, and for camera rays, which stay together;
+//! in large trees others soon part.
 
 use crate::kernel::{Hit, Kernel, Ray, TriangleShear, v};
 use crate::packet_triangle::{Corner, Crossing, Sheared};
@@ -16,8 +16,8 @@ use kernel_f32::walk::{self, Block, FAR_END, Few, Marked, Node, Step, Tree};
 use scalar::NONE;
 use std::borrow::Borrow;
 
-/// No more rays than this leave a packet at a node, to walk on one by one: each meets all eight boxes at once. As many
-/// do not go through the list of a tree.
+/// At a node, a packet of no more rays than this walks on ray by ray: one ray is tested with all eight boxes at once.
+/// Nor is it worth going through the list of a tree for so few.
 const FEW: u32 = 3;
 
 /// A child that some rays meet.

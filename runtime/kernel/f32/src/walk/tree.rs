@@ -90,7 +90,7 @@ impl Tree {
         self.root
     }
 
-    /// Few nodes, over what stands still in the world: rays that walk together share enough of them.
+    /// Few nodes, over what stands still in the world: rays of a packet share enough of them.
     #[must_use]
     pub fn is_small(&self) -> bool {
         self.nodes.len() <= SMALL && self.moving.is_empty() && self.roots.is_empty()
