@@ -8,7 +8,7 @@
 
 use crate::kernel::{Hit, Kernel, Ray, TriangleShear, v};
 use crate::packet_triangle::{Corner, Crossing, Sheared};
-use crate::rays::Rays;
+use crate::rays::{Hits, Walks};
 use crate::target;
 use glam::UVec4;
 use kernel_f32::kernel as scalar;
@@ -98,7 +98,7 @@ impl<'r> Packet<'r> {
     ) -> Hit {
         let mut hit = kernel.ray_miss(mask, self.ray.t_max);
         let mut left = mask;
-        let mut apart = None;
+        let mut walks = None;
         stack.clear();
         stack.push(Waiting { child: tree.root(), enter: v::f(0.0) });
         while let Some(Waiting { child, enter }) = stack.pop() {
@@ -109,7 +109,7 @@ impl<'r> Packet<'r> {
             }
             let ended = match tree.step(child) {
                 Step::Node(_) if v::bits(active).count_ones() <= FEW => {
-                    self.apart(kernel, &mut apart, child, active, &mut hit)
+                    self.apart(kernel, &mut walks, child, active, &mut hit)
                 }
                 Step::Node(node) => {
                     self.visit(node, active, hit.t, stack);
@@ -117,7 +117,7 @@ impl<'r> Packet<'r> {
                 }
                 Step::Triangles(blocks) => self.triangles(kernel, blocks, active, &mut hit),
                 Step::Spheres => self.spheres(kernel, child, active, &mut hit),
-                Step::Other => self.apart(kernel, &mut apart, child, active, &mut hit),
+                Step::Other => self.apart(kernel, &mut walks, child, active, &mut hit),
             };
             left = v::but_b(left, ended);
         }
@@ -312,32 +312,36 @@ impl<'r> Packet<'r> {
     fn apart(
         &self,
         kernel: &mut Kernel<'_>,
-        known: &mut Option<Apart>,
+        known: &mut Option<Walks>,
         child: u32,
         active: v::B,
         hit: &mut Hit,
     ) -> v::B {
-        let apart = match known {
-            Some(apart) => apart,
-            none => none.insert(Apart::of(self)),
+        let walks = match known {
+            Some(walks) => walks,
+            none => none.insert(Walks::new(self.ray, self.inverse, self.shear)),
         };
-        let mut new = v::b(false);
+        let mut hits = Hits::of(hit);
+        let mut new = 0;
         let mut left = v::bits(active);
         while left != 0 {
-            let lane = left.trailing_zeros();
+            let lane = left.trailing_zeros() as usize;
             left &= left - 1;
-            let walk = apart.walk(lane as usize);
-            let best = hit.lane(lane as usize);
+            let best = hits.lane(lane);
             let companion = &mut kernel.companion;
             let (avx2, scalar) = (companion.avx2, &mut companion.scalar);
-            let found = walk::trace_below(avx2, scalar, walk, child, best);
+            let found = walk::trace_below(avx2, scalar, &walks.lane(lane), child, best);
             let same = found.prim == best.prim && found.instance == best.instance;
             if !same || found.t.to_bits() != best.t.to_bits() {
-                let here = v::eq_u(v::lane(), v::u(lane));
-                *hit = Hit::select(here, &Hit::of(&[found; v::LANES]), hit);
-                new = v::or_b(new, here);
+                hits.set(lane, &found);
+                new |= 1 << lane;
             }
         }
+        if new == 0 {
+            return v::b(false);
+        }
+        *hit = hits.all();
+        let new = v::ne_u(v::and_u(v::shr_u(v::u(new), v::lane()), v::u(1)), v::u(0));
         self.ended(kernel, new, hit)
     }
 
@@ -350,46 +354,6 @@ impl<'r> Packet<'r> {
             v::and_b(shadows, kernel.dispatch_ends(shadows, hit))
         } else {
             v::b(false)
-        }
-    }
-}
-
-/// The rays of a packet and what was worked out for them, lane by lane.
-struct Apart {
-    rays: Rays,
-    inverse: [[f32; v::LANES]; 3],
-    slope: [[f32; v::LANES]; 2],
-    inv_depth: [f32; v::LANES],
-    axis: [u32; v::LANES],
-}
-
-impl Apart {
-    #[target]
-    fn of(packet: &Packet<'_>) -> Self {
-        let Packet { ray, inverse, shear, .. } = packet;
-        Self {
-            rays: Rays::of(ray),
-            inverse: [v::f_to(inverse.x), v::f_to(inverse.y), v::f_to(inverse.z)],
-            slope: [v::f_to(shear.slope.x), v::f_to(shear.slope.y)],
-            inv_depth: v::f_to(shear.inv_depth),
-            axis: v::u_to(shear.axis),
-        }
-    }
-
-    /// The walk of one ray, as `walk_begin` begins it.
-    #[inline]
-    fn walk(&self, lane: usize) -> scalar::Walk {
-        let k = lane % v::LANES;
-        let [x, y, z] = self.inverse.map(|axis| axis[k]);
-        let [slope_x, slope_y] = self.slope.map(|axis| axis[k]);
-        scalar::Walk {
-            ray: self.rays.lane(k),
-            inverse: glam::Vec3::new(x, y, z),
-            leaf: scalar::TriangleShear {
-                slope: glam::Vec2::new(slope_x, slope_y),
-                inv_depth: self.inv_depth[k],
-                axis: self.axis[k],
-            },
         }
     }
 }

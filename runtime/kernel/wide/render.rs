@@ -5,7 +5,7 @@
 
 use crate::kernel::{self, v};
 use crate::pixels::Pixels;
-use crate::rays::Rays;
+use crate::rays::{Hits, Walks};
 use crate::{Instructions, avx2, packet, target};
 use glam::UVec4;
 use kernel_f32::{
@@ -63,17 +63,19 @@ pub(crate) fn trace(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::R
 /// The hits of rays that have nothing in common.
 #[target]
 fn trace_one_by_one(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::Ray) -> kernel::Hit {
-    let mut hits = [scalar::Hit::ZERO; v::LANES];
+    let mut hits = Hits::of(&kernel.ray_miss(mask, ray.t_max));
+    let (inverse, shear) =
+        (kernel.box_inverse(mask, ray.dir), kernel.triangle_shear(mask, ray.dir));
+    let walks = Walks::new(ray, inverse, shear);
     let Companion { scalar, avx2, .. } = &mut kernel.companion;
-    let rays = Rays::of(ray);
     walk_is_inlined();
     let mut left = v::bits(mask);
     while left != 0 {
         let lane = left.trailing_zeros() as usize % v::LANES;
         left &= left - 1;
-        hits[lane] = walk::trace_here(*avx2, scalar, rays.lane(lane), lane);
+        hits.set(lane, &walk::trace_here(*avx2, scalar, &walks.lane(lane), lane));
     }
-    kernel::Hit::of(&hits)
+    hits.all()
 }
 
 /// Does nothing, but whoever calls it must be compiled for what the walk of a lone ray is made of: otherwise each of

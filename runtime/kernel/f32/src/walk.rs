@@ -42,7 +42,8 @@ use triangles::Sheared;
 /// nearest.
 pub fn trace(kernel: &mut Kernel<'_>, ray: Ray) -> Hit {
     let Some(tree) = kernel.companion.tree else { return kernel.generated_trace(ray) };
-    let walk = Walk { kernel, tree, ray, lane: 0 };
+    let begun = kernel.walk_begin(ray);
+    let walk = Walk { kernel, tree, begun: &begun, lane: 0 };
     #[cfg(target_arch = "x86_64")]
     if let Some(avx2) = pulp::x86::V3::try_new() {
         return avx2.vectorize(Avx2(walk, avx2));
@@ -50,12 +51,18 @@ pub fn trace(kernel: &mut Kernel<'_>, ray: Ray) -> Hit {
     walk.walk(Halves)
 }
 
-/// The same for who is compiled for AVX2 himself, and whose paths are told apart by `lane`, below sixteen.
+/// The same for a ray whose walk has `begun`, and for who is compiled for AVX2 himself; paths are told apart by `lane`,
+/// below sixteen.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
-pub fn trace_here(avx2: pulp::x86::V3, kernel: &mut Kernel<'_>, ray: Ray, lane: usize) -> Hit {
-    let Some(tree) = kernel.companion.tree else { return kernel.generated_trace(ray) };
-    let hit = Walk { kernel: &mut *kernel, tree, ray, lane }.walk(avx2);
+pub fn trace_here(
+    avx2: pulp::x86::V3,
+    kernel: &mut Kernel<'_>,
+    begun: &kernel::Walk,
+    lane: usize,
+) -> Hit {
+    let Some(tree) = kernel.companion.tree else { return kernel.generated_trace(begun.ray) };
+    let hit = Walk { kernel: &mut *kernel, tree, begun, lane }.walk(avx2);
     ask_for(kernel, &hit);
     hit
 }
@@ -82,31 +89,23 @@ fn ask_for(kernel: &Kernel<'_>, hit: &Hit) {
 pub fn trace_below(
     avx2: pulp::x86::V3,
     kernel: &mut Kernel<'_>,
-    begun: kernel::Walk,
+    begun: &kernel::Walk,
     child: u32,
     best: Hit,
 ) -> Hit {
     let Some(tree) = kernel.companion.tree else { return best };
     let mut stack = std::mem::take(&mut kernel.companion.stack);
     stack.clear();
-    let hit = Walk::with(kernel, tree, Start { begun, child, best }, avx2, &mut stack, None);
+    let hit = Walk::with(kernel, tree, (begun, child, best), avx2, &mut stack, None);
     kernel.companion.stack = stack;
     hit
-}
-
-/// Where a walk starts, and what is known by then.
-#[derive(Clone, Copy)]
-struct Start {
-    begun: kernel::Walk,
-    child: u32,
-    best: Hit,
 }
 
 /// A walk that is to be done.
 struct Walk<'k, 'a> {
     kernel: &'k mut Kernel<'a>,
     tree: &'a Tree,
-    ray: Ray,
+    begun: &'k kernel::Walk,
     lane: usize,
 }
 
@@ -127,18 +126,17 @@ impl pulp::NullaryFnOnce for Avx2<'_, '_> {
 impl Walk<'_, '_> {
     #[inline(always)]
     fn walk<L: Lanes>(self, lanes: L) -> Hit {
-        let Self { kernel, tree, ray, lane } = self;
+        let Self { kernel, tree, begun, lane } = self;
         let mut stack = std::mem::take(&mut kernel.companion.stack);
         stack.clear();
         let mut crossings = std::mem::take(&mut kernel.companion.crossings);
-        let mut crossed = crossings.get_mut(lane).filter(|_| ray.light != NONE);
-        let known = crossed.as_mut().and_then(|crossed| crossed.next(&ray));
+        let mut crossed = crossings.get_mut(lane).filter(|_| begun.ray.light != NONE);
+        let known = crossed.as_mut().and_then(|crossed| crossed.next(&begun.ray));
         let hit = if let Some(hit) = known {
             hit
         } else {
-            let best = kernel.ray_miss(ray.t_max);
-            let start = Start { begun: kernel.walk_begin(ray), child: tree.root, best };
-            Self::with(kernel, tree, start, lanes, &mut stack, crossed)
+            let best = kernel.ray_miss(begun.ray.t_max);
+            Self::with(kernel, tree, (begun, tree.root, best), lanes, &mut stack, crossed)
         };
         kernel.companion.crossings = crossings;
         kernel.companion.stack = stack;
@@ -149,18 +147,19 @@ impl Walk<'_, '_> {
     fn with<L: Lanes>(
         kernel: &mut Kernel<'_>,
         tree: &Tree,
-        start: Start,
+        (begun, mut child, mut hit): (&kernel::Walk, u32, Hit),
         lanes: L,
         stack: &mut Stack,
         mut crossed: Option<&mut Crossings>,
     ) -> Hit {
-        let Start { begun: mut walk, mut child, best: mut hit } = start;
-        let ray = walk.ray;
+        // In the frame of the world, or in that of an instance: read where it is, as it is large.
+        let mut walk = begun;
+        let mut inside;
         // As in `trace/bvh.wgsl`.
-        let t_min = ray.t_min * 0.9999;
+        let t_min = walk.ray.t_min * 0.9999;
         let mut walker = Walker::new(lanes, &walk.ray, walk.inverse, t_min);
         let mut sheared = Sheared::new(kernel, &walk.ray, &walk.leaf);
-        let shadow = ray.light != NONE;
+        let shadow = walk.ray.light != NONE;
         if let Some(crossed) = &mut crossed {
             crossed.clear();
         }
@@ -176,7 +175,12 @@ impl Walk<'_, '_> {
                     continue;
                 }
             } else if child & CHILD_SPHERES != 0 && kernel.dispatch_is_instance_leaf(child) {
-                kernel.dispatch_instance_leaf(child, ray, &mut walk);
+                walk = begun;
+                if child != CHILD_OUT {
+                    inside = *begun;
+                    kernel.dispatch_instance_leaf(child, begun.ray, &mut inside);
+                    walk = &inside;
+                }
                 walker = Walker::new(lanes, &walk.ray, walk.inverse, t_min);
                 sheared = Sheared::new(kernel, &walk.ray, &walk.leaf);
                 if child != CHILD_OUT {
@@ -206,6 +210,6 @@ impl Walk<'_, '_> {
             let Some(next) = stack.pop(hit.t) else { break };
             child = next;
         }
-        crossed.map_or(hit, |crossed| crossed.first(ray, hit))
+        crossed.map_or(hit, |crossed| crossed.first(begun.ray, hit))
     }
 }
