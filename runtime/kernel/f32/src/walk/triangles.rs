@@ -123,13 +123,13 @@ fn leaf_along<const AXIS: u32>(
                 break;
             }
             let (i, questions) = (marked.index(), marked.questions() | also);
-            let mut new = met.hit(lane, i, ray);
-            if let Some(t) = sheared.flat::<AXIS>(block, lane) {
-                new.t = t;
+            let t = sheared.flat::<AXIS>(block, lane).unwrap_or(met.t[lane]);
+            let is_in_range = t > 0.0 && t <= hit.t;
+            if !is_in_range {
+                continue;
             }
-            if new.t > 0.0
-                && new.t <= hit.t
-                && comes_first(kernel, &new, &hit, ray)
+            let new = met.hit(lane, i, t, ray);
+            if comes_first(kernel, &new, &hit, ray)
                 && !sheared.skips(kernel, block, lane, i, ray)
                 && (!questions.counts() || tree.alpha.is_candidate(kernel, i, new.b, ray))
             {
@@ -183,9 +183,12 @@ fn ids(block: &Block, words: &[UVec4]) -> [i32x4; 3] {
 struct Lanes {
     /// One bit a lane: the line of the ray meets it, at some distance.
     hits: u32,
+    /// Distances.
     t: [f32; 4],
-    b1: [f32; 4],
-    b2: [f32; 4],
+    /// Weights of the second and the third corner, before they are divided by `det`: few hits count.
+    w1: [f32; 4],
+    w2: [f32; 4],
+    det: [f32; 4],
 }
 
 /// The lanes that are hit, and the weights of the corners.
@@ -273,16 +276,16 @@ impl Lanes {
         let det = w0 + w1 + w2;
         let t = (w0 * a.z + w1 * b.z + w2 * c.z) / det * inv_depth;
         let hits = (inside & det.simd_ne(f32x4::ZERO)).to_bitmask();
-        let (b1, b2) = (w1 / det, w2 / det);
-        let met = Self { hits, t: t.to_array(), b1: b1.to_array(), b2: b2.to_array() };
+        let [t, w1, w2, det] = [t, w1, w2, det].map(f32x4::to_array);
+        let met = Self { hits, t, w1, w2, det };
         (hits != 0).then_some(met)
     }
 
     /// The hit of one lane, which is triangle `i`.
     #[inline(always)]
-    fn hit(&self, lane: usize, i: u32, ray: &Ray) -> Hit {
-        let b = Vec2::new(self.b1[lane], self.b2[lane]);
-        Hit { t: self.t[lane], prim: i, b, instance: ray.instance }
+    fn hit(&self, lane: usize, i: u32, t: f32, ray: &Ray) -> Hit {
+        let b = Vec2::new(self.w1[lane], self.w2[lane]) / self.det[lane];
+        Hit { t, prim: i, b, instance: ray.instance }
     }
 }
 
