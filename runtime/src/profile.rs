@@ -4,7 +4,7 @@
 
 use crate::cpu::{self, CpuError};
 use crate::job::{CpuWay, Job};
-use crate::kernel::f32::{Kernel, NONE, Ray};
+use crate::kernel::f32::{Hit, Kernel, NONE, Ray};
 use crate::region::{Rect, Tiler};
 use crate::scene::Scene;
 use crate::setup::Setup;
@@ -75,10 +75,10 @@ impl<'a> Profile<'a> {
         }
     }
 
-    /// How many rays were recorded.
+    /// The rays that were recorded, in the normalised world.
     #[must_use]
-    pub fn n_rays(&self) -> usize {
-        self.rays.len()
+    pub fn rays(&self) -> &[Ray] {
+        &self.rays
     }
 
     /// How the lanes share the work.
@@ -87,11 +87,11 @@ impl<'a> Profile<'a> {
         self.lanes
     }
 
-    /// Traces these rays again, on one thread: how many of them hit something.
+    /// Traces these rays again, on one thread: what each hits.
     #[must_use]
-    pub fn trace(&self) -> usize {
+    pub fn trace(&self) -> Vec<Hit> {
         let mut kernel = cpu::kernel(&self.setup, &self.frame);
-        self.rays.iter().filter(|ray| kernel.trace(**ray).prim != NONE).count()
+        self.rays.iter().map(|ray| kernel.trace(*ray)).collect()
     }
 }
 

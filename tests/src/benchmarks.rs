@@ -7,6 +7,7 @@
 mod agreement;
 mod compiling;
 mod devices;
+mod embree;
 mod first;
 mod open;
 mod packs;
@@ -35,7 +36,7 @@ pub struct Table {
 }
 
 /// All of them, in the order of the page.
-pub const TABLES: [Table; 12] = [
+pub const TABLES: [Table; 13] = [
     Table { name: "devices", about: "path tracing on the CPU and others", write: devices::table },
     Table {
         name: "agreement",
@@ -53,6 +54,7 @@ pub const TABLES: [Table; 12] = [
         about: "tracing and shading apart, and how busy lanes are",
         write: profile::table,
     },
+    Table { name: "embree", about: "rays beside Embree's", write: embree::table },
     Table { name: "trees", about: "building a tree", write: trees::table },
     Table { name: "compile", about: "text to pack, cold and warm", write: compiling::table },
     Table { name: "edits", about: "compiling again after edits", write: compiling::edits },

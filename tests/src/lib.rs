@@ -11,6 +11,7 @@ pub mod ball;
 pub mod benchmarks;
 pub mod console;
 pub mod edits;
+pub mod embree;
 pub mod exr_file;
 pub mod farm;
 pub mod features;

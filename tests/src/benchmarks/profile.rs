@@ -42,8 +42,8 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
             rendered.push(cost(&scene, &DeviceChoice::Cpu, SAMPLES, one)?.cpu);
         }
         let pixels = f64::from(width) * f64::from(height);
-        let rays = profile.n_rays() as f64 / (pixels * f64::from(TRACED));
-        let ray = median(traced) / profile.n_rays() as f64 * 1e9;
+        let rays = profile.rays().len() as f64 / (pixels * f64::from(TRACED));
+        let ray = median(traced) / profile.rays().len() as f64 * 1e9;
         let sample = median(rendered) / (pixels * f64::from(SAMPLES)) * 1e9;
         let lanes = profile.lanes();
         let _ = writeln!(

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 use pack::abi::WIDTH;
+use tests::embree;
 
 use crate::scene::{Rng, Tri, View, basis};
 
@@ -51,6 +52,13 @@ pub(crate) struct Walked {
 pub(crate) struct Ray {
     pub(crate) origin: Vec3,
     pub(crate) dir: Vec3,
+}
+
+impl Ray {
+    /// The same, as Embree is asked.
+    pub(crate) fn asked(&self) -> embree::Ray {
+        embree::Ray::nearest(self.origin.to_array(), self.dir.to_array())
+    }
 }
 
 /// What rays cost together.

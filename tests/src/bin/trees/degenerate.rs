@@ -1,4 +1,4 @@
-//! Input that breaks builders: the kinds of `tests/bvh/shapes.rs`, which also has the tests that nothing is lost.
+//! Input that breaks builders: the kinds of `compiler/tests/bvh/shapes.rs`, which also has the tests that nothing is lost.
 
 use std::error::Error;
 use std::fmt::Write as _;
@@ -8,7 +8,7 @@ use compiler::bvh::{self, Input, Preset};
 use crate::measure::cpu_seconds;
 
 #[expect(dead_code, clippy::unwrap_used, reason = "what the tests need of it, too")]
-#[path = "../../tests/bvh/shapes.rs"]
+#[path = "../../../../compiler/tests/bvh/shapes.rs"]
 mod shapes;
 
 /// Triangles of each kind.

@@ -1,19 +1,18 @@
-//! `cargo run --release -p compiler --example trees [YARDSTICK]`: builds the tree of one hard scene
-//! with every builder, counts what rays cost in each, and rewrites `docs/bvh.md`.
+//! `cargo run --release -p tests --bin trees`: builds the tree of one hard scene with every builder, counts what rays
+//! cost in each, and rewrites `docs/bvh.md`.
 //!
-//! `YARDSTICK` is a program that builds the same scene with another library, and traces the same rays with
-//! it; `other.rs` says how it is called. Its runs are interleaved with ours, and its trees are walked by the
-//! same code, too.
+//! With `--embree` its trees and walks are measured, too, in the same rounds; its trees are walked by the same code.
+//! Without, their rows are left out.
 //!
-//! `-- --ordinary FOLDER` rewrites only the section on ordinary meshes, which are in that folder; without it this
-//! section stays as it is.
+//! `--ordinary FOLDER` rewrites only the section on ordinary meshes, which are in that folder; without it this section
+//! stays as it is.
 #![expect(clippy::print_stdout, reason = "a measuring tool reports on standard output")]
 
 mod degenerate;
+mod embree_tree;
 mod layouts;
 mod measure;
 mod ordinary;
-mod other;
 mod peak;
 mod scene;
 mod walk;
@@ -22,14 +21,38 @@ use std::error::Error;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+use clap::Parser;
 use compiler::bvh::Preset;
+use tests::embree::Embree;
 
 use measure::{Row, Rows};
 
+/// Measures builders of trees and walks through them, and rewrites docs/bvh.md.
+#[derive(Debug, Parser)]
+#[command(after_help = "Examples:\n  \
+    trees --embree           measures all but ordinary meshes, and Embree in the same rounds\n  \
+    trees --ordinary FOLDER  measures meshes that tests/peers/landscape.py has written to FOLDER")]
+struct Args {
+    /// Measure Embree, too: needs a C++ compiler and libembree-dev 3.
+    #[arg(long)]
+    embree: bool,
+    /// Rewrite only the section on ordinary meshes, which are in this folder.
+    #[arg(long, value_name = "FOLDER", conflicts_with = "embree")]
+    ordinary: Option<PathBuf>,
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
     let [first, second] = [1, 2].map(|i| std::env::args().nth(i));
-    if let (Some("--ordinary"), Some(folder)) = (first.as_deref(), &second) {
-        let section = ordinary::section(Path::new(folder))?;
+    if first.as_deref() == Some(peak::CHILD) {
+        one_thread()?;
+        if let Some(bytes) = peak::child(&second.unwrap_or_default())? {
+            println!("{bytes}");
+        }
+        return Ok(());
+    }
+    let Args { embree, ordinary } = Args::parse();
+    if let Some(folder) = ordinary {
+        let section = ordinary::section(&folder)?;
         std::fs::write(
             page_path(),
             with_ordinary(&std::fs::read_to_string(page_path())?, &section),
@@ -37,24 +60,22 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("{section}");
         return Ok(());
     }
-    rayon::ThreadPoolBuilder::new().num_threads(1).build_global()?;
-    if first.as_deref() == Some(peak::CHILD) {
-        if let Some(bytes) = peak::child(&second.unwrap_or_default())? {
-            println!("{bytes}");
-        }
-        return Ok(());
-    }
-    let yardstick = first.map(PathBuf::from);
+    one_thread()?;
+    let embree = embree.then(Embree::compile).transpose()?;
     let scene = scene::scene(true);
-    let nodes = layouts::all(&scene, yardstick.as_deref())?;
-    let with = measure::all(&scene, yardstick.as_deref())?;
-    let without = measure::all(&scene::scene(false), yardstick.as_deref())?;
+    let nodes = layouts::all(&scene, embree.as_ref())?;
+    let with = measure::all(&scene, embree.as_ref())?;
+    let without = measure::all(&scene::scene(false), embree.as_ref())?;
     let text =
         page(&with, &without) + &nodes_section(&nodes) + &memory()? + &degenerate::section()?;
     let text = with_ordinary(&text, ordinary_of(&std::fs::read_to_string(page_path())?));
     std::fs::write(page_path(), &text)?;
     println!("{text}");
     Ok(())
+}
+
+fn one_thread() -> Result<(), rayon::ThreadPoolBuildError> {
+    rayon::ThreadPoolBuilder::new().num_threads(1).build_global()
 }
 
 fn page_path() -> PathBuf {
@@ -80,7 +101,7 @@ fn with_ordinary(page: &str, section: &str) -> String {
 
 fn page(with: &Rows, without: &Rows) -> String {
     let mut text = String::from("# Trees over triangles\n\n");
-    text += "Made by `cargo run --release -p compiler --example trees`; edit the program, not this page.\n\n";
+    text += "Made by `cargo run --release -p tests --bin trees -- --embree`; edit the program, not this page.\n\n";
     text += "What `rtc --bvh` chooses between, on a scene that is hard on trees: ";
     for (name, n) in scene::PARTS {
         let _ = write!(text, "{n} triangles of {name}, ");
@@ -90,9 +111,9 @@ fn page(with: &Rows, without: &Rows) -> String {
         "and {} of the ground, which are up to 4 km long; sizes from 1 cm, long thin triangles through \
          one another. One thread; CPU seconds (user + system) are medians of {} interleaved rounds and \
          depend on the machine and what else it does: compare rows, not pages. The other columns are \
-         the same on every machine. Rows of Embree, where there are any, were made by a program that is no part of the \
-         repository: it calls `rtcBuildBVH` and is named as an argument; `examples/trees/other.rs` says what it reads \
-         and writes.\n",
+         the same on every machine. Rows of Embree are made \
+         by `tests/peers/embree.cpp`, which calls `rtcBuildBVH`, with room for half as many references again where it \
+         splits, and `rtcIntersect1`.\n",
         scene::GROUND,
         measure::ROUNDS,
     );
@@ -245,7 +266,7 @@ fn speeds(all: &layouts::Groups) -> String {
         return text;
     }
     format!(
-        "\nThe walk by hand beside Embree's, which has trees and triangles of its own making; its CPU seconds were taken by \
-         the program itself, around its loop over the same rays, in the same rounds:{text}\n"
+        "\nThe walk by hand beside Embree's, which has trees and triangles of its own making; its CPU seconds are \
+         those of a loop over the same rays, in the same rounds:{text}\n"
     )
 }

@@ -2,16 +2,16 @@
 //! where there is one, another library's walk through its own trees.
 
 use std::error::Error;
-use std::path::Path;
 
 use compiler::bvh::{self, Joined, Layout, Preset};
 use glam::UVec4;
 use pack::abi::{Frame, Material, NONE, TriShade, Triangle, WideNode};
 use runtime::kernel::f32 as kernel;
 use runtime::kernel::walk::{Companion, Geometry, Tree};
+use tests::embree::{self, Embree};
 
+use crate::embree_tree;
 use crate::measure::{build, cpu_seconds, walked, walked_wide};
-use crate::other::{self, Yardstick};
 use crate::scene::{Tri, VIEWS};
 use crate::walk::{Cost, Ray};
 
@@ -95,14 +95,14 @@ struct Words {
 }
 
 /// Both layouts of two trees.
-pub(crate) fn all(triangles: &[Tri], yardstick: Option<&Path>) -> Result<Groups, Box<dyn Error>> {
+pub(crate) fn all(triangles: &[Tri], embree: Option<&Embree>) -> Result<Groups, Box<dyn Error>> {
     let scaled: Vec<Tri> = triangles.iter().map(|t| t.map(|p| p.map(|x| x * SCALE))).collect();
-    let folder = tempfile::tempdir()?;
-    let other = yardstick.map(|p| Yardstick::new(p, folder.path(), &scaled)).transpose()?;
+    let other = embree.map(|embree| embree.scene(&scaled, &[])).transpose()?;
     let mut all = Groups { n_triangles: scaled.len(), n_rays: 0, by_preset: Vec::new() };
-    for (preset, modes) in
-        [(Preset::Fast, &other::WALKS_OF_BINNED[..]), (Preset::Default, &other::WALKS_OF_SPLIT[..])]
-    {
+    for (preset, modes) in [
+        (Preset::Fast, &embree_tree::WALKS_OF_BINNED[..]),
+        (Preset::Default, &embree_tree::WALKS_OF_SPLIT[..]),
+    ] {
         let (tree, _) = build(preset, &scaled)?;
         let rays = rays(&tree, triangles);
         all.n_rays = rays.len();
@@ -128,7 +128,7 @@ fn compare(
     tree: &Joined,
     triangles: &[Tri],
     rays: &[Ray],
-    others: Option<(&Yardstick<'_>, &[other::Mode])>,
+    others: Option<(&embree::Scene<'_>, &[embree_tree::Mode])>,
 ) -> Result<Group, Box<dyn Error>> {
     let before = cpu_seconds();
     let mut wide = Vec::new();
@@ -171,12 +171,13 @@ fn times<const N: usize>(
     tree: &Joined,
     words: &[Words; N],
     rays: &[Ray],
-    others: Option<(&Yardstick<'_>, &[other::Mode])>,
+    others: Option<(&embree::Scene<'_>, &[embree_tree::Mode])>,
 ) -> Result<([f64; N], Vec<Other>), Box<dyn Error>> {
     let mut took = [const { Vec::new() }; N];
     let modes = others.map_or(&[][..], |(_, modes)| modes);
     let mut theirs: Vec<(Vec<f64>, usize)> = vec![(Vec::new(), 0); modes.len()];
     let mut hits = Vec::new();
+    let asked: Vec<embree::Ray> = rays.iter().map(Ray::asked).collect();
     for _ in 0..ROUNDS {
         for (words, took) in words.iter().zip(&mut took) {
             let before = cpu_seconds();
@@ -187,12 +188,12 @@ fn times<const N: usize>(
             let differ = hits.iter().zip(&found).filter(|(a, b)| a != b).count();
             assert_eq!(differ, 0, "rays have other hits");
         }
-        for ((program, mode), (took, differ)) in others
+        for ((scene, mode), (took, differ)) in others
             .iter()
-            .flat_map(|(program, modes)| modes.iter().map(move |m| (program, m)))
+            .flat_map(|(scene, modes)| modes.iter().map(move |m| (scene, m)))
             .zip(&mut theirs)
         {
-            let (cpu, found) = program.walk(mode, rays)?;
+            let (cpu, found) = scene.trace(mode.0, &asked)?;
             took.push(cpu);
             *differ = hits
                 .iter()
@@ -201,7 +202,7 @@ fn times<const N: usize>(
                 .count();
         }
     }
-    let other = |(mode, (mut took, differ)): (&other::Mode, (Vec<f64>, usize))| Other {
+    let other = |(mode, (mut took, differ)): (&embree_tree::Mode, (Vec<f64>, usize))| Other {
         name: mode.1,
         cpu: median(&mut took),
         differ,

@@ -59,7 +59,7 @@ struct Scene {
 /// The section, from meshes in `folder`.
 pub(crate) fn section(folder: &Path) -> Result<String, Box<dyn Error>> {
     let mut text = String::from(TITLE);
-    text += "\nMade by `cargo run --release -p compiler --example trees -- --ordinary FOLDER`, with what \
+    text += "\nMade by `cargo run --release -p tests --bin trees -- --ordinary FOLDER`, with what \
              `python tests/peers/landscape.py FOLDER` writes there. Both meshes have 1.5 million triangles: \
              390,000 blades of grass on hills; terrain, petals and columns over a plain, edges from 4 mm to 566 m. The hard scene \
              is that of the next section. Seconds are medians of ";

@@ -1,15 +1,15 @@
 //! Building, timing and walking trees.
 
 use std::error::Error;
-use std::path::Path;
 
 use compiler::bvh::{self, Joined, Preset, Primitives};
 use compiler::cache::Cache;
 use cpu_time::ProcessTime;
 use glam::Vec3;
 use pack::abi::{ChildRef, Node, WideNode};
+use tests::embree::Embree;
 
-use crate::other;
+use crate::embree_tree;
 use crate::scene::{self, Tri};
 use crate::walk::{Child, Cost, Ray, Shape, To, Walked, pair};
 
@@ -40,10 +40,8 @@ impl Row {
 }
 
 /// Builds and walks every tree.
-pub(crate) fn all(triangles: &[Tri], yardstick: Option<&Path>) -> Result<Rows, Box<dyn Error>> {
-    let folder = tempfile::tempdir()?;
-    let other =
-        yardstick.map(|p| other::Yardstick::new(p, folder.path(), triangles)).transpose()?;
+pub(crate) fn all(triangles: &[Tri], embree: Option<&Embree>) -> Result<Rows, Box<dyn Error>> {
+    let other = embree.map(|embree| embree.scene(triangles, &[])).transpose()?;
     let mut took: Vec<(String, Vec<f64>)> = Vec::new();
     let mut trees: Vec<Walked> = Vec::new();
     for round in 0..ROUNDS {
@@ -58,10 +56,10 @@ pub(crate) fn all(triangles: &[Tri], yardstick: Option<&Path>) -> Result<Rows, B
             let (tree, time) = build(preset, triangles)?;
             note(format!("`{preset}`"), time, &mut || walked(&tree));
         }
-        for (mode, name) in other::MODES {
+        for (mode, name) in embree_tree::MODES {
             let Some(other) = &other else { continue };
             let (cpu, tree) = other.build(mode)?;
-            note(name.to_owned(), cpu, &mut || other::read(&tree));
+            note(name.to_owned(), cpu, &mut || embree_tree::read(&tree));
         }
     }
     let rays = trees[1].rays(triangles, &scene::VIEWS);
