@@ -71,6 +71,7 @@ std::vector<T> read(std::ifstream& file) {
 
 std::ifstream input(const char* path) {
     std::ifstream file(path, std::ios::binary);
+    if (!file) throw std::runtime_error(std::string("cannot read ") + path);
     file.exceptions(std::ios::failbit | std::ios::badbit);
     return file;
 }
@@ -84,7 +85,10 @@ void write_count(std::ofstream& file, std::uint64_t count) {
     file.write(reinterpret_cast<const char*>(&count), sizeof count);
 }
 
-void fail(void*, RTCError, const char* what) { throw std::runtime_error(what); }
+void fail(void*, RTCError, const char* what) {
+    std::cerr << "embree: " << what << '\n';
+    std::exit(1);
+}
 
 RTCDevice device() {
     RTCDevice device = rtcNewDevice("threads=1");

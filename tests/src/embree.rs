@@ -16,6 +16,15 @@ pub type Triangle = [[f32; 3]; 3];
 /// Where the program is.
 const SOURCE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/peers/embree.cpp");
 
+/// Distances that differ by less, relative, are of the same hit.
+pub const SAME_HIT: f32 = 1e-3;
+
+/// Whether `there`, a distance or −1 as Embree gives it, is the hit at our distance, or a miss like ours.
+#[must_use]
+pub fn is_same_hit(ours: Option<f32>, there: f32) -> bool {
+    ours.map_or(there < 0.0, |t| (there - t).abs() <= t * SAME_HIT)
+}
+
 /// Its trees, and how it walks them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quality {

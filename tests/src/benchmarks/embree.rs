@@ -27,9 +27,6 @@ const SCENES: [&str; 7] =
 const START: f32 = 1e-5;
 const BEFORE_LIGHT: f32 = 1.0 - 1e-4;
 
-/// Distances that differ by less, relative, are of the same hit.
-const SAME: f32 = 1e-3;
-
 const THEIRS: [Quality; 2] = [Quality::High, Quality::Robust];
 
 /// A row for each scene.
@@ -114,10 +111,8 @@ fn asked(ray: &Ray) -> embree::Ray {
     }
 }
 
-/// Whether `there`, a distance or −1, is what our ray hit.
+/// Whether `there`, as Embree gives it, is what our ray hit.
 fn same((ours, asked): (&Hit, &embree::Ray), there: f32) -> bool {
-    match (ours.prim != NONE, there >= 0.0) {
-        (true, true) => asked.any || (there - ours.t).abs() <= ours.t * SAME,
-        (here, there) => here == there,
-    }
+    let ours = (ours.prim != NONE).then_some(ours.t);
+    if asked.any { ours.is_some() == (there >= 0.0) } else { embree::is_same_hit(ours, there) }
 }

@@ -51,8 +51,8 @@ pub fn trace(kernel: &mut Kernel<'_>, ray: Ray) -> Hit {
     walk.walk(Halves)
 }
 
-/// The same for a ray whose walk has `begun`, and for who is compiled for AVX2 himself; paths are told apart by `lane`,
-/// below sixteen.
+/// The same for a walk that has `begun`, inlined into callers that are compiled for AVX2. `lane`, below sixteen, tells
+/// paths apart.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 pub fn trace_here(

@@ -6,10 +6,7 @@ use std::fmt::Write as _;
 use compiler::bvh::{self, Input, Preset};
 
 use crate::measure::cpu_seconds;
-
-#[expect(dead_code, clippy::unwrap_used, reason = "what the tests need of it, too")]
-#[path = "../../../../compiler/tests/bvh/shapes.rs"]
-mod shapes;
+use crate::shapes;
 
 /// Triangles of each kind.
 const COUNT: u32 = 100_000;

@@ -41,7 +41,7 @@ pub(crate) struct Other {
     pub(crate) name: &'static str,
     /// Median of CPU seconds of all rays.
     pub(crate) cpu: f64,
-    /// Rays that hit something else than ours, or at another distance by more than `OTHER_HIT`.
+    /// Rays that hit something else than ours, or at another distance by more than `SAME_HIT`.
     pub(crate) differ: usize,
 }
 
@@ -58,9 +58,6 @@ pub(crate) struct Groups {
     pub(crate) n_rays: usize,
     pub(crate) by_preset: Vec<Group>,
 }
-
-/// Distances that differ by less, relative, are of the same hit.
-pub(crate) const OTHER_HIT: f32 = 1e-3;
 
 /// Words that begin with a page, as those of a pack do: nodes lie in one line of the cache each.
 struct Section {
@@ -198,7 +195,9 @@ fn times<const N: usize>(
             *differ = hits
                 .iter()
                 .zip(&found)
-                .filter(|((t, whose), there)| !same(*t, whose.is_some(), **there))
+                .filter(|((t, whose), there)| {
+                    !embree::is_same_hit(whose.map(|_| f32::from_bits(*t)), **there)
+                })
                 .count();
         }
     }
@@ -213,12 +212,6 @@ fn times<const N: usize>(
 fn median(took: &mut [f64]) -> f64 {
     took.sort_by(f64::total_cmp);
     took[ROUNDS / 2]
-}
-
-/// Whether `there`, a distance or -1, is the same hit as ours at a distance with bits `t`.
-fn same(t: u32, hit: bool, there: f32) -> bool {
-    let t = f32::from_bits(t);
-    if hit { (there - t).abs() <= t * OTHER_HIT } else { there < 0.0 }
 }
 
 /// Distance and triangle of the scene, in whichever place it was met.

@@ -15,6 +15,9 @@ mod measure;
 mod ordinary;
 mod peak;
 mod scene;
+#[expect(dead_code, clippy::unwrap_used, reason = "what the tests need of it, too")]
+#[path = "../../../../compiler/tests/bvh/shapes.rs"]
+mod shapes;
 mod walk;
 
 use std::error::Error;
@@ -23,7 +26,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Parser;
 use compiler::bvh::Preset;
-use tests::embree::Embree;
+use tests::embree::{self, Embree};
 
 use measure::{Row, Rows};
 
@@ -258,7 +261,7 @@ fn speeds(all: &layouts::Groups) -> String {
                 other.cpu / ours.cpu,
                 group.preset,
                 other.differ,
-                layouts::OTHER_HIT,
+                embree::SAME_HIT,
             );
         }
     }

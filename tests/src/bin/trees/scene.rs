@@ -1,10 +1,9 @@
 //! A scene that is hard on trees: 1.5 million triangles from 1 cm to 4 km, long thin ones through one
-//! another. Every number comes from one generator, so the scene is the same on every machine.
+//! another, in metres. Every number comes from one generator, so the scene is the same on every machine.
 
 use glam::Vec3;
 
-/// Three corners, metres.
-pub(crate) type Tri = [[f32; 3]; 3];
+pub(crate) use crate::shapes::{Rng, Tri};
 
 /// Triangles of the terrain, the petals, the beams and columns, the spheres.
 pub(crate) const PARTS: [(&str, usize); 4] = [
@@ -29,32 +28,7 @@ pub(crate) const VIEWS: [View; 4] = [
 
 const TAU: f32 = std::f32::consts::TAU;
 
-/// PCG-XSH-RR, O'Neill 2014.
-pub(crate) struct Rng(u64);
-
 impl Rng {
-    pub(crate) fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
-    }
-
-    pub(crate) fn next(&mut self) -> u32 {
-        let old = self.0;
-        self.0 =
-            old.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        let [low, high] = split(((old >> 18) ^ old) >> 27);
-        debug_assert!(high < 32);
-        low.rotate_right(split(old >> 59)[0])
-    }
-
-    /// In [0, 1).
-    pub(crate) fn unit(&mut self) -> f32 {
-        (self.next() >> 8) as f32 / 16_777_216.0
-    }
-
-    fn range(&mut self, lo: f32, hi: f32) -> f32 {
-        lo + (hi - lo) * self.unit()
-    }
-
     /// A unit vector.
     fn direction(&mut self) -> Vec3 {
         let (y, phi) = (self.range(-1.0, 1.0), self.unit() * TAU);
@@ -66,12 +40,6 @@ impl Rng {
     fn decade(&mut self) -> f32 {
         libm::powf(10.0, self.unit())
     }
-}
-
-/// Low and high half.
-fn split(x: u64) -> [u32; 2] {
-    let [a, b, c, d, e, f, g, h] = x.to_le_bytes();
-    [u32::from_le_bytes([a, b, c, d]), u32::from_le_bytes([e, f, g, h])]
 }
 
 /// Two unit vectors at right angles to `n` and to each other.
