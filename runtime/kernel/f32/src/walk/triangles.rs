@@ -13,14 +13,12 @@ use wide::{f32x4, i32x4};
 
 /// A ray, and what turns it into the z axis, in all lanes.
 pub(super) struct Sheared {
-    from: [f32; 3],
-    /// As it is, for one triangle.
-    shear: TriangleShear,
+    /// For each axis of the frame: which one of the world it is.
+    axes: [usize; 3],
+    /// In that frame.
     origin: [f32x4; 3],
     slope: [f32x4; 2],
     inv_depth: f32x4,
-    /// Which axis becomes z.
-    axis: u32,
     /// Where the first corner of the triangle lies that the ray starts on, along x; not a number if there is none in
     /// this frame.
     skipped: f32,
@@ -30,14 +28,17 @@ impl Sheared {
     #[inline(always)]
     pub(super) fn new(kernel: &Kernel<'_>, ray: &Ray, shear: &TriangleShear) -> Self {
         let all = f32x4::splat;
-        let origin = ray.origin;
+        let axes: [usize; 3] = match shear.axis {
+            0 => [1, 2, 0],
+            1 => [2, 0, 1],
+            _ => [0, 1, 2],
+        };
+        let origin = ray.origin.to_array();
         Self {
-            from: origin.to_array(),
-            shear: *shear,
-            origin: [all(origin.x), all(origin.y), all(origin.z)],
+            axes,
+            origin: axes.map(|axis| all(origin[axis])),
             slope: [all(shear.slope.x), all(shear.slope.y)],
             inv_depth: all(shear.inv_depth),
-            axis: shear.axis,
             skipped: first_corner(kernel, ray),
         }
     }
@@ -57,24 +58,27 @@ impl Sheared {
         block.corners[0][0][lane & 3] == self.skipped && kernel.order_skipped(i, *ray)
     }
 
-    /// The distance of a triangle in a plane across an axis other than that of the ray.
+    /// How far a corner of each triangle of a block lies from the ray's origin, along `axis` of the frame.
     #[inline(always)]
-    fn flat<const AXIS: u32>(&self, block: &Block, lane: usize) -> Option<f32> {
-        let (x, y) = match AXIS {
-            0 => (1, 2),
-            1 => (2, 0),
-            _ => (0, 1),
-        };
-        self.flat_across(block, lane, x, self.shear.slope.x)
-            .or_else(|| self.flat_across(block, lane, y, self.shear.slope.y))
+    fn along(&self, axis: usize, corner: &[[f32; BLOCK]; 3]) -> f32x4 {
+        // Cut off, so that there is no bound to check.
+        f32x4::new(corner[self.axes[axis].min(2)]) - self.origin[axis]
+    }
+
+    /// The distances `t` of the triangles of `block`, with those in a plane across an axis other than that of the ray
+    /// set right; that of x counts where both do.
+    #[inline(always)]
+    fn flat(&self, block: &Block, t: f32x4) -> f32x4 {
+        let t = self.flat_across(block, 1, t);
+        self.flat_across(block, 0, t)
     }
 
     #[inline(always)]
-    fn flat_across(&self, block: &Block, lane: usize, axis: usize, slope: f32) -> Option<f32> {
-        let from = |corner: usize| block.corners[corner][axis][lane & 3] - self.from[axis];
-        let (p0, p1, p2) = (from(0), from(1), from(2));
-        let flat = p0 - p1 == 0.0 && p1 - p2 == 0.0 && slope != 0.0;
-        flat.then(|| p0 / slope * self.shear.inv_depth)
+    fn flat_across(&self, block: &Block, axis: usize, t: f32x4) -> f32x4 {
+        let [p0, p1, p2] = [0, 1, 2].map(|corner| self.along(axis, &block.corners[corner]));
+        let (zero, slope) = (f32x4::ZERO, self.slope[axis]);
+        let flat = (p0 - p1).simd_eq(zero) & (p1 - p2).simd_eq(zero) & slope.simd_ne(zero);
+        if flat.none() { t } else { flat.bitselect(p0 / slope * self.inv_depth, t) }
     }
 }
 
@@ -86,32 +90,13 @@ pub(super) fn leaf(
     (tree, child): (&Tree, u32),
     ray: &Ray,
     sheared: &Sheared,
-    (best, crossed): (Hit, Option<&mut Crossings>),
-) -> Hit {
-    // Asked once, and not in every test.
-    match sheared.axis {
-        0 => leaf_along::<0>(kernel, (tree, child), ray, sheared, (best, crossed)),
-        1 => leaf_along::<1>(kernel, (tree, child), ray, sheared, (best, crossed)),
-        _ => leaf_along::<2>(kernel, (tree, child), ray, sheared, (best, crossed)),
-    }
-}
-
-#[inline(always)]
-fn leaf_along<const AXIS: u32>(
-    kernel: &mut Kernel<'_>,
-    (tree, child): (&Tree, u32),
-    ray: &Ray,
-    sheared: &Sheared,
     (best, mut crossed): (Hit, Option<&mut Crossings>),
 ) -> Hit {
     let mut hit = best;
     let also = tree.questions(ray.instance);
     for block in tree.blocks(child) {
-        let [a, b, c] = &block.corners;
-        let corner = |corner| Corner::new::<AXIS>(corner, sheared);
-        let corners = [corner(a), corner(b), corner(c)];
-        let Some(met) = Lanes::intersect(&corners, block, kernel.tri_words, sheared.inv_depth)
-        else {
+        let corners = [0, 1, 2].map(|corner| Corner::new(&block.corners[corner], sheared));
+        let Some(met) = Lanes::intersect(&corners, block, kernel.tri_words, sheared, hit.t) else {
             continue;
         };
         let mut left = met.hits;
@@ -123,13 +108,9 @@ fn leaf_along<const AXIS: u32>(
                 break;
             }
             let (i, questions) = (marked.index(), marked.questions() | also);
-            let t = sheared.flat::<AXIS>(block, lane).unwrap_or(met.t[lane]);
-            let is_in_range = t > 0.0 && t <= hit.t;
-            if !is_in_range {
-                continue;
-            }
-            let new = met.hit(lane, i, t, ray);
-            if comes_first(kernel, &new, &hit, ray)
+            let new = met.hit(lane, i, ray);
+            if new.t <= hit.t
+                && comes_first(kernel, &new, &hit, ray)
                 && !sheared.skips(kernel, block, lane, i, ray)
                 && (!questions.counts() || tree.alpha.is_candidate(kernel, i, new.b, ray))
             {
@@ -155,13 +136,8 @@ struct Corner {
 
 impl Corner {
     #[inline(always)]
-    fn new<const AXIS: u32>(corner: &[[f32; BLOCK]; 3], sheared: &Sheared) -> Self {
-        let from = |axis: usize| f32x4::new(corner[axis]) - sheared.origin[axis];
-        let (x, y, z) = match AXIS {
-            0 => (from(1), from(2), from(0)),
-            1 => (from(2), from(0), from(1)),
-            _ => (from(0), from(1), from(2)),
-        };
+    fn new(corner: &[[f32; BLOCK]; 3], sheared: &Sheared) -> Self {
+        let [x, y, z] = [0, 1, 2].map(|axis| sheared.along(axis, corner));
         let [slope_x, slope_y] = sheared.slope;
         Self { x: x - z * slope_x, y: y - z * slope_y, z }
     }
@@ -181,7 +157,7 @@ fn ids(block: &Block, words: &[UVec4]) -> [i32x4; 3] {
 
 /// What a ray and four triangles have in common.
 struct Lanes {
-    /// One bit a lane: the line of the ray meets it, at some distance.
+    /// One bit a lane: the ray meets it.
     hits: u32,
     /// Distances.
     t: [f32; 4],
@@ -260,13 +236,14 @@ impl Edge {
 }
 
 impl Lanes {
-    /// Nothing if no lane is hit.
+    /// Nothing if no lane is hit, up to the distance `t_max`.
     #[inline(always)]
     fn intersect(
         corners: &[Corner; 3],
         block: &Block,
         words: &[UVec4],
-        inv_depth: f32x4,
+        sheared: &Sheared,
+        t_max: f32,
     ) -> Option<Self> {
         let Edges { inside, weights: [w0, w1, w2] } = Edges::new(corners, block, words);
         if inside.none() {
@@ -274,8 +251,11 @@ impl Lanes {
         }
         let [a, b, c] = corners;
         let det = w0 + w1 + w2;
-        let t = (w0 * a.z + w1 * b.z + w2 * c.z) / det * inv_depth;
-        let hits = (inside & det.simd_ne(f32x4::ZERO)).to_bitmask();
+        let t = (w0 * a.z + w1 * b.z + w2 * c.z) / det * sheared.inv_depth;
+        let t = sheared.flat(block, t);
+        let zero = f32x4::ZERO;
+        let in_range = t.simd_gt(zero) & t.simd_le(f32x4::splat(t_max));
+        let hits = (inside & det.simd_ne(zero) & in_range).to_bitmask();
         let [t, w1, w2, det] = [t, w1, w2, det].map(f32x4::to_array);
         let met = Self { hits, t, w1, w2, det };
         (hits != 0).then_some(met)
@@ -283,9 +263,9 @@ impl Lanes {
 
     /// The hit of one lane, which is triangle `i`.
     #[inline(always)]
-    fn hit(&self, lane: usize, i: u32, t: f32, ray: &Ray) -> Hit {
+    fn hit(&self, lane: usize, i: u32, ray: &Ray) -> Hit {
         let b = Vec2::new(self.w1[lane], self.w2[lane]) / self.det[lane];
-        Hit { t, prim: i, b, instance: ray.instance }
+        Hit { t: self.t[lane], prim: i, b, instance: ray.instance }
     }
 }
 
