@@ -52,7 +52,10 @@ fn small(scene: &Scene, job: &Job, block: u32) -> Job {
         samples: SampleRange { start, end: start.saturating_add(1) },
         precision: Precision::F32,
         // It does not wait for the tree that the picture walks.
-        way: CpuWay { by_hand: job.way.by_hand && scene.finished_tree().is_some(), ..job.way },
+        way: CpuWay {
+            by_hand: job.way.by_hand && scene.finished_tree(job.way.width()).is_some(),
+            ..job.way
+        },
         time_limit: None,
         measure: None,
         strict: false,

@@ -1,6 +1,7 @@
 //! What to render, in one value: size, crop, samples, seed, limits.
 
 use crate::convergence::Measure;
+use crate::kernel::walk::Width;
 use crate::layers::Wanted;
 use crate::region::{Rect, SampleRange};
 use crate::replicate::REPLICATES_U32;
@@ -33,6 +34,11 @@ impl CpuWay {
         return Wide::of_processor(u32::MAX).map_or(1, Wide::lanes);
         #[cfg(not(target_arch = "x86_64"))]
         return 1;
+    }
+
+    /// How many children the nodes have that are walked by hand.
+    pub(crate) fn width(self) -> Width {
+        if self.lanes < 16 { Width::Eight } else { Width::of_processor() }
     }
 }
 

@@ -233,12 +233,12 @@ impl Setup<'_> {
 
     /// The tree that the CPU walks by hand, if it does; made when it is first asked for.
     pub(crate) fn tree(&self) -> Option<&Tree> {
-        if self.way.by_hand { self.scene.tree() } else { None }
+        if self.way.by_hand { self.scene.tree(self.way.width()) } else { None }
     }
 
     /// The same if it has been made; without it rays find the same hits in the nodes of the pack.
     pub(crate) fn finished_tree(&self) -> Option<&Tree> {
-        if self.way.by_hand { self.scene.finished_tree() } else { None }
+        if self.way.by_hand { self.scene.finished_tree(self.way.width()) } else { None }
     }
 
     /// The kernel for several pixels at a time, if there is one and it is wanted.

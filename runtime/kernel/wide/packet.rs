@@ -1,4 +1,4 @@
-//! A ray a lane at once through a tree of eights.
+//! A ray a lane at once through a tree of wide nodes.
 //!
 //! Turns rays into their hits, the bits that walks one by one find: a box, a triangle or a leaf of spheres is tested
 //! with all rays that come to it. Of the smallest trees a list is gone through instead (`walk::Few`). Where
@@ -12,11 +12,11 @@ use crate::rays::{Hits, Walks};
 use crate::target;
 use glam::UVec4;
 use kernel_f32::kernel as scalar;
-use kernel_f32::walk::{self, Block, FAR_END, Few, Marked, Node, Step, Tree};
+use kernel_f32::walk::{self, Block, FAR_END, Few, Lanes, Marked, Node, Step, Tree};
 use scalar::NONE;
 use std::borrow::Borrow;
 
-/// At a node, a packet of no more rays than this walks on ray by ray: one ray is tested with all eight boxes at once.
+/// At a node, a packet of no more rays than this walks on ray by ray: one ray is tested with all its boxes at once.
 /// Nor is it worth going through the list of a tree for so few.
 const FEW: u32 = 3;
 
@@ -97,6 +97,8 @@ impl<'r> Packet<'r> {
         mask: v::B,
     ) -> Hit {
         let mut hit = kernel.ray_miss(mask, self.ray.t_max);
+        // The caller has asked for them.
+        let Some(nodes) = kernel.companion.instructions.nodes(tree) else { return hit };
         let mut left = mask;
         let mut walks = None;
         stack.clear();
@@ -107,7 +109,7 @@ impl<'r> Packet<'r> {
             if !v::any(active) {
                 continue;
             }
-            let ended = match tree.step(child) {
+            let ended = match tree.step(nodes, child) {
                 Step::Node(_) if v::bits(active).count_ones() <= FEW => {
                     self.apart(kernel, &mut walks, child, active, &mut hit)
                 }
@@ -189,9 +191,15 @@ impl<'r> Packet<'r> {
     /// Pushes the children of `node` that rays of `active` meet, the nearest last.
     #[target]
     #[inline]
-    fn visit(&self, node: &Node, active: v::B, t_max: v::F, stack: &mut Vec<Waiting>) {
+    fn visit<const W: usize>(
+        &self,
+        node: &Node<W>,
+        active: v::B,
+        t_max: v::F,
+        stack: &mut Vec<Waiting>,
+    ) {
         let bottom = stack.len();
-        let mut keys = [0.0_f32; 8];
+        let mut keys = [0.0_f32; W];
         for (k, child) in node.children.iter().enumerate() {
             if *child == NONE {
                 continue;
@@ -329,8 +337,8 @@ impl<'r> Packet<'r> {
             left &= left - 1;
             let best = hits.lane(lane);
             let companion = &mut kernel.companion;
-            let (avx2, scalar) = (companion.avx2, &mut companion.scalar);
-            let found = walk::trace_below(avx2, scalar, &walks.lane(lane), child, best);
+            let (lanes, scalar) = (companion.instructions, &mut companion.scalar);
+            let found = walk::trace_below(lanes, scalar, &walks.lane(lane), child, best);
             let same = found.prim == best.prim && found.instance == best.instance;
             if !same || found.t.to_bits() != best.t.to_bits() {
                 hits.set(lane, &found);

@@ -6,13 +6,12 @@
 use crate::kernel::{self, v};
 use crate::pixels::Pixels;
 use crate::rays::{Hits, Walks};
-use crate::{Instructions, avx2, packet, target};
+use crate::{Instructions, packet, target};
 use glam::UVec4;
 use kernel_f32::{
     kernel as scalar,
-    walk::{self, Tree},
+    walk::{self, Lanes, Tree},
 };
-use pulp::x86::V3;
 
 /// Camera rays are traced together if there are this many or more.
 const COHERENT: u32 = 4;
@@ -20,7 +19,8 @@ const COHERENT: u32 = 4;
 /// What the wide kernel needs beside it: the scalar one, which traces.
 pub struct Companion<'a> {
     pub(crate) scalar: scalar::Kernel<'a>,
-    pub(crate) avx2: V3,
+    /// With which a ray is walked alone.
+    pub(crate) instructions: Instructions,
     /// The tree, if there is one.
     tree: Option<&'a Tree>,
     /// All rays are to be traced together, and not only those of the camera.
@@ -67,21 +67,21 @@ fn trace_one_by_one(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::R
     let (inverse, shear) =
         (kernel.box_inverse(mask, ray.dir), kernel.triangle_shear(mask, ray.dir));
     let walks = Walks::new(ray, inverse, shear);
-    let Companion { scalar, avx2, .. } = &mut kernel.companion;
+    let Companion { scalar, instructions, .. } = &mut kernel.companion;
     walk_is_inlined();
     let mut left = v::bits(mask);
     while left != 0 {
         let lane = left.trailing_zeros() as usize % v::LANES;
         left &= left - 1;
-        hits.set(lane, &walk::trace_here(*avx2, scalar, &walks.lane(lane), lane));
+        hits.set(lane, &walk::trace_here(*instructions, scalar, &walks.lane(lane), lane));
     }
     hits.all()
 }
 
 /// Does nothing, but whoever calls it must be compiled for what the walk of a lone ray is made of: otherwise each of
 /// its instructions would be a call.
+#[target]
 #[inline]
-#[target_feature(enable = "avx2,fma")]
 fn walk_is_inlined() {}
 
 /// Renders the tile. Whether it came to the end of it, which it does unless `is_over` says so after some pixels.
@@ -94,7 +94,7 @@ pub fn render(instructions: Instructions, tile: Tile<'_>, is_over: &dyn Fn() -> 
 #[target]
 fn render_tile(instructions: Instructions, tile: Tile<'_>, is_over: &dyn Fn() -> bool) -> bool {
     let Tile { scalar, film, size } = tile;
-    let tree = scalar.companion.tree();
+    let tree = scalar.companion.tree().filter(|tree| instructions.nodes(tree).is_some());
     let together = tree.is_some_and(Tree::is_small);
     let mut kernel = kernel::Kernel {
         frame_words: scalar.frame_words,
@@ -107,7 +107,7 @@ fn render_tile(instructions: Instructions, tile: Tile<'_>, is_over: &dyn Fn() ->
         texel_words: scalar.texel_words,
         companion: Companion {
             scalar,
-            avx2: avx2(instructions),
+            instructions,
             tree,
             together,
             scratch: packet::Scratch::default(),

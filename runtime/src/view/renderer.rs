@@ -69,7 +69,8 @@ fn picture(session: &Session, task: &Task) -> Result<(), String> {
         let size = task.job.image_size.map(|side| side.div_ceil(divisor));
         let mut job = resized(&task.job, size);
         // The first picture of a scene does not wait for the tree that the others walk.
-        job.way.by_hand = pass != Pass::Quarter || task.scene.finished_tree().is_some();
+        job.way.by_hand =
+            pass != Pass::Quarter || task.scene.finished_tree(job.way.width()).is_some();
         match step(session, task, &job, pass)? {
             None => return Ok(()),
             Some((outcome, took)) => {

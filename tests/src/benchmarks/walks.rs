@@ -28,8 +28,8 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
     let _ = writeln!(
         text,
         "\n## The walk through the tree: {width} x {height}, {SAMPLES} samples a pixel, the CPU kernel\n\n\
-        `generated`: `trace` as it was translated from the WGSL; `by hand`: a tree of eights of its own \
-        (`runtime/kernel/f32/src/walk.rs`); several pixels at a time: the wide forms of the kernel \
+        `generated`: `trace` as it was translated from the WGSL; `by hand`: a tree of its own \
+        (`runtime/kernel/f32/src/walk.rs`), with eight children a node, or sixteen in the last row; several pixels at a time: the wide forms of the kernel \
         (`runtime/kernel/wide/render.rs`), eight with AVX2 and sixteen with AVX-512, where the processor has them. \
         The same picture, bit for bit; all of path tracing is in the times.\n\n\
         | scene | nodes and walk | CPU s | Mrays | Mrays per CPU s | against the first |\n\

@@ -21,8 +21,3 @@ mod pixels;
 mod rays;
 #[path = "../../wide/render.rs"]
 pub mod render;
-
-/// AVX2, with which a ray is walked alone.
-fn avx2(there: Instructions) -> pulp::x86::V3 {
-    *there
-}

@@ -1,13 +1,13 @@
-//! The walk through a tree of eights on the CPU: `trace` of the kernel by hand.
+//! The walk through a tree of wide nodes on the CPU: `trace` of the kernel by hand.
 //!
 //! Turns a ray into the hit that `generated_trace` finds, bit for bit: nodes only decide what is tested, and of triangles
 //! each lane does the operations of `triangle_intersect` in their order. What is rare (spheres, triangles that move, the
 //! way into an instance) is left to the generated functions, as is every question about a hit: which of two counts,
 //! whether it is cut out, whether it ends a shadow ray. It does not know how a kernel is bound, and renders nothing.
 //!
-//! The same source is compiled for the baseline and for AVX2, between which the processor decides; in tests of triangles
-//! no product is fused with a sum in either. What is compiled for AVX2 is what is inlined into it, hence `inline(always)`
-//! in all of it.
+//! The same source is compiled for the baseline, for AVX2 and for AVX-512, between which the processor decides; in tests
+//! of triangles no product is fused with a sum in any. What is compiled for an instruction set is what is inlined into
+//! it, hence `inline(always)` in all of it.
 #![expect(clippy::inline_always, reason = "what is not inlined is not compiled for the processor")]
 
 mod alpha_map;
@@ -24,18 +24,19 @@ mod triangles;
 
 pub use build::Geometry;
 pub use few::{Ends, Few, Leaf, Listed, MOST_CORNERS, SphereLeaf};
+pub use lanes::Lanes;
 pub use questions::{Marked, Questions};
 pub use stack::FAR_END;
-pub use tree::{Block, Companion, Node, Step, Tree};
+pub use tree::{Block, Companion, Node, Step, Tree, Width};
 
 use crate::kernel::{
     self, CHILD_INNER, CHILD_OUT, CHILD_SPHERES, Hit, Kernel, NONE, PRIM_OTHER, Ray,
 };
 use crossings::Crossings;
-use lanes::{Halves, Lanes};
+use lanes::Halves;
 use node::Walker;
 use stack::{Stack, Waiting};
-use tree::MOVING;
+use tree::{MOVING, Nodes};
 use triangles::Sheared;
 
 /// The nearest hit from `ray.t_min` to `ray.t_max`, or a miss. For a shadow ray: some opaque hit on the way, else the
@@ -43,32 +44,40 @@ use triangles::Sheared;
 pub fn trace(kernel: &mut Kernel<'_>, ray: Ray) -> Hit {
     let Some(tree) = kernel.companion.tree else { return kernel.generated_trace(ray) };
     let begun = kernel.walk_begin(ray);
-    let walk = Walk { kernel, tree, begun: &begun, lane: 0 };
-    #[cfg(target_arch = "x86_64")]
-    if let Some(avx2) = pulp::x86::V3::try_new() {
-        return avx2.vectorize(Avx2(walk, avx2));
+    match &tree.nodes {
+        Nodes::Eights(nodes) => {
+            let walk = Walk { kernel, tree, nodes: nodes.as_slice(), begun: &begun, lane: 0 };
+            #[cfg(target_arch = "x86_64")]
+            if let Some(avx2) = pulp::x86::V3::try_new() {
+                return avx2.vectorize(With(walk, avx2));
+            }
+            walk.walk(Halves)
+        }
+        #[cfg(target_arch = "x86_64")]
+        Nodes::Sixteens(nodes, avx512) => {
+            let walk = Walk { kernel, tree, nodes: nodes.as_slice(), begun: &begun, lane: 0 };
+            avx512.vectorize(With(walk, *avx512))
+        }
     }
-    walk.walk(Halves)
 }
 
-/// The same for a walk that has `begun`, inlined into callers that are compiled for AVX2. `lane`, below sixteen, tells
+/// The same for a walk that has `begun`, inlined into callers that are compiled for `lanes`. `lane`, below sixteen, tells
 /// paths apart.
-#[cfg(target_arch = "x86_64")]
 #[inline(always)]
-pub fn trace_here(
-    avx2: pulp::x86::V3,
+pub fn trace_here<L: Lanes<W>, const W: usize>(
+    lanes: L,
     kernel: &mut Kernel<'_>,
     begun: &kernel::Walk,
     lane: usize,
 ) -> Hit {
     let Some(tree) = kernel.companion.tree else { return kernel.generated_trace(begun.ray) };
-    let hit = Walk { kernel: &mut *kernel, tree, begun, lane }.walk(avx2);
+    let Some(nodes) = lanes.nodes(tree) else { return trace(kernel, begun.ray) };
+    let hit = Walk { kernel: &mut *kernel, tree, nodes, begun, lane }.walk(lanes);
     ask_for(kernel, &hit);
     hit
 }
 
 /// Has the records of the triangle that was hit brought near: the wide kernel reads them when all paths have been traced.
-#[cfg(target_arch = "x86_64")]
 #[inline(always)]
 fn ask_for(kernel: &Kernel<'_>, hit: &Hit) {
     if hit.prim & PRIM_OTHER == 0 {
@@ -84,37 +93,39 @@ fn ask_for(kernel: &Kernel<'_>, hit: &Hit) {
 
 /// The better of `best` and what lies below `child`, a reference of the tree, for a ray whose walk has `begun`. Of a
 /// shadow ray that is any hit: the nearest surface that it goes through, or one that hides its light.
-#[cfg(target_arch = "x86_64")]
 #[inline(always)]
-pub fn trace_below(
-    avx2: pulp::x86::V3,
+pub fn trace_below<L: Lanes<W>, const W: usize>(
+    lanes: L,
     kernel: &mut Kernel<'_>,
     begun: &kernel::Walk,
     child: u32,
     best: Hit,
 ) -> Hit {
     let Some(tree) = kernel.companion.tree else { return best };
+    let Some(nodes) = lanes.nodes(tree) else { return best };
     let mut stack = std::mem::take(&mut kernel.companion.stack);
     stack.clear();
-    let hit = Walk::with(kernel, tree, (begun, child, best), avx2, &mut stack, None);
+    let hit = Walk::with(kernel, (tree, nodes), (begun, child, best), lanes, &mut stack, None);
     kernel.companion.stack = stack;
     hit
 }
 
 /// A walk that is to be done.
-struct Walk<'k, 'a> {
+struct Walk<'k, 'a, const W: usize> {
     kernel: &'k mut Kernel<'a>,
     tree: &'a Tree,
+    /// Those of the tree.
+    nodes: &'a [Node<W>],
     begun: &'k kernel::Walk,
     lane: usize,
 }
 
-/// A walk that is to be done with AVX2.
+/// A walk that is to be done with these instructions.
 #[cfg(target_arch = "x86_64")]
-struct Avx2<'k, 'a>(Walk<'k, 'a>, pulp::x86::V3);
+struct With<'k, 'a, L, const W: usize>(Walk<'k, 'a, W>, L);
 
 #[cfg(target_arch = "x86_64")]
-impl pulp::NullaryFnOnce for Avx2<'_, '_> {
+impl<L: Lanes<W>, const W: usize> pulp::NullaryFnOnce for With<'_, '_, L, W> {
     type Output = Hit;
 
     #[inline(always)]
@@ -123,10 +134,10 @@ impl pulp::NullaryFnOnce for Avx2<'_, '_> {
     }
 }
 
-impl Walk<'_, '_> {
+impl<const W: usize> Walk<'_, '_, W> {
     #[inline(always)]
-    fn walk<L: Lanes>(self, lanes: L) -> Hit {
-        let Self { kernel, tree, begun, lane } = self;
+    fn walk<L: Lanes<W>>(self, lanes: L) -> Hit {
+        let Self { kernel, tree, nodes, begun, lane } = self;
         let mut stack = std::mem::take(&mut kernel.companion.stack);
         stack.clear();
         let mut crossings = std::mem::take(&mut kernel.companion.crossings);
@@ -136,7 +147,8 @@ impl Walk<'_, '_> {
             hit
         } else {
             let best = kernel.ray_miss(begun.ray.t_max);
-            Self::with(kernel, tree, (begun, tree.root, best), lanes, &mut stack, crossed)
+            let from = (begun, tree.root, best);
+            Self::with(kernel, (tree, nodes), from, lanes, &mut stack, crossed)
         };
         kernel.companion.crossings = crossings;
         kernel.companion.stack = stack;
@@ -144,9 +156,9 @@ impl Walk<'_, '_> {
     }
 
     #[inline(always)]
-    fn with<L: Lanes>(
+    fn with<L: Lanes<W>>(
         kernel: &mut Kernel<'_>,
-        tree: &Tree,
+        (tree, nodes): (&Tree, &[Node<W>]),
         (begun, mut child, mut hit): (&kernel::Walk, u32, Hit),
         lanes: L,
         stack: &mut Stack,
@@ -169,8 +181,9 @@ impl Walk<'_, '_> {
         loop {
             if child & CHILD_INNER != 0 {
                 // No tree leads elsewhere.
-                let Some(node) = tree.node(child) else { return hit };
-                if let Some(nearest) = walker.visit(tree, node, hit.t, shadow, stack) {
+                let Some(node) = tree::node(nodes, child) else { return hit };
+                let visited = walker.visit((tree, nodes), node, hit.t, shadow, stack);
+                if let Some(nearest) = visited {
                     child = nearest;
                     continue;
                 }

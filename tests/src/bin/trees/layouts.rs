@@ -7,7 +7,7 @@ use compiler::bvh::{self, Joined, Layout, Preset};
 use glam::UVec4;
 use pack::abi::{Frame, Material, NONE, TriShade, Triangle, WideNode};
 use runtime::kernel::f32 as kernel;
-use runtime::kernel::walk::{Companion, Geometry, Tree};
+use runtime::kernel::walk::{Companion, Geometry, Tree, Width};
 use tests::embree::{self, Embree};
 
 use crate::embree_tree;
@@ -254,7 +254,7 @@ impl Words {
             textures: &[],
             texels: &[],
         };
-        self.tree = Some(Tree::new(&geometry));
+        self.tree = Some(Tree::new(&geometry, Width::of_processor()));
     }
 
     /// Distance (bits) and triangle of every ray.

@@ -1,13 +1,13 @@
 //! Wide nodes → the tree that the CPU walks.
 //!
-//! Turns each tree of the pack, from the top down, into nodes of eight. What is below the top is made in parallel, in
-//! pieces that do not depend on the number of threads, and joined in their order.
+//! Turns each tree of the pack, from the top down, into nodes of up to eight or sixteen children. What is below the top
+//! is made in parallel, in pieces that do not depend on the number of threads, and joined in their order.
 
 use super::alpha_map::AlphaMaps;
 use super::collapse::{Child, Item, Plan, Source};
 use super::few::{Content, Few};
 use super::questions::{Marked, Questions};
-use super::tree::{BLOCK, Block, MOVING, Node, TWO_BLOCKS, Tree, WIDTH};
+use super::tree::{BLOCK, Block, MOVING, Node, Nodes, SMALL, TWO_BLOCKS, Tree, Width};
 use pack::abi::{
     CHILD_INNER, CHILD_SPHERES, ChildRef, Instance, Material, NONE, Texture, TriShade, Triangle,
     WideNode,
@@ -42,10 +42,18 @@ pub struct Geometry<'a> {
 impl Tree {
     /// The tree over the same triangles, spheres and instances as the nodes of `geometry`.
     #[must_use]
-    pub fn new(geometry: &Geometry<'_>) -> Tree {
+    pub fn new(geometry: &Geometry<'_>, width: Width) -> Self {
+        match width {
+            Width::Eight => Self::with(geometry, Nodes::Eights),
+            #[cfg(target_arch = "x86_64")]
+            Width::Sixteen(avx512) => Self::with(geometry, |nodes| Nodes::Sixteens(nodes, avx512)),
+        }
+    }
+
+    fn with<const W: usize>(geometry: &Geometry<'_>, wrap: impl Fn(Vec<Node<W>>) -> Nodes) -> Self {
         let Geometry { nodes, triangles, instances, root, shades, materials, .. } = *geometry;
         let source = Source { nodes, triangles, shades, materials };
-        let mut top = Piece::default();
+        let mut top = Piece::<W>::default();
         let mut roots: BTreeMap<u32, u32> = BTreeMap::new();
         for word in std::iter::once(root).chain(instances.iter().map(|instance| instance.root)) {
             roots.entry(word).or_insert_with(|| top.root(&source, word, PIECES));
@@ -55,11 +63,12 @@ impl Tree {
             piece.root(&source, word, usize::MAX);
             (place, piece)
         };
-        let pieces: Vec<(Place, Piece)> =
+        let pieces: Vec<(Place, Piece<W>)> =
             std::mem::take(&mut top.waiting).into_par_iter().map(whole).collect();
         let Piece { nodes, blocks, moving, .. } = join(top, pieces);
-        let mut tree = Tree {
-            nodes,
+        let small = W * nodes.len() <= SMALL && moving.is_empty() && instances.is_empty();
+        let mut tree = Self {
+            nodes: Nodes::Eights(Vec::new()),
             blocks,
             moving,
             root: roots[&root],
@@ -68,9 +77,11 @@ impl Tree {
             alpha: AlphaMaps::new(materials, geometry.textures, geometry.texels),
             in_instances: Questions::of_instances(materials, instances),
             few: None,
+            small,
         };
-        tree.need = stack_need(&tree);
-        tree.few = few(&tree, triangles);
+        tree.need = stack_need(&tree, &nodes);
+        tree.few = few(&tree, &nodes, triangles);
+        tree.nodes = wrap(nodes);
         tree
     }
 }
@@ -80,21 +91,21 @@ type Place = (usize, usize);
 
 /// A part of a tree, numbered from 0.
 #[derive(Default)]
-struct Piece {
-    nodes: Vec<Node>,
+struct Piece<const W: usize> {
+    nodes: Vec<Node<W>>,
     blocks: Vec<Block>,
     moving: Vec<u32>,
     /// Inner nodes of the pack that are left to others, and where their numbers are to go.
     waiting: Vec<(Place, u32)>,
 }
 
-impl Piece {
+impl<const W: usize> Piece<W> {
     /// Makes what the word of the pack refers to, until so many inner nodes are left for others.
     fn root(&mut self, source: &Source<'_>, word: u32, others: usize) -> u32 {
         let ChildRef::Inner(inner) = ChildRef::decode(word) else {
             return self.end(source, &source.item(word));
         };
-        let plan = Plan::new(source, inner, others);
+        let plan = Plan::<W>::new(source, inner, others);
         let root = number(self.nodes.len()) | CHILD_INNER;
         let mut open = Vec::new();
         let mut children = plan.top();
@@ -156,7 +167,7 @@ impl Piece {
 }
 
 /// All in one: first the top, then the pieces below it, the roots of which go to their places.
-fn join(mut top: Piece, below: Vec<(Place, Piece)>) -> Piece {
+fn join<const W: usize>(mut top: Piece<W>, below: Vec<(Place, Piece<W>)>) -> Piece<W> {
     let mut before = [top.nodes.len(), top.blocks.len(), top.moving.len()].map(number);
     let mut starts = vec![[0; 3]];
     for ((parent, slot), piece) in &below {
@@ -165,10 +176,10 @@ fn join(mut top: Piece, below: Vec<(Place, Piece)>) -> Piece {
         let lengths = [piece.nodes.len(), piece.blocks.len(), piece.moving.len()].map(number);
         before = [0, 1, 2].map(|k| before[k] + lengths[k]);
     }
-    let pieces: Vec<Piece> =
+    let pieces: Vec<Piece<W>> =
         std::iter::once(top).chain(below.into_iter().map(|(_, piece)| piece)).collect();
     // Of the top only those below have their numbers already.
-    let place = |k: usize, node: &Node| Node {
+    let place = |k: usize, node: &Node<W>| Node {
         children: node.children.map(|word| if k == 0 { word } else { moved(word, starts[k]) }),
         ..*node
     };
@@ -181,9 +192,9 @@ fn join(mut top: Piece, below: Vec<(Place, Piece)>) -> Piece {
 }
 
 /// A table of all pieces, in parallel; `change` is given the number of the piece.
-fn concatenated<T: Send + Sync>(
-    pieces: &[Piece],
-    table: impl Fn(&Piece) -> &[T] + Sync,
+fn concatenated<T: Send + Sync, const W: usize>(
+    pieces: &[Piece<W>],
+    table: impl Fn(&Piece<W>) -> &[T] + Sync,
     change: impl Fn(usize, &T) -> T + Sync,
 ) -> Vec<T> {
     let mut ends = Vec::with_capacity(pieces.len());
@@ -218,17 +229,17 @@ fn number(n: usize) -> u32 {
     u32::try_from(n).expect("no more than there are nodes or triangles in a pack")
 }
 
-impl Node {
+impl<const W: usize> Node<W> {
     /// Boxes of the children; their references follow.
     fn of(children: &[Child]) -> Self {
-        let mut ends = [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3];
+        let mut ends = [[[f32::INFINITY; W], [f32::NEG_INFINITY; W]]; 3];
         for (slot, child) in children.iter().enumerate() {
             for (axis, ends) in ends.iter_mut().enumerate() {
                 let [lo, hi] = child.corners;
                 (ends[0][slot], ends[1][slot]) = (lo[axis], hi[axis]);
             }
         }
-        Self { ends, children: [NONE; WIDTH] }
+        Self { ends, children: [NONE; W] }
     }
 }
 
@@ -247,8 +258,8 @@ impl Block {
 }
 
 /// All that is in `tree`, if that is little and stands still in the world. A tree of one leaf is as good as a list.
-fn few(tree: &Tree, triangles: &[Triangle]) -> Option<Few> {
-    let leaves = tree.nodes.iter().flat_map(|node| {
+fn few<const W: usize>(tree: &Tree, nodes: &[Node<W>], triangles: &[Triangle]) -> Option<Few> {
+    let leaves = nodes.iter().flat_map(|node| {
         let children = node.children.into_iter().enumerate();
         let leaves = children.filter(|(_, child)| *child != NONE && child & CHILD_INNER == 0);
         leaves.map(|(k, child)| {
@@ -260,21 +271,21 @@ fn few(tree: &Tree, triangles: &[Triangle]) -> Option<Few> {
             (ends, Content::Triangles(indices.filter(|marked| !marked.is_none()).collect()))
         })
     });
-    if tree.is_small() && !tree.nodes.is_empty() { Few::of(leaves, triangles) } else { None }
+    if tree.is_small() && !nodes.is_empty() { Few::of(leaves, triangles) } else { None }
 }
 
 /// Entries that the stack needs, as `pack::bvh::stack_need` of the pack's own nodes.
-fn stack_need(tree: &Tree) -> usize {
-    let closed = needs(tree, |_| 0);
+fn stack_need<const W: usize>(tree: &Tree, nodes: &[Node<W>]) -> usize {
+    let closed = needs(nodes, |_| 0);
     let need = |word: u32| need_of(&closed, &|_| 0, word);
     let instance = |index: u32| tree.roots.get(index as usize).map_or(0, |root| 1 + need(*root));
-    need_of(&needs(tree, instance), &instance, tree.root)
+    need_of(&needs(nodes, instance), &instance, tree.root)
 }
 
 /// The need of every node, where `instance` is that of an instance.
-fn needs(tree: &Tree, instance: impl Fn(u32) -> usize) -> Vec<usize> {
-    let mut needs = vec![0; tree.nodes.len()];
-    for (index, node) in tree.nodes.iter().enumerate().rev() {
+fn needs<const W: usize>(nodes: &[Node<W>], instance: impl Fn(u32) -> usize) -> Vec<usize> {
+    let mut needs = vec![0; nodes.len()];
+    for (index, node) in nodes.iter().enumerate().rev() {
         let children = node.children.iter().filter(|word| **word != NONE);
         let below = children.clone().map(|word| need_of(&needs, &instance, *word)).max();
         needs[index] = below.unwrap_or(0) + children.count().saturating_sub(1);

@@ -1,12 +1,12 @@
-//! Which children a node of eight has: the collapse of a tree into wider nodes that costs rays least.
+//! Which children a node has: the collapse of a tree into wider nodes that costs rays least.
 //!
 //! Turns inner nodes of a pack into a binary tree, and finds for each subtree, from the leaves up, what it costs at least
-//! in one to eight places of a node above: as nodes of its own, opened, or as a block of triangles (Ylitie, Karras &
+//! in each number of places of a node above: as nodes of its own, opened, or as a block of triangles (Ylitie, Karras &
 //! Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", HPG, section 3.1). A node and a
 //! block cost the area of their boxes, as the surface-area heuristic has it. It does not number anything.
 
 use super::questions::{Marked, Questions};
-use super::tree::{BLOCK, WIDTH};
+use super::tree::BLOCK;
 use pack::abi::{ChildRef, MOVES, Material, TriShade, Triangle, WideNode};
 
 /// Lower and upper corner.
@@ -56,21 +56,21 @@ pub(super) struct Child {
     pub(super) item: Item,
 }
 
-/// The collapse of a tree.
-pub(super) struct Plan {
+/// The collapse of a tree into nodes of up to `W` children.
+pub(super) struct Plan<const W: usize> {
     /// Those below come before those above.
-    subtrees: Vec<Subtree>,
+    subtrees: Vec<Subtree<W>>,
     root: Option<usize>,
 }
 
 /// A subtree of the binary tree, and what it costs.
-struct Subtree {
+struct Subtree<const W: usize> {
     corners: Corners,
     content: Content,
     /// The least cost in one place, in two, and so on.
-    costs: [f32; WIDTH],
+    costs: [f32; W],
     /// How many of these places the first half takes; 0: the last place stays free.
-    firsts: [u8; WIDTH],
+    firsts: [u8; W],
     /// The same for a node of its own.
     own: u8,
 }
@@ -139,7 +139,7 @@ impl Source<'_> {
     }
 }
 
-impl Plan {
+impl<const W: usize> Plan<W> {
     /// Collapses the tree below inner node `index` of the pack. Takes the pack's nodes breadth first until more than
     /// `left` wait; these stay `Item::Inner`.
     pub(super) fn new(source: &Source<'_>, index: u32, left: usize) -> Self {
@@ -179,11 +179,11 @@ impl Plan {
 
     /// The children of the node that a subtree becomes.
     pub(super) fn children(&self, subtree: usize) -> Vec<Child> {
-        let mut children = Vec::with_capacity(WIDTH);
+        let mut children = Vec::with_capacity(W);
         if let Content::Halves { halves: [a, b], .. } = self.subtrees[subtree].content {
             let own = usize::from(self.subtrees[subtree].own);
             self.place(a, own, &mut children);
-            self.place(b, WIDTH - own, &mut children);
+            self.place(b, W - own, &mut children);
         }
         children
     }
@@ -248,7 +248,7 @@ impl Plan {
     }
 
     fn push(&mut self, corners: Corners, content: Content) -> usize {
-        let (costs, firsts) = ([0.0; WIDTH], [0; WIDTH]);
+        let (costs, firsts) = ([0.0; W], [0; W]);
         self.subtrees.push(Subtree { corners, content, costs, firsts, own: 0 });
         self.fit(self.subtrees.len() - 1, corners)
     }
@@ -259,9 +259,9 @@ impl Plan {
         let content = self.subtrees[subtree].content;
         let (costs, firsts, own) = match content {
             // The same whatever is around it.
-            Content::End(Item::Node(_) | Item::Inner(_)) => ([0.0; WIDTH], [0; WIDTH], 0),
-            Content::End(Item::Many { .. }) => ([2.0 * area; WIDTH], [0; WIDTH], 0),
-            Content::End(_) => ([area; WIDTH], [0; WIDTH], 0),
+            Content::End(Item::Node(_) | Item::Inner(_)) => ([0.0; W], [0; W], 0),
+            Content::End(Item::Many { .. }) => ([2.0 * area; W], [0; W], 0),
+            Content::End(_) => ([area; W], [0; W], 0),
             Content::Halves { halves, few } => self.costs(halves, few.is_some(), area),
         };
         self.subtrees[subtree] = Subtree { corners, content, costs, firsts, own };
@@ -269,7 +269,7 @@ impl Plan {
     }
 
     /// What two halves cost at least, in a box of that area; with what is kept of how that is done.
-    fn costs(&self, halves: [usize; 2], few: bool, area: f32) -> ([f32; WIDTH], [u8; WIDTH], u8) {
+    fn costs(&self, halves: [usize; 2], few: bool, area: f32) -> ([f32; W], [u8; W], u8) {
         let [a, b] = halves.map(|half| &self.subtrees[half].costs);
         // In so many places, of which the first half has how many?
         let apart = |places: usize| {
@@ -281,9 +281,9 @@ impl Plan {
                 },
             )
         };
-        let (inside, own) = apart(WIDTH);
-        let (mut costs, mut firsts) = ([if few { area } else { area + inside }; WIDTH], [0; WIDTH]);
-        for places in 2..=WIDTH {
+        let (inside, own) = apart(W);
+        let (mut costs, mut firsts) = ([if few { area } else { area + inside }; W], [0; W]);
+        for places in 2..=W {
             let (cost, first) = apart(places);
             costs[places - 1] = costs[places - 2];
             if cost < costs[places - 1] {

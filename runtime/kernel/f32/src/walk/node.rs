@@ -1,4 +1,4 @@
-//! A node of the tree of eights: which of its boxes a ray meets, nearest first.
+//! A node of the tree: which of its boxes a ray meets, nearest first.
 
 use super::lanes::Lanes;
 use super::stack::{FAR_END, Stack, Waiting};
@@ -13,18 +13,18 @@ const SLACK: f32 = 1.0 / (1 << 22) as f32;
 const FAR_OUT: f32 = 1e30;
 
 /// What is worked out once a ray, in each frame that it enters.
-pub(super) struct Walker<L: Lanes> {
+pub(super) struct Walker<L: Lanes<W>, const W: usize> {
     lanes: L,
-    inverse: [L::Eight; 3],
+    inverse: [L::Row; 3],
     /// What is added to a plane times `inverse`: for one that is entered, and for one that is left.
-    near: [L::Eight; 3],
-    far: [L::Eight; 3],
+    near: [L::Row; 3],
+    far: [L::Row; 3],
     /// For each axis 1 if the ray runs against it, so that it meets upper ends first.
     back: [usize; 3],
-    t_min: L::Eight,
+    t_min: L::Row,
 }
 
-impl<L: Lanes> Walker<L> {
+impl<L: Lanes<W>, const W: usize> Walker<L, W> {
     #[inline(always)]
     pub(super) fn new(lanes: L, ray: &Ray, inverse: Vec3, t_min: f32) -> Self {
         let all = |v: Vec3| [lanes.splat(v.x), lanes.splat(v.y), lanes.splat(v.z)];
@@ -50,17 +50,17 @@ impl<L: Lanes> Walker<L> {
     #[inline(always)]
     pub(super) fn visit(
         &self,
-        tree: &Tree,
-        node: &Node,
+        (tree, nodes): (&Tree, &[Node<W>]),
+        node: &Node<W>,
         t_max: f32,
         any: bool,
         stack: &mut Stack,
     ) -> Option<u32> {
         let (mut met, enter) = self.meet(node, t_max);
         let next = |met: &mut u32| {
-            let k = met.trailing_zeros() as usize & 7;
+            let k = met.trailing_zeros() as usize % W;
             *met &= *met - 1;
-            tree.ask_for(node.children[k]);
+            tree.ask_for(nodes, node.children[k]);
             Waiting { child: node.children[k], distance: enter[k] }
         };
         if met == 0 {
@@ -93,9 +93,9 @@ impl<L: Lanes> Walker<L> {
     /// One bit for each child that the ray meets, and where it enters their boxes, or a little before: Ize 2013, "Robust
     /// BVH Ray Traversal", JCGT 2(2), as in `trace/box.wgsl`, with boxes that are larger by `SLACK`.
     #[inline(always)]
-    fn meet(&self, node: &Node, t_max: f32) -> (u32, [f32; 8]) {
+    fn meet(&self, node: &Node<W>, t_max: f32) -> (u32, [f32; W]) {
         let l = self.lanes;
-        let plane = |axis: usize, end: usize, add: &[L::Eight; 3]| {
+        let plane = |axis: usize, end: usize, add: &[L::Row; 3]| {
             l.mul_add(l.load(&node.ends[axis][end & 1]), self.inverse[axis], add[axis])
         };
         let near = |axis: usize| plane(axis, self.back[axis], &self.near);
@@ -109,7 +109,6 @@ impl<L: Lanes> Walker<L> {
 #[cfg(test)]
 mod tests {
     use super::super::lanes::Halves;
-    use super::super::tree::WIDTH;
     use super::*;
     use pack::abi::NONE;
 
@@ -140,14 +139,14 @@ mod tests {
 
     /// Asks for boxes of which a corner is near the ray, at most twice `NEAR` away; counts those that are met, and
     /// those that are not.
-    fn count<L: Lanes>(lanes: L) -> [usize; 2] {
+    fn count<L: Lanes<W>, const W: usize>(lanes: L) -> [usize; 2] {
         let (mut state, mut counts) = (1, [0; 2]);
         for _ in 0..5_000 {
             let dir = vector(&mut state).normalize();
             let ray = Ray { origin: vector(&mut state), dir, ..Ray::default() };
             let walker = Walker::new(lanes, &ray, Vec3::ONE / ray.dir, 0.0);
-            let mut node = Node { ends: [[[0.0; WIDTH]; 2]; 3], children: [NONE; WIDTH] };
-            let boxes = [(); WIDTH].map(|()| {
+            let mut node = Node { ends: [[[0.0; W]; 2]; 3], children: [NONE; W] };
+            let boxes = [(); W].map(|()| {
                 let off = vector(&mut state) * (NEAR * (1.0 + random(&mut state)));
                 let corner = ray.origin + ray.dir * random(&mut state).abs() + off;
                 let other = corner + vector(&mut state) * 1e-5;
@@ -171,11 +170,11 @@ mod tests {
     }
 
     /// Whether a ray whose origin times inverse direction overflows meets a box ahead, and one beside it along x.
-    fn far_out<L: Lanes>(lanes: L) -> [bool; 2] {
+    fn far_out<L: Lanes<W>, const W: usize>(lanes: L) -> [bool; 2] {
         let (origin, dir) = (Vec3::new(0.0, 3e19, -1.0), Vec3::new(0.0, -1e-20, 1.0));
         let ray = Ray { origin, dir, ..Ray::default() };
         let walker = Walker::new(lanes, &ray, Vec3::new(1e20, -1e20, 1.0), 0.0);
-        let mut node = Node { ends: [[[-1.0; WIDTH], [1.0; WIDTH]]; 3], children: [NONE; WIDTH] };
+        let mut node = Node { ends: [[[-1.0; W], [1.0; W]]; 3], children: [NONE; W] };
         (node.ends[0][0][1], node.ends[0][1][1]) = (2.0, 3.0);
         let (met, _) = walker.meet(&node, f32::INFINITY);
         [met & 1 == 1, met & 2 == 2]
@@ -188,6 +187,10 @@ mod tests {
         if let Some(avx2) = pulp::x86::V3::try_new() {
             assert_eq!(far_out(avx2), [true, false]);
         }
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx512) = pulp::x86::V4::try_new() {
+            assert_eq!(far_out(avx512), [true, false]);
+        }
     }
 
     #[test]
@@ -199,6 +202,10 @@ mod tests {
         #[cfg(target_arch = "x86_64")]
         if let Some(avx2) = pulp::x86::V3::try_new() {
             check(count(avx2));
+        }
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx512) = pulp::x86::V4::try_new() {
+            check(count(avx512));
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The tree that the CPU walks: nodes of eight boxes in `f32`, triangles in blocks of four, lane by lane.
+//! The tree that the CPU walks: nodes of eight or sixteen boxes in `f32`, triangles in blocks of four, lane by lane.
 //!
 //! It is not in the pack: `build` makes it from the pack's wide nodes when a scene is first rendered on a CPU. What it
 //! decides is only which triangles a ray is tested with, and in what order.
@@ -9,9 +9,9 @@ use super::few::Few;
 use super::questions::{Marked, Questions};
 use super::stack::Stack;
 use pack::abi::{CHILD_INNER, CHILD_INSTANCE, CHILD_SPHERES, NONE};
+#[cfg(target_arch = "x86_64")]
+use pulp::x86::V4;
 
-/// Children of a node.
-pub(super) const WIDTH: usize = 8;
 /// Triangles of a block.
 pub(super) const BLOCK: usize = 4;
 
@@ -26,17 +26,66 @@ pub(super) const BLOCK_INDEX: u32 = TWO_BLOCKS - 1;
 /// Paths that one kernel takes forward side by side, at most.
 const LANES: usize = 16;
 
-/// The nodes of a small tree, at most: those of some 100,000 triangles.
-const SMALL: usize = 8_192;
+/// Children that the nodes of a small tree have room for, at most: those of some 100,000 triangles.
+pub(super) const SMALL: usize = 65_536;
 
-/// Up to eight children. That of a child that is not there is inside out: no ray meets it.
+/// Up to `W` children. That of a child that is not there is inside out: no ray meets it.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
-pub struct Node {
+pub struct Node<const W: usize> {
     /// For each axis the lower ends of all boxes, then the upper ones.
-    pub ends: [[[f32; WIDTH]; 2]; 3],
+    pub ends: [[[f32; W]; 2]; 3],
     /// References.
-    pub children: [u32; WIDTH],
+    pub children: [u32; W],
+}
+
+/// How many children a node has.
+#[derive(Clone, Copy, Debug, Default)]
+pub enum Width {
+    /// Up to eight.
+    #[default]
+    Eight,
+    /// Up to sixteen, where the processor tests so many boxes at once.
+    #[cfg(target_arch = "x86_64")]
+    Sixteen(V4),
+}
+
+impl Width {
+    /// What suits this processor best.
+    #[must_use]
+    pub fn of_processor() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        return V4::try_new().map_or(Self::Eight, Self::Sixteen);
+        #[cfg(not(target_arch = "x86_64"))]
+        return Self::Eight;
+    }
+}
+
+/// The nodes of a tree.
+#[derive(Debug)]
+pub(super) enum Nodes {
+    Eights(Vec<Node<8>>),
+    #[cfg(target_arch = "x86_64")]
+    Sixteens(Vec<Node<16>>, V4),
+}
+
+impl Nodes {
+    /// Those of eight, if they are.
+    #[inline(always)]
+    pub(super) fn eights(&self) -> Option<&[Node<8>]> {
+        match self {
+            Self::Eights(nodes) => Some(nodes),
+            #[cfg(target_arch = "x86_64")]
+            Self::Sixteens(..) => None,
+        }
+    }
+
+    /// Those of sixteen, if they are.
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    pub(super) fn sixteens(&self) -> Option<&[Node<16>]> {
+        if let Self::Sixteens(nodes, _) = self { Some(nodes) } else { None }
+    }
 }
 
 /// Up to four triangles that stand still.
@@ -52,7 +101,7 @@ pub struct Block {
 /// A tree, and those of its instances.
 #[derive(Debug)]
 pub struct Tree {
-    pub(super) nodes: Vec<Node>,
+    pub(super) nodes: Nodes,
     pub(super) blocks: Vec<Block>,
     /// References, as in the pack, of leaves of triangles that move.
     pub(super) moving: Vec<u32>,
@@ -67,13 +116,15 @@ pub struct Tree {
     pub(super) alpha: AlphaMaps,
     /// All that is in it, if that is little.
     pub(super) few: Option<Few>,
+    /// See `is_small`.
+    pub(super) small: bool,
 }
 
 /// What a reference leads to.
 #[derive(Clone, Copy, Debug)]
-pub enum Step<'a> {
+pub enum Step<'a, const W: usize> {
     /// More references.
-    Node(&'a Node),
+    Node(&'a Node<W>),
     /// A leaf of triangles that stand still.
     Triangles(&'a [Block]),
     /// A leaf of spheres, as in the pack.
@@ -93,7 +144,7 @@ impl Tree {
     /// Few nodes, over what stands still in the world: rays of a packet share enough of them.
     #[must_use]
     pub fn is_small(&self) -> bool {
-        self.nodes.len() <= SMALL && self.moving.is_empty() && self.roots.is_empty()
+        self.small
     }
 
     /// All that is in it, if that is little.
@@ -109,12 +160,12 @@ impl Tree {
         if instance == NONE { Questions::default() } else { self.in_instances }
     }
 
-    /// What the reference `child` leads to.
+    /// What the reference `child` leads to, where `nodes` are those of this tree.
     #[must_use]
     #[inline(always)]
-    pub fn step(&self, child: u32) -> Step<'_> {
+    pub fn step<'a, const W: usize>(&'a self, nodes: &'a [Node<W>], child: u32) -> Step<'a, W> {
         if child & CHILD_INNER != 0 {
-            self.node(child).map_or(Step::Other, Step::Node)
+            node(nodes, child).map_or(Step::Other, Step::Node)
         } else if child & CHILD_SPHERES != 0 {
             if child & CHILD_INSTANCE == CHILD_INSTANCE { Step::Other } else { Step::Spheres }
         } else if child & MOVING != 0 {
@@ -124,21 +175,18 @@ impl Tree {
         }
     }
 
-    /// The node that `child`, which is an inner one, refers to.
-    #[inline(always)]
-    pub(super) fn node(&self, child: u32) -> Option<&Node> {
-        self.nodes.get((child & !CHILD_INNER) as usize)
-    }
-
     /// Has what `child` refers to brought near, where the processor can be asked: most of it is far away in memory,
     /// and what is worked out meanwhile hides some of the way.
     #[inline(always)]
-    pub(super) fn ask_for(&self, child: u32) {
+    pub(super) fn ask_for<const W: usize>(&self, nodes: &[Node<W>], child: u32) {
         if child & CHILD_INNER != 0 {
-            if let Some(node) = self.node(child) {
-                prefetch(&node.ends[0]);
-                prefetch(&node.ends[1]);
-                prefetch(&node.ends[2]);
+            if let Some(node) = node(nodes, child) {
+                for axis in &node.ends {
+                    prefetch(axis);
+                    if W > 8 {
+                        prefetch(&axis[1]);
+                    }
+                }
                 prefetch(&node.children);
             }
         } else if child & CHILD_SPHERES == 0
@@ -169,6 +217,12 @@ impl Tree {
     pub(super) fn root_of_instance(&self, child: u32) -> u32 {
         self.roots.get((child & !CHILD_INSTANCE) as usize).copied().unwrap_or(NONE)
     }
+}
+
+/// The one of `nodes` that `child`, which is an inner one, refers to.
+#[inline(always)]
+pub(super) fn node<const W: usize>(nodes: &[Node<W>], child: u32) -> Option<&Node<W>> {
+    nodes.get((child & !CHILD_INNER) as usize)
 }
 
 /// What a kernel needs to walk a tree; without one the generated kernel walks the nodes of the pack.

@@ -50,8 +50,8 @@ fn source<'a>(nodes: &'a [WideNode], triangles: &'a [Triangle]) -> Source<'a> {
 }
 
 /// What the children of a node cost, with all below them.
-fn cost(plan: &Plan, children: &[Child]) -> f32 {
-    assert!(children.len() <= WIDTH);
+fn cost<const W: usize>(plan: &Plan<W>, children: &[Child]) -> f32 {
+    assert!(children.len() <= W);
     let of = |child: &Child| match child.item {
         Item::Node(subtree) => area(&child.corners) + cost(plan, &plan.children(subtree)),
         Item::Many { .. } => 2.0 * area(&child.corners),
@@ -61,7 +61,7 @@ fn cost(plan: &Plan, children: &[Child]) -> f32 {
 }
 
 /// Every way to have a subtree in places of a node above: how many, and the cost.
-fn ways(plan: &Plan, subtree: usize) -> Vec<(usize, f32)> {
+fn ways<const W: usize>(plan: &Plan<W>, subtree: usize) -> Vec<(usize, f32)> {
     let Subtree { corners, content, .. } = plan.subtrees[subtree];
     let area = area(&corners);
     match content {
@@ -70,7 +70,7 @@ fn ways(plan: &Plan, subtree: usize) -> Vec<(usize, f32)> {
         Content::Halves { halves, few } => {
             let [a, b] = halves.map(|half| ways(plan, half));
             let both = a.iter().flat_map(|a| b.iter().map(move |b| (a.0 + b.0, a.1 + b.1)));
-            let mut ways: Vec<_> = both.filter(|way| way.0 <= WIDTH).collect();
+            let mut ways: Vec<_> = both.filter(|way| way.0 <= W).collect();
             let inside = ways.iter().map(|way| way.1).fold(f32::INFINITY, f32::min);
             ways.push((1, if few.is_some() { area } else { area + inside }));
             ways
@@ -81,33 +81,43 @@ fn ways(plan: &Plan, subtree: usize) -> Vec<(usize, f32)> {
 #[test]
 fn no_other_collapse_costs_less() {
     for seed in 0..200 {
-        let mut random = Random { state: seed, nodes: Vec::new(), n_triangles: 0 };
-        let leaves = 2 + random.below(13);
-        random.tree(leaves);
-        let triangles = vec![Triangle::default(); random.n_triangles as usize];
-        let source = source(&random.nodes, &triangles);
-        let plan = Plan::new(&source, 0, usize::MAX);
-        let root = plan.root.unwrap();
-        let least = match plan.subtrees[root].content {
-            Content::Halves { halves: [a, b], few: None } => {
-                let (a, b) = (ways(&plan, a), ways(&plan, b));
-                let both = a.iter().flat_map(|a| b.iter().map(move |b| (a.0 + b.0, a.1 + b.1)));
-                both.filter(|way| way.0 <= WIDTH).map(|way| way.1).fold(f32::INFINITY, f32::min)
-            }
-            _ => cost(&plan, &[plan.child(root)]),
-        };
-        let found = cost(&plan, &plan.top());
-        assert!((found - least).abs() <= 1e-5 * least, "{seed}: {found} {least}");
+        costs_least::<8>(seed);
+        costs_least::<16>(seed);
     }
 }
 
+fn costs_least<const W: usize>(seed: u32) {
+    let mut random = Random { state: seed, nodes: Vec::new(), n_triangles: 0 };
+    let leaves = 2 + random.below(13);
+    random.tree(leaves);
+    let triangles = vec![Triangle::default(); random.n_triangles as usize];
+    let source = source(&random.nodes, &triangles);
+    let plan = Plan::<W>::new(&source, 0, usize::MAX);
+    let root = plan.root.unwrap();
+    let least = match plan.subtrees[root].content {
+        Content::Halves { halves: [a, b], few: None } => {
+            let (a, b) = (ways(&plan, a), ways(&plan, b));
+            let both = a.iter().flat_map(|a| b.iter().map(move |b| (a.0 + b.0, a.1 + b.1)));
+            both.filter(|way| way.0 <= W).map(|way| way.1).fold(f32::INFINITY, f32::min)
+        }
+        _ => cost(&plan, &[plan.child(root)]),
+    };
+    let found = cost(&plan, &plan.top());
+    assert!((found - least).abs() <= 1e-5 * least, "{seed}: {found} {least}");
+}
+
 /// Triangles below these children, with those of stubs, of which `stubs` counts the ones met.
-fn n_triangles(source: &Source<'_>, plan: &Plan, children: &[Child], stubs: &mut usize) -> usize {
+fn n_triangles<const W: usize>(
+    source: &Source<'_>,
+    plan: &Plan<W>,
+    children: &[Child],
+    stubs: &mut usize,
+) -> usize {
     let mut of = |child: &Child| match child.item {
         Item::Node(subtree) => n_triangles(source, plan, &plan.children(subtree), stubs),
         Item::Inner(index) => {
             *stubs += 1;
-            let below = Plan::new(source, index, usize::MAX);
+            let below = Plan::<W>::new(source, index, usize::MAX);
             n_triangles(source, &below, &below.top(), stubs)
         }
         Item::Few(few) => few.triangles().len(),
@@ -124,7 +134,7 @@ fn a_plan_may_end_early_and_loses_nothing() {
     let triangles = vec![Triangle::default(); random.n_triangles as usize];
     let source = source(&random.nodes, &triangles);
     for (left, ends_early) in [(1, true), (5, true), (usize::MAX, false)] {
-        let plan = Plan::new(&source, 0, left);
+        let plan = Plan::<8>::new(&source, 0, left);
         let mut stubs = 0;
         assert_eq!(n_triangles(&source, &plan, &plan.top(), &mut stubs), triangles.len());
         assert_eq!(stubs > 0, ends_early);
