@@ -31,7 +31,7 @@ pub(super) const SMALL: usize = 65_536;
 
 /// Up to `W` children. That of a child that is not there is inside out: no ray meets it.
 #[derive(Clone, Copy, Debug)]
-#[repr(C, align(32))]
+#[repr(C, align(64))]
 pub struct Node<const W: usize> {
     /// For each axis the lower ends of all boxes, then the upper ones.
     pub ends: [[[f32; W]; 2]; 3],
