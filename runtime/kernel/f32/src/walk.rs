@@ -34,6 +34,8 @@ use crate::kernel::{
 };
 use crossings::Crossings;
 use lanes::Halves;
+#[cfg(target_arch = "x86_64")]
+use lanes::Pairs;
 use node::Walker;
 use stack::{Stack, Waiting};
 use tree::{MOVING, Nodes};
@@ -56,7 +58,9 @@ pub fn trace(kernel: &mut Kernel<'_>, ray: Ray) -> Hit {
         #[cfg(target_arch = "x86_64")]
         Nodes::Sixteens(nodes, avx512) => {
             let walk = Walk { kernel, tree, nodes: nodes.as_slice(), begun: &begun, lane: 0 };
-            avx512.vectorize(With(walk, *avx512))
+            // Not with AVX-512: this kernel is not compiled for it, and going to and fro costs more than it gains.
+            let avx2: pulp::x86::V3 = **avx512;
+            avx2.vectorize(With(walk, Pairs(avx2)))
         }
     }
 }

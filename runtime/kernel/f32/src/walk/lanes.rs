@@ -90,6 +90,70 @@ impl Lanes<8> for V3 {
     }
 }
 
+/// Two rows with AVX2, for a kernel that is not compiled for AVX-512.
+#[cfg(target_arch = "x86_64")]
+#[derive(Clone, Copy)]
+pub(super) struct Pairs(pub(super) V3);
+
+#[cfg(target_arch = "x86_64")]
+impl Pairs {
+    /// The same with both halves of two rows.
+    #[inline(always)]
+    fn each(a: [__m256; 2], b: [__m256; 2], f: impl Fn(__m256, __m256) -> __m256) -> [__m256; 2] {
+        [f(a[0], b[0]), f(a[1], b[1])]
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+impl Lanes<16> for Pairs {
+    type Row = [__m256; 2];
+
+    #[inline(always)]
+    fn nodes(self, tree: &Tree) -> Option<&[Node<16>]> {
+        tree.nodes.sixteens()
+    }
+
+    #[inline(always)]
+    fn splat(self, x: f32) -> [__m256; 2] {
+        [self.0.splat(x); 2]
+    }
+
+    #[inline(always)]
+    fn load(self, row: &[f32; 16]) -> [__m256; 2] {
+        cast(*row)
+    }
+
+    #[inline(always)]
+    fn array(self, a: [__m256; 2]) -> [f32; 16] {
+        cast(a)
+    }
+
+    #[inline(always)]
+    fn mul_add(self, a: [__m256; 2], b: [__m256; 2], c: [__m256; 2]) -> [__m256; 2] {
+        [self.0.mul_add(a[0], b[0], c[0]), self.0.mul_add(a[1], b[1], c[1])]
+    }
+
+    #[inline(always)]
+    fn mul(self, a: [__m256; 2], b: [__m256; 2]) -> [__m256; 2] {
+        Self::each(a, b, |a, b| self.0.mul(a, b))
+    }
+
+    #[inline(always)]
+    fn min(self, a: [__m256; 2], b: [__m256; 2]) -> [__m256; 2] {
+        Self::each(a, b, |a, b| self.0.min(a, b))
+    }
+
+    #[inline(always)]
+    fn max(self, a: [__m256; 2], b: [__m256; 2]) -> [__m256; 2] {
+        Self::each(a, b, |a, b| self.0.max(a, b))
+    }
+
+    #[inline(always)]
+    fn at_most(self, a: [__m256; 2], b: [__m256; 2]) -> u32 {
+        self.0.at_most(a[0], b[0]) | self.0.at_most(a[1], b[1]) << 8
+    }
+}
+
 /// AVX-512, which the value proves to be there.
 #[cfg(target_arch = "x86_64")]
 impl Lanes<16> for V4 {
@@ -230,10 +294,12 @@ mod tests {
             }
             if let Some(avx512) = V4::try_new() {
                 // Two rows beside each other, and the other way round.
+                let pairs = all(Pairs(*avx512), &cast([*a, *b]), &cast([*b, *a]));
                 let (wide, back) =
                     (all(avx512, &cast([*a, *b]), &cast([*b, *a])), all(Halves, b, a));
                 let both = [0, 1, 2].map(|k| cast::<_, [u32; 16]>([narrow.0[k], back.0[k]]));
                 assert_eq!(wide, (both, narrow.1 | back.1 << 8), "{a:?} {b:?}");
+                assert_eq!(pairs, wide, "{a:?} {b:?}");
             }
         }
     }
