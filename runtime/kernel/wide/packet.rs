@@ -97,7 +97,7 @@ impl<'r> Packet<'r> {
         mask: v::B,
     ) -> Hit {
         let mut hit = kernel.ray_miss(mask, self.ray.t_max);
-        // The caller has asked for them.
+        // Packets are only made in trees that have them: see `render_tile`.
         let Some(nodes) = kernel.companion.instructions.nodes(tree) else { return hit };
         let mut left = mask;
         let mut walks = None;

@@ -19,7 +19,7 @@ const COHERENT: u32 = 4;
 /// What the wide kernel needs beside it: the scalar one, which traces.
 pub struct Companion<'a> {
     pub(crate) scalar: scalar::Kernel<'a>,
-    /// With which a ray is walked alone.
+    /// What a lone ray is walked with.
     pub(crate) instructions: Instructions,
     /// The tree, if there is one.
     tree: Option<&'a Tree>,

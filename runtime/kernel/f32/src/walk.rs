@@ -58,7 +58,7 @@ pub fn trace(kernel: &mut Kernel<'_>, ray: Ray) -> Hit {
         #[cfg(target_arch = "x86_64")]
         Nodes::Sixteens(nodes, avx512) => {
             let walk = Walk { kernel, tree, nodes: nodes.as_slice(), begun: &begun, lane: 0 };
-            // Not with AVX-512: this kernel is not compiled for it, and going to and fro costs more than it gains.
+            // Not with AVX-512: this kernel is not compiled for it, and measured slower with it (`docs/cpu.md`).
             let avx2: pulp::x86::V3 = **avx512;
             avx2.vectorize(With(walk, Pairs(avx2)))
         }
@@ -106,6 +106,7 @@ pub fn trace_below<L: Lanes<W>, const W: usize>(
     best: Hit,
 ) -> Hit {
     let Some(tree) = kernel.companion.tree else { return best };
+    // Packets are only made in trees that have them.
     let Some(nodes) = lanes.nodes(tree) else { return best };
     let mut stack = std::mem::take(&mut kernel.companion.stack);
     stack.clear();

@@ -15,10 +15,10 @@ use {
 
 /// How to compute with a number for each of up to `W` children.
 pub trait Lanes<const W: usize>: Copy {
-    /// As many numbers.
+    /// `W` numbers.
     type Row: Copy;
 
-    /// The nodes of `tree`, if they have so many children.
+    /// The nodes of `tree`, if they are of that width.
     fn nodes(self, tree: &Tree) -> Option<&[Node<W>]>;
     /// The same number in all lanes.
     fn splat(self, x: f32) -> Self::Row;

@@ -26,7 +26,7 @@ pub(super) const BLOCK_INDEX: u32 = TWO_BLOCKS - 1;
 /// Paths that one kernel takes forward side by side, at most.
 const LANES: usize = 16;
 
-/// Children that the nodes of a small tree have room for, at most: those of some 100,000 triangles.
+/// The most children that all nodes of a small tree have room for: some 100,000 triangles.
 pub(super) const SMALL: usize = 65_536;
 
 /// Up to `W` children. That of a child that is not there is inside out: no ray meets it.
