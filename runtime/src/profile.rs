@@ -5,6 +5,7 @@
 use crate::cpu::{self, CpuError};
 use crate::job::{CpuWay, Job};
 use crate::kernel::f32::{Hit, Kernel, NONE, Ray};
+use crate::kernel::trace_each;
 use crate::region::{Rect, Tiler};
 use crate::scene::Scene;
 use crate::setup::Setup;
@@ -87,11 +88,11 @@ impl<'a> Profile<'a> {
         self.lanes
     }
 
-    /// Traces these rays again, on one thread: what each hits.
+    /// Traces these rays again, one after another on one thread: what each hits.
     #[must_use]
     pub fn trace(&self) -> Vec<Hit> {
         let mut kernel = cpu::kernel(&self.setup, &self.frame);
-        self.rays.iter().map(|ray| kernel.trace(*ray)).collect()
+        trace_each(&mut kernel, &self.rays)
     }
 }
 

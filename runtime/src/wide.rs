@@ -1,6 +1,7 @@
-//! Which wide kernel renders a tile: the one with most lanes that the processor has the instructions for.
+//! Which wide kernel renders a tile or traces lone rays: the one with most lanes that the processor has the
+//! instructions for.
 
-use crate::kernel::f32::Kernel;
+use crate::kernel::f32::{Hit, Kernel, Ray};
 use glam::UVec4;
 use kernel_avx2::Instructions as Avx2;
 use kernel_avx512::Instructions as Avx512;
@@ -48,5 +49,15 @@ impl Wide {
                 render(there, Tile { scalar, film, size }, is_over)
             }
         }
+    }
+
+    /// What `rays` hit, each walked by itself.
+    pub(crate) fn trace(self, scalar: &mut Kernel<'_>, rays: &[Ray]) -> Vec<Hit> {
+        let mut hits = Vec::with_capacity(rays.len());
+        match self {
+            Self::Avx512(there) => kernel_avx512::lone::trace_all(there, scalar, rays, &mut hits),
+            Self::Avx2(there) => kernel_avx2::lone::trace_all(there, scalar, rays, &mut hits),
+        }
+        hits
     }
 }

@@ -123,12 +123,17 @@ def written(args, work):
     return found
 
 
-def compare(name, scene, args, work):
-    """The row of a scene."""
+def compiled(name, scene, args, work):
+    """Both builds of a scene."""
     more = ["--size", args.size] if scene in args.scenes else []
-    builds = [Build(args.old, work / "old.pack", more), Build(args.new, work / "new.pack", more)]
+    builds = [Build(folder, work / f"{name}.{age}.pack", more) for folder, age in [(args.old, "old"), (args.new, "new")]]
     for b in builds:
         b.compile(scene, work)
+    return builds
+
+
+def compare(name, builds, args, work):
+    """The row of a scene."""
     for seed in range(args.seeds):
         print(f"{name}: {seed + 1} of {args.seeds}", file=sys.stderr, flush=True)
         for b in builds if seed % 2 == 0 else reversed(builds):
@@ -144,7 +149,9 @@ def main():
     args = arguments()
     with tempfile.TemporaryDirectory() as folder:
         work = Path(folder)
-        rows = [compare(name, path, args, work) for name, path in written(args, work).items()]
+        # All first: a text that one of them refuses is not found out after minutes.
+        builds = {name: compiled(name, path, args, work) for name, path in written(args, work).items()}
+        rows = [compare(name, both, args, work) for name, both in builds.items()]
     head = ["scene", "CPU s a sample, old", "new", "old / new", "relMSE, old", "new", "old / new",
             "CPU s for equal error, old / new"]
     print(PAGE.format(old=args.old_name, new=args.new_name, spp=args.spp, seeds=args.seeds, threads=args.threads,

@@ -5,12 +5,11 @@
 
 use crate::kernel::{self, v};
 use crate::pixels::Pixels;
-use crate::rays::{Hits, Walks};
-use crate::{Instructions, packet, target};
+use crate::{Instructions, lone, packet, target};
 use glam::UVec4;
 use kernel_f32::{
     kernel as scalar,
-    walk::{self, Lanes, Tree},
+    walk::{Lanes, Tree},
 };
 
 /// Camera rays are traced together if there are this many or more.
@@ -42,47 +41,23 @@ pub struct Tile<'a> {
 #[target]
 pub(crate) fn trace(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::Ray) -> kernel::Hit {
     let Companion { tree, together, .. } = kernel.companion;
-    let Some(tree) = tree else { return trace_one_by_one(kernel, mask, ray) };
+    let Some(tree) = tree else { return lone::trace(kernel, mask, ray) };
     if together {
         return packet::trace(kernel, tree, mask, ray);
     }
     let first = v::eq_u(ray.key.bounce, v::u(0));
     let camera = v::and_b(v::and_b(mask, first), v::eq_u(ray.light, v::u(scalar::NONE)));
     if v::bits(camera).count_ones() < COHERENT {
-        return trace_one_by_one(kernel, mask, ray);
+        return lone::trace(kernel, mask, ray);
     }
     let hits = packet::trace(kernel, tree, camera, ray);
     let others = v::but_b(mask, camera);
     if v::any(others) {
-        let other_hits = trace_one_by_one(kernel, others, ray);
+        let other_hits = lone::trace(kernel, others, ray);
         return kernel::Hit::select(others, &other_hits, &hits);
     }
     hits
 }
-
-/// The hits of rays that have nothing in common.
-#[target]
-fn trace_one_by_one(kernel: &mut kernel::Kernel<'_>, mask: v::B, ray: &kernel::Ray) -> kernel::Hit {
-    let mut hits = Hits::of(&kernel.ray_miss(mask, ray.t_max));
-    let (inverse, shear) =
-        (kernel.box_inverse(mask, ray.dir), kernel.triangle_shear(mask, ray.dir));
-    let walks = Walks::new(ray, inverse, shear);
-    let Companion { scalar, instructions, .. } = &mut kernel.companion;
-    walk_is_inlined();
-    let mut left = v::bits(mask);
-    while left != 0 {
-        let lane = left.trailing_zeros() as usize % v::LANES;
-        left &= left - 1;
-        hits.set(lane, &walk::trace_here(*instructions, scalar, &walks.lane(lane), lane));
-    }
-    hits.all()
-}
-
-/// Does nothing, but whoever calls it must be compiled for what the walk of a lone ray is made of: otherwise each of
-/// its instructions would be a call.
-#[target]
-#[inline]
-fn walk_is_inlined() {}
 
 /// Renders the tile. Whether it came to the end of it, which it does unless `is_over` says so after some pixels.
 #[expect(unsafe_code, reason = "who has the first argument has the instructions")]

@@ -36,11 +36,11 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
     let _ = writeln!(
         text,
         "\n## Rays beside Embree's: {width} x {height}, {SAMPLES} samples a pixel, one thread\n\n\
-        Every ray of a picture in the order of its paths, one by one: by the scalar kernel, and by Embree 3 through a tree of high \
-        quality (`rtcIntersect1`, for shadow rays `rtcOccluded1`), as it is and with `RTC_SCENE_FLAG_ROBUST`, with which \
-        its intersections are watertight, as ours always are. It knows triangles and spheres and no materials: what \
-        alpha cuts out is there, and what is see-through ends shadow rays. `others`: rays to which that, or rounding, gives \
-        another hit.\n\n\
+        Every ray of a picture in the order of its paths, one by one: as pictures trace a ray that has no others \
+        beside it, and by Embree 3 through a tree of high quality (`rtcIntersect1`, for shadow rays `rtcOccluded1`), as \
+        it is and with `RTC_SCENE_FLAG_ROBUST`, with which its intersections are watertight, as ours always are. It \
+        knows triangles and spheres and no materials: what alpha cuts out is there, and what is see-through ends \
+        shadow rays. `others`: rays to which that, or rounding, gives another hit.\n\n\
         | scene | rays | ours, ns | Embree, ns | robust, ns | our rays a second, of Embree's | of robust ones | others |\n\
         |---|---|---|---|---|---|---|---|"
     );

@@ -21,7 +21,7 @@ pub(super) fn table(packs: &mut Packs, text: &mut String) -> Outcome {
     let _ = writeln!(
         text,
         "\n## Tracing and shading: {width} x {height}, {SAMPLES} samples a pixel, the CPU kernel, one thread\n\n\
-        `trace`: every ray of {TRACED} samples a pixel, traced again in the order of the paths by the scalar kernel. \
+        `trace`: every ray of {TRACED} samples a pixel, traced again in the order of the paths, one by one. \
         `shading`: the rest of a sample's time. `busy`: lanes with a segment, of all, in a turn of the wide kernel; \
         `materials`: different ones that these meet, on average.\n\n\
         | scene | ns a sample | rays a sample | trace, ns a ray | Mrays per CPU s | trace, share | shading, ns a sample | busy | materials |\n\

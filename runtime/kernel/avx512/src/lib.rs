@@ -11,6 +11,8 @@ pub use pulp::x86::V4 as Instructions;
 
 #[path = "../../wide/kernel.rs"]
 pub mod kernel;
+#[path = "../../wide/lone.rs"]
+pub mod lone;
 #[path = "../../wide/packet.rs"]
 mod packet;
 #[path = "../../wide/packet_triangle.rs"]

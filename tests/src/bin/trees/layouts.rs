@@ -7,6 +7,7 @@ use compiler::bvh::{self, Joined, Layout, Preset};
 use glam::UVec4;
 use pack::abi::{Frame, Material, NONE, TriShade, Triangle, WideNode};
 use runtime::kernel::f32 as kernel;
+use runtime::kernel::trace_each;
 use runtime::kernel::walk::{Companion, Geometry, Tree, Width};
 use tests::embree::{self, Embree};
 
@@ -273,11 +274,10 @@ impl Words {
         });
         kernel.companion = Companion::new(self.tree.as_ref());
         let none = glam::UVec2::splat(NONE);
-        let trace = |ray: &Ray| {
-            let ray = kernel.ray_new(ray.origin, ray.dir, kernel::RAY_FAR, none, NONE, 0.0);
-            let hit = kernel.trace(ray);
-            (hit.t.to_bits(), hit.prim)
-        };
-        rays.iter().map(trace).collect()
+        let in_kernel =
+            |ray: &Ray| kernel.ray_new(ray.origin, ray.dir, kernel::RAY_FAR, none, NONE, 0.0);
+        let rays: Vec<_> = rays.iter().map(in_kernel).collect();
+        let hits = trace_each(&mut kernel, &rays);
+        hits.iter().map(|hit| (hit.t.to_bits(), hit.prim)).collect()
     }
 }

@@ -207,7 +207,8 @@ fn nodes_section(all: &layouts::Groups) -> String {
          The wide tree is made from the finished binary one: of all ways to dissolve nodes into their parents, the \
          one with the least area of nodes that are left; leaves stay as they are. CPU seconds to make it, on one \
          thread. Bytes: of nodes, a triangle of the scene. Visits and tests: as above, nodes of any width. CPU seconds a \
-         million rays: `trace` of the CPU kernel, generated from the WGSL or written by hand, which has a tree of its own, one thread, median of {} interleaved runs of the same {} rays, \
+         million rays: `trace` of the CPU kernel, generated from the WGSL or written by hand, which has a tree of its own \
+         and the widest instructions that the processor has; one thread, median of {} interleaved runs of the same {} rays, \
          which have the same hits, bit for bit. Stack: entries that the worst ray needs.\n\n\
          | tree | nodes | walk | made in s | bytes | visits | tests | CPU s a Mray | against the first | stack |\n\
          |---|---|---|---|---|---|---|---|---|---|\n",
