@@ -8,40 +8,45 @@ use crate::target;
 use glam::{UVec2, Vec2, Vec3};
 use kernel_f32::kernel as scalar;
 
+/// Four words of each lane, lane after lane: what is read together lies together.
+type Rows = [[[u32; 4]; v::LANES / 4]; 4];
+
 /// The walk of a ray a lane.
 pub(crate) struct Walks {
-    origin: [[f32; v::LANES]; 3],
-    dir: [[f32; v::LANES]; 3],
-    range: [[f32; v::LANES]; 2],
-    time: [f32; v::LANES],
-    ids: [[u32; v::LANES]; 6],
-    key: [[u32; v::LANES]; 4],
-    inverse: [[f32; v::LANES]; 3],
-    slope: [[f32; v::LANES]; 2],
-    inv_depth: [f32; v::LANES],
-    axis: [u32; v::LANES],
+    /// Origins, and from where they count.
+    origin: Rows,
+    /// Directions, and up to where they count.
+    dir: Rows,
+    /// `Ray::skip` and `Ray::last`.
+    not: Rows,
+    /// `Ray::light`, `Ray::instance`, `Ray::time` and `TriangleShear::axis`.
+    of: Rows,
+    key: Rows,
+    /// `Walk::inverse` and `TriangleShear::inv_depth`.
+    inverse: Rows,
+    /// `TriangleShear::slope`, twice.
+    slope: Rows,
 }
 
 impl Walks {
     /// Of rays, with what `box_inverse` and `triangle_shear` make of their directions.
     #[target]
     pub(crate) fn new(ray: &Ray, inverse: v::V3<v::F>, shear: TriangleShear) -> Self {
-        let three = |a: v::V3<v::F>| [v::f_to(a.x), v::f_to(a.y), v::f_to(a.z)];
-        let [skip, last] = [ray.skip, ray.last];
-        let key = ray.key;
-        let ids = [skip.x, skip.y, last.x, last.y, ray.light, ray.instance];
-        let [a, b, c, d, e, f] = ids;
+        let floats = |[x, y, z, w]: [v::F; 4]| {
+            let (x, y, z, w) = (v::u_bits_f(x), v::u_bits_f(y), v::u_bits_f(z), v::u_bits_f(w));
+            v::rows(v::V4 { x, y, z, w })
+        };
+        let words = |[x, y, z, w]: [v::U; 4]| v::rows(v::V4 { x, y, z, w });
+        let Ray { origin, dir, skip, last, key, .. } = ray;
+        let slope = shear.slope;
         Self {
-            origin: three(ray.origin),
-            dir: three(ray.dir),
-            range: [v::f_to(ray.t_min), v::f_to(ray.t_max)],
-            time: v::f_to(ray.time),
-            ids: [v::u_to(a), v::u_to(b), v::u_to(c), v::u_to(d), v::u_to(e), v::u_to(f)],
-            key: [v::u_to(key.pixel), v::u_to(key.sample), v::u_to(key.bounce), v::u_to(key.seed)],
-            inverse: three(inverse),
-            slope: [v::f_to(shear.slope.x), v::f_to(shear.slope.y)],
-            inv_depth: v::f_to(shear.inv_depth),
-            axis: v::u_to(shear.axis),
+            origin: floats([origin.x, origin.y, origin.z, ray.t_min]),
+            dir: floats([dir.x, dir.y, dir.z, ray.t_max]),
+            not: words([skip.x, skip.y, last.x, last.y]),
+            of: words([ray.light, ray.instance, v::u_bits_f(ray.time), shear.axis]),
+            key: words([key.pixel, key.sample, key.bounce, key.seed]),
+            inverse: floats([inverse.x, inverse.y, inverse.z, shear.inv_depth]),
+            slope: floats([slope.x, slope.y, slope.x, slope.y]),
         }
     }
 
@@ -49,32 +54,29 @@ impl Walks {
     #[inline]
     pub(crate) fn lane(&self, k: usize) -> scalar::Walk {
         let k = k % v::LANES;
-        // Read where they are: a copy of the rows would cost more than the walk's first node.
-        let three = |a: &[[f32; v::LANES]; 3]| Vec3::new(a[0][k], a[1][k], a[2][k]);
-        let id = |i: usize| self.ids[i][k];
+        let words = |rows: &Rows| rows[k % 4][k / 4];
+        let floats = |rows: &Rows| words(rows).map(f32::from_bits);
+        let [x, y, z, t_min] = floats(&self.origin);
+        let [dir_x, dir_y, dir_z, t_max] = floats(&self.dir);
+        let [skip, skip_instance, last, last_instance] = words(&self.not);
+        let [light, instance, time, axis] = words(&self.of);
+        let [pixel, sample, bounce, seed] = words(&self.key);
+        let [inv_x, inv_y, inv_z, inv_depth] = floats(&self.inverse);
+        let [slope_x, slope_y, ..] = floats(&self.slope);
         let ray = scalar::Ray {
-            origin: three(&self.origin),
-            t_min: self.range[0][k],
-            t_max: self.range[1][k],
-            dir: three(&self.dir),
-            skip: UVec2::new(id(0), id(1)),
-            last: UVec2::new(id(2), id(3)),
-            light: id(4),
-            time: self.time[k],
-            instance: id(5),
-            key: scalar::SampleKey {
-                pixel: self.key[0][k],
-                sample: self.key[1][k],
-                bounce: self.key[2][k],
-                seed: self.key[3][k],
-            },
+            origin: Vec3::new(x, y, z),
+            t_min,
+            t_max,
+            dir: Vec3::new(dir_x, dir_y, dir_z),
+            skip: UVec2::new(skip, skip_instance),
+            last: UVec2::new(last, last_instance),
+            light,
+            time: f32::from_bits(time),
+            instance,
+            key: scalar::SampleKey { pixel, sample, bounce, seed },
         };
-        let leaf = scalar::TriangleShear {
-            slope: Vec2::new(self.slope[0][k], self.slope[1][k]),
-            inv_depth: self.inv_depth[k],
-            axis: self.axis[k],
-        };
-        scalar::Walk { ray, inverse: three(&self.inverse), leaf }
+        let leaf = scalar::TriangleShear { slope: Vec2::new(slope_x, slope_y), inv_depth, axis };
+        scalar::Walk { ray, inverse: Vec3::new(inv_x, inv_y, inv_z), leaf }
     }
 }
 

@@ -61,6 +61,18 @@ macro_rules! in_lanes {
                 found
             }
 
+            /// Four words a lane, `words[word][lane]`, as a row a lane.
+            pub(crate) fn in_rows(words: [[u32; LANES]; 4]) -> [[u32; 4]; LANES] {
+                // SAFETY: as above.
+                let rows = unsafe { turn(words) };
+                std::array::from_fn(|lane| rows[lane % 4][lane / 4])
+            }
+
+            #[target_feature(enable = $features)]
+            fn turn([x, y, z, w]: [[u32; LANES]; 4]) -> [[[u32; 4]; LANES / 4]; 4] {
+                v::rows(v::V4 { x: v::u_of(x), y: v::u_of(y), z: v::u_of(z), w: v::u_of(w) })
+            }
+
             #[target_feature(enable = $features)]
             fn run(given: &[UVec4], found: &mut [UVec4], first: u32, mask: u32) {
                 let mask = v::b_of(std::array::from_fn(|lane| mask >> lane & 1 == 1));
@@ -185,6 +197,23 @@ fn every_lane_has_the_bits_of_the_scalar_form_in_every_mask() {
         check(avx2::LANES, avx2::together);
         if there!("avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl") {
             check(avx512::LANES, avx512::together);
+        }
+    }
+}
+
+#[test]
+fn the_words_of_each_lane_come_to_lie_together() {
+    fn words<const N: usize>() -> ([[u32; N]; 4], [[u32; 4]; N]) {
+        let mut next = 0..;
+        let rows = [(); N].map(|()| [(); 4].map(|()| next.next().unwrap_or(0)));
+        (std::array::from_fn(|word| rows.map(|row| row[word])), rows)
+    }
+    if there!("avx2", "bmi1", "bmi2", "lzcnt", "popcnt") {
+        let (given, expected) = words();
+        assert_eq!(avx2::in_rows(given), expected);
+        if there!("avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl") {
+            let (given, expected) = words();
+            assert_eq!(avx512::in_rows(given), expected);
         }
     }
 }

@@ -225,6 +225,19 @@ lanes! {
         F(_mm256_permutevar_ps(_mm256_set_m128(row, row), axis.0))
     }
 
+    /// Four words a lane as a row a lane, which is number `[k % 4][k / 4]` for lane `k`.
+    fn rows(a: V4<U>) -> [[[u32; 4]; LANES / 4]; 4] {
+        let (xy, zw) = (_mm256_unpacklo_epi32(a.x.0, a.y.0), _mm256_unpacklo_epi32(a.z.0, a.w.0));
+        let (high_xy, high_zw) =
+            (_mm256_unpackhi_epi32(a.x.0, a.y.0), _mm256_unpackhi_epi32(a.z.0, a.w.0));
+        bytemuck::cast([
+            _mm256_unpacklo_epi64(xy, zw),
+            _mm256_unpackhi_epi64(xy, zw),
+            _mm256_unpacklo_epi64(high_xy, high_zw),
+            _mm256_unpackhi_epi64(high_xy, high_zw),
+        ])
+    }
+
     /// Two rows, of which each is there.
     fn pair(rows: &[[u32; 4]], high: u32, low: u32) -> __m256i {
         match (rows.get(high as usize), rows.get(low as usize)) {

@@ -207,6 +207,19 @@ lanes! {
         F(_mm512_permutevar_ps(_mm512_broadcast_f32x4(row), axis.0))
     }
 
+    /// Four words a lane as a row a lane, which is number `[k % 4][k / 4]` for lane `k`.
+    fn rows(a: V4<U>) -> [[[u32; 4]; LANES / 4]; 4] {
+        let (xy, zw) = (_mm512_unpacklo_epi32(a.x.0, a.y.0), _mm512_unpacklo_epi32(a.z.0, a.w.0));
+        let (high_xy, high_zw) =
+            (_mm512_unpackhi_epi32(a.x.0, a.y.0), _mm512_unpackhi_epi32(a.z.0, a.w.0));
+        bytemuck::cast([
+            _mm512_unpacklo_epi64(xy, zw),
+            _mm512_unpackhi_epi64(xy, zw),
+            _mm512_unpacklo_epi64(high_xy, high_zw),
+            _mm512_unpackhi_epi64(high_xy, high_zw),
+        ])
+    }
+
     /// Four rows, of which each is there.
     fn four(rows: &[[u32; 4]], at: [u32; 4]) -> __m512i {
         let row = |k: u32| rows.get(k as usize).copied().unwrap_or_default();
