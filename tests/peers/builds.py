@@ -124,7 +124,7 @@ def written(args, work):
 
 
 def compiled(name, scene, args, work):
-    """Both builds of a scene."""
+    """Both builds, with the scene compiled by each."""
     more = ["--size", args.size] if scene in args.scenes else []
     builds = [Build(folder, work / f"{name}.{age}.pack", more) for folder, age in [(args.old, "old"), (args.new, "new")]]
     for b in builds:

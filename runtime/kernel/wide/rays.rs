@@ -8,23 +8,24 @@ use crate::target;
 use glam::{UVec2, Vec2, Vec3};
 use kernel_f32::kernel as scalar;
 
-/// Four words of each lane, lane after lane: what is read together lies together.
+/// Four words of each lane beside each other, as a walk reads them.
 type Rows = [[[u32; 4]; v::LANES / 4]; 4];
 
 /// The walk of a ray a lane.
 pub(crate) struct Walks {
-    /// Origins, and from where they count.
+    /// `Ray::origin` and `Ray::t_min`.
     origin: Rows,
-    /// Directions, and up to where they count.
+    /// `Ray::dir` and `Ray::t_max`.
     dir: Rows,
     /// `Ray::skip` and `Ray::last`.
-    not: Rows,
+    skip: Rows,
     /// `Ray::light`, `Ray::instance`, `Ray::time` and `TriangleShear::axis`.
-    of: Rows,
+    light: Rows,
+    /// `Ray::key`.
     key: Rows,
     /// `Walk::inverse` and `TriangleShear::inv_depth`.
     inverse: Rows,
-    /// `TriangleShear::slope`, twice.
+    /// `TriangleShear::slope`, and two words that nobody reads.
     slope: Rows,
 }
 
@@ -42,8 +43,8 @@ impl Walks {
         Self {
             origin: floats([origin.x, origin.y, origin.z, ray.t_min]),
             dir: floats([dir.x, dir.y, dir.z, ray.t_max]),
-            not: words([skip.x, skip.y, last.x, last.y]),
-            of: words([ray.light, ray.instance, v::u_bits_f(ray.time), shear.axis]),
+            skip: words([skip.x, skip.y, last.x, last.y]),
+            light: words([ray.light, ray.instance, v::u_bits_f(ray.time), shear.axis]),
             key: words([key.pixel, key.sample, key.bounce, key.seed]),
             inverse: floats([inverse.x, inverse.y, inverse.z, shear.inv_depth]),
             slope: floats([slope.x, slope.y, slope.x, slope.y]),
@@ -58,8 +59,8 @@ impl Walks {
         let floats = |rows: &Rows| words(rows).map(f32::from_bits);
         let [x, y, z, t_min] = floats(&self.origin);
         let [dir_x, dir_y, dir_z, t_max] = floats(&self.dir);
-        let [skip, skip_instance, last, last_instance] = words(&self.not);
-        let [light, instance, time, axis] = words(&self.of);
+        let [skip, skip_instance, last, last_instance] = words(&self.skip);
+        let [light, instance, time, axis] = words(&self.light);
         let [pixel, sample, bounce, seed] = words(&self.key);
         let [inv_x, inv_y, inv_z, inv_depth] = floats(&self.inverse);
         let [slope_x, slope_y, ..] = floats(&self.slope);

@@ -207,7 +207,7 @@ lanes! {
         F(_mm512_permutevar_ps(_mm512_broadcast_f32x4(row), axis.0))
     }
 
-    /// Four words a lane as a row a lane, which is number `[k % 4][k / 4]` for lane `k`.
+    /// Turns four words a lane into a row for each lane: that of lane `k` is `[k % 4][k / 4]`.
     fn rows(a: V4<U>) -> [[[u32; 4]; LANES / 4]; 4] {
         let (xy, zw) = (_mm512_unpacklo_epi32(a.x.0, a.y.0), _mm512_unpacklo_epi32(a.z.0, a.w.0));
         let (high_xy, high_zw) =
