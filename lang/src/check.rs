@@ -41,13 +41,13 @@ mod lint;
 mod material;
 mod mix;
 mod motion;
+mod named;
 mod object;
 mod pattern;
 #[warn(clippy::wildcard_enum_match_arm)]
 mod render;
 #[warn(clippy::wildcard_enum_match_arm)]
 mod scene;
-mod slot;
 #[warn(clippy::wildcard_enum_match_arm)]
 pub(crate) mod texture;
 mod transform;
