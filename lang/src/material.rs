@@ -268,8 +268,8 @@ materials! {
     }
     /// Rough metal.
     Conductor "conductor" {
-        doc: "Metal with a rough surface (GGX). Its highlights stretch towards grazing light, and light \
-          that is reflected several times is not lost.",
+        doc: "Metal with a rough surface (GGX). Its highlights stretch at grazing angles, and light that is \
+             reflected several times is not lost.",
         example: "material gold: conductor { color = linear(1, 0.71, 0.29), roughness = 0.3 }",
         elsewhere: &[
         ("roughconductor", "Mitsuba"),
@@ -292,8 +292,8 @@ materials! {
     }
     /// Glass, smooth where the roughness is 0.
     Dielectric "dielectric" {
-        doc: "Glass, smooth or ground: reflects and refracts. What is inside of it absorbs and scatters, if it \
-          has an `interior`.",
+        doc: "Glass, smooth or ground: reflects and refracts. Its inside absorbs and scatters if it has an \
+             `interior`.",
         example: "material glass: dielectric { ior = 1.52 }",
         elsewhere: &[
         ("glass", "pbrt-v3, LuxCore and Blender"),
@@ -327,9 +327,8 @@ materials! {
     }
     /// Clear coat over Lambert.
     Clearcoat "clearcoat" {
-        doc: "Matt colour under a clear coat: lacquer, varnish, glazed clay. Nothing is lost between \
-          coat and base. A coat of index 1.65 reflects 6% at normal incidence, as strongly coated \
-          toys in older pictures do.",
+        doc: "Matt colour under a clear coat: lacquer, varnish, glazed clay. Nothing is lost between coat and base. \
+             A coat of index 1.65 reflects 6% at normal incidence, as strongly coated toys in older pictures do.",
         example: "material lacquer: clearcoat { color = srgb(#8c1d18), fuzz = 0.05 }",
         elsewhere: &[
         ("coateddiffuse", "pbrt-v4"),
@@ -354,8 +353,8 @@ materials! {
     }
     /// Light source without scattering.
     Emissive "emissive" {
-        doc: "Gives off light and scatters none. On any shape or mesh part; its radiance is \
-          `color` times `strength`.",
+        doc: "Gives off light and scatters none. It may be on any shape or mesh part; its radiance is `color` \
+             times `strength`.",
         example: "material lamp: emissive { color = blackbody(3000K), strength = 12 }",
         elsewhere: &[
         ("area", "Mitsuba"),
@@ -464,7 +463,7 @@ materials! {
     /// Rough, with bumps and veins.
     Stone "stone" {
         doc: "Stone with bumps, veins and a roughness between 0.4 and 0.75, from blocks a third of a metre wide \
-          down to grains of two centimetres. No two things have the same pattern.",
+             down to grains of two centimetres. No two things have the same pattern.",
         example: "material basalt: stone { color = srgb(#8a8782), scale = 4, bump.strength = 10mm, bump.eps = 2.5mm }",
         elsewhere: &[
         ("rock", "common use"),
@@ -487,7 +486,7 @@ materials! {
     /// Rough, with bumps, rings and gloss along a grain.
     Wood "wood" {
         doc: "Wood with growth rings, bumps and gloss along a grain, and a roughness between 0.45 and 0.85. No two \
-          things have the same pattern.",
+             things have the same pattern.",
         example: "material cedar: wood { color = srgb(#b5794a), grain = x, scale = 3 }",
         elsewhere: &[("timber", "common use"), ("plank", "common use")],
         lints: Lints { slope: Some(2.8), ..Lints::ALBEDO },
@@ -513,8 +512,8 @@ materials! {
     }
     /// Rough thin sheet that lets light through.
     Fabric "fabric" {
-        doc: "A rough thin sheet with folds and weave as bumps; some of the light goes through. On surfaces without \
-          thickness, or around something else.",
+        doc: "A rough thin sheet with folds and weave as bumps; some of the light goes through. For surfaces \
+             without thickness, or around something else.",
         example: "material linen: fabric { color = srgb(#d8cdb8), translucency = 0.25 }",
         elsewhere: &[("cloth", "LuxCore"), ("textile", "common use"), ("velvet", "Blender")],
         lints: Lints { slope: Some(7.9), ..Lints::ALBEDO },
@@ -535,8 +534,8 @@ materials! {
     }
     /// Thin sheet that lets light through.
     Leaf "leaf" {
-        doc: "A thin sheet that lets light through: leaves, paper, thin cloth. What crosses it is tinted \
-          on the way, and part of it keeps its direction, blurred.",
+        doc: "A thin sheet that lets light through: leaves, paper, thin cloth. What crosses it is tinted on the \
+             way, and part of it keeps its direction, blurred.",
         example: "material maple: leaf { color = srgb(#7a3b1e), translucency = 40% }",
         elsewhere: &[("translucent", "LuxCore and Blender"), ("thin", "common use")],
         lints: Lints::NONE,
@@ -573,8 +572,8 @@ materials! {
     }
     /// Fuzz and wax over a thin scattering layer.
     Petal "petal" {
-        doc: "A petal: fuzz on the surface, a waxy skin, and a thin layer in which light is scattered \
-          many times (random walk). Texture coordinates 0..1 span one petal.",
+        doc: "A petal: fuzz on the surface, a waxy skin, and a thin layer in which light is scattered many times \
+             (random walk). Texture coordinates 0..1 span one petal.",
         example: "material sakura: petal { color = srgb(#f6c9d6) }",
         elsewhere: &[],
         lints: Lints::NONE,
@@ -619,8 +618,8 @@ materials! {
     }
     /// Water.
     Water "water" {
-        doc: "Water with ripples: reflects and refracts, and absorbs inside, red first. Faces that look up have \
-          three trains of sine waves. A closed shape is a body of water; an open one, such as a `rectangle`, \
+        doc: "Water with ripples: reflects and refracts, and absorbs inside, red first. Faces that point up carry \
+             three trains of sine waves. A closed shape is a body of water; an open one, such as a `rectangle`, \
           is a sea without a bottom of its own, in which light that leaves the scene below the surface \
           has the colour of the deep.",
         example: "material pond: water { waves.height = 0.5 }",
@@ -647,9 +646,10 @@ materials! {
     }
     /// One of two materials, by chance.
     Mix "mix" {
-        doc: "Two materials on one surface, each with its share: rust on steel, dust on varnish. A mask as `amount` says \
-              where which one is. The parts may be mixes. They reflect and scatter light at their surface: none has an \
-              inside, gives off light, is cut out or lets light straight through.",
+        doc: "Two materials on one surface, each with its share: rust on steel, dust on varnish. A mask as \
+             `amount` says where each one is. The parts may be mixes themselves, but must reflect and scatter \
+             light at their surface: none may have an inside, give off light, be cut out or let light straight \
+             through.",
         example: "material worn: mix { a = steel, b = clay, amount = noise(7) }",
         elsewhere: &[
         ("blend", "common use"),

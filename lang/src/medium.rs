@@ -203,9 +203,9 @@ const SKY_DISTANCE: Field = Field::new(
 const HOMOGENEOUS: TypeSchema = TypeSchema {
     kind: Kind::Medium,
     name: "homogeneous",
-    doc: "Absorbs and scatters light, the same everywhere: coloured glass, water, milk, smoke. As \
-          `interior` of a material it fills things, as `atmosphere` of the render all that is outside of \
-          them. Either `sigma_a` and `sigma_s` say what it does, or `mean_free_path` and `albedo`.",
+    doc: "Absorbs and scatters light, the same everywhere: coloured glass, water, milk, smoke. As the `interior` \
+         of a material it fills things; as the `atmosphere` of the render it fills everything around them. Give \
+         either `sigma_a` and `sigma_s`, or `mean_free_path` and `albedo`.",
     example: "medium amber: homogeneous { sigma_a = (0.5, 2, 9)/m }",
     fields: &[
         Field::new(
@@ -220,7 +220,7 @@ const HOMOGENEOUS: TypeSchema = TypeSchema {
             "sigma_s",
             FieldType::Spectrum(COEFFICIENT),
             Default::Absent("scatters nothing, unless `mean_free_path` says otherwise"),
-            "Scattering: how often light changes its direction on one metre.",
+            "Scattering: how often light changes its direction in one metre.",
         )
         .typical("whole milk (2550, 3210, 3770)/m")
         .foreign(&[
@@ -264,10 +264,9 @@ const HOMOGENEOUS: TypeSchema = TypeSchema {
 const FOG: TypeSchema = TypeSchema {
     kind: Kind::Medium,
     name: "fog",
-    doc: "Haze without noise: every segment of every path loses the share 1 - exp(-density d) of its \
-          light, whatever the path is inside of, and gets as much of `color` instead. Light does not \
-          scatter in it: no beams, no glow around lamps; for those take `homogeneous`. Only as \
-          `atmosphere` of the render.",
+    doc: "Haze without noise: every segment of every path loses the share 1 - exp(-density d) of its light, \
+         whatever the path is inside of, and gets as much of `color` instead. Light does not scatter in it: no \
+         beams, no glow around lamps; for those use `homogeneous`. Only as `atmosphere` of the render.",
     example: "medium mist: fog { visibility = 180m, color = linear(0.6, 0.65, 0.7) }",
     fields: &[
         Field::new(
@@ -289,7 +288,7 @@ const FOG: TypeSchema = TypeSchema {
             "color",
             FieldType::Color(ANY),
             Default::Required,
-            "Radiance of the fog where it is thick, in the measure of the sky's.",
+            "Radiance of the fog where it is thick, on the scale of the sky's.",
         )
         .typical("that of the sky at the horizon"),
         SKY_DISTANCE,

@@ -40,7 +40,7 @@ pub fn reference_markdown() -> String {
         let _ =
             writeln!(out, "| `{}` | {} | {factor} {} |", unit.symbol, unit.doc, unit.dim.si_unit());
     }
-    out.push_str("\nA unit may have a power (`m2`), stand under a stroke (`m/s`), or alone under one (`/m`).\n");
+    out.push_str("\nA unit may have a power (`m2`), divide another (`m/s`), or stand alone as a divisor (`/m`).\n");
     out.push_str("\n## Types of parameters\n\n");
     let words: Vec<String> = param_words().iter().map(|word| format!("`{word}`")).collect();
     let _ = writeln!(out, "{}.", words.join(", "));
@@ -63,7 +63,7 @@ prints any of these tables, for example `rtc explain material.metal`.
 
 ## How a scene is put together
 
-- Declarations and fields may stand in any order. All names of a file are different, whatever they name.
+- Declarations and fields may stand in any order. Every name of a file is unique, whatever it names.
 - `let name = value` names a value; `param name: type = value in low..high` names one that
   `-D name=value` may replace, in the root file.
 - `like other` takes every field of another declaration of the same kind, and changes some. `default`
@@ -75,17 +75,17 @@ prints any of these tables, for example `rtc explain material.metal`.
 - An object is a shape, another object, or a list of objects, with a place of its own. An instance of a
   list makes one thing for each member, called `instance.member`.
 - `import \"parts/lantern.rts\" as lantern` makes the `pub` names of a file usable as `lantern.name`;
-  `import \"file\" { a, b }` brings some of them, `import \"file\"` all of them, under their own names. What
-  an imported file puts into the world are its `pub` instances and lights; its `render` does not count.
+  `import \"file\" { a, b }` brings some of them, `import \"file\"` all of them, under their own names. An
+  imported file puts only its `pub` instances and lights into the world; its `render` does not count.
 - `import \"std:materials\" { glass }` brings a material that comes with the language.
-- The root file has one `render`. Where it names no camera, film or sky, it takes the only one of the
+- The root file has one `render`. Where it names no camera, film or sky, it takes the only one in the
   file.
 - In `if a then b else c` both branches must make sense, and only the numbers of the taken one count.
 ";
 
 /// The texts of the `std:` modules.
 fn standard_modules(out: &mut String) {
-    out.push_str("\n## Standard modules\n\nThey come with the language; what they say never changes within an edition.\n");
+    out.push_str("\n## Standard modules\n\nThese come with the language and never change within an edition.\n");
     for (name, text) in standard::modules() {
         let _ = writeln!(out, "\n### {name}\n\n```rts\n{text}```");
     }

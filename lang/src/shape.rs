@@ -348,11 +348,11 @@ const RECTANGLE: TypeSchema = TypeSchema {
 const QUAD: TypeSchema = TypeSchema {
     kind: Kind::Shape,
     name: "quad",
-    doc: "A parallelogram by three of its corners in order; the fourth is `a + c - b`. They run counter-clockwise \
-          seen from its front. Texture coordinates are (0, 0), (1, 0), (1, 1) at `a`, `b`, `c`.",
+    doc: "A parallelogram, given by three of its corners in order; the fourth is `a + c - b`. They run \
+         counter-clockwise seen from its front. Texture coordinates are (0, 0), (1, 0), (1, 1) at `a`, `b`, `c`.",
     example: "instance wall { shape = quad(a: (0, 0, 0)m, b: (2, 0, 0)m, c: (2, 1, 0)m), material = clay }",
     fields: &[
-        Field::new("a", CORNER, Default::Required, "The first corner, `Q` of other books.")
+        Field::new("a", CORNER, Default::Required, "The first corner, `Q` in other books.")
             .foreign(&[("Q", "Ray Tracing in One Weekend"), ("q", "Ray Tracing in One Weekend")]),
         Field::new("b", CORNER, Default::Required, "The second corner, `Q + u`."),
         Field::new("c", CORNER, Default::Required, "The third corner, `Q + u + v`."),
@@ -379,8 +379,8 @@ const BOX: TypeSchema = TypeSchema {
 const MESH: TypeSchema = TypeSchema {
     kind: Kind::Shape,
     name: "mesh",
-    doc: "A small mesh written in the scene; larger ones come from files. Its normals are those of its faces, and it \
-          has no texture coordinates. It has an inside if every edge belongs to two faces.",
+    doc: "A small mesh written in the scene; larger ones come from files. Its normals are those of its faces, and \
+         it has no texture coordinates. It has an inside if every edge belongs to two faces.",
     example: "instance roof {
   shape = mesh(
     points: [(-1, 0, 1)m, (1, 0, 1)m, (1, 0, -1)m, (-1, 0, -1)m, (0, 1, 0)m],
@@ -395,8 +395,8 @@ const MESH: TypeSchema = TypeSchema {
             "faces",
             FieldType::Faces,
             Default::Required,
-            "Indices of the three or four points of each face, from 0, counter-clockwise seen from its front. Four are \
-             split along the diagonal from the first to the third.",
+            "Indices of the three or four points of each face, from 0, counter-clockwise seen from its front. Four \
+             are split along the diagonal from the first to the third.",
         )
         .foreign(&[("indices", "pbrt"), ("triangles", "common use"), ("face_indices", "POV-Ray")]),
     ],

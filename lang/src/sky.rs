@@ -295,9 +295,9 @@ const fn exponent(name: &'static str, value: f64, doc: &'static str) -> Field {
 const GRADIENT: TypeSchema = TypeSchema {
     kind: Kind::Sky,
     name: "gradient",
-    doc: "Bands of colour over the height of the direction (the sine of its elevation), joined without \
-          kinks, and around `sun.direction` a wide glow and a narrow disc. The defaults are a sunset. \
-          With a glow or a disc the sky takes part in sampling lights.",
+    doc: "Bands of colour over the height of the direction (the sine of its elevation), joined without kinks, and \
+         around `sun.direction` a wide glow and a narrow disc. The defaults are a sunset. With a glow or a disc the \
+         sky takes part in sampling lights.",
     example: "sky dusk: gradient { sun.direction = (0.69, 0.2, -0.69), strength = 2 }",
     fields: &[
         band("zenith", [0.003_75, 0.006_25, 0.03], "Straight up, at height 1."),
@@ -358,16 +358,16 @@ const GRADIENT: TypeSchema = TypeSchema {
 const IMAGE: TypeSchema = TypeSchema {
     kind: Kind::Sky,
     name: "image",
-    doc: "Radiance from an image of all directions (lat-long, twice as wide as high, HDR or EXR). The \
-          middle of the image lies towards -z, its right half towards +x, its top row is straight up. \
-          Bright parts are sampled as lights.",
+    doc: "Radiance from an image of all directions (lat-long, twice as wide as high, HDR or EXR). The middle of the \
+         image lies towards -z, its right half towards +x, its top row is straight up. Bright parts are sampled as \
+         lights.",
     example: "sky garden: image { file = \"garden.hdr\", rotate = 90deg, strength = 0.8 }",
     fields: &[
         Field::new(
             "file",
             FieldType::Path,
             Default::Required,
-            "The image, relative to the `.rts` file that says it.",
+            "The image, relative to the `.rts` file that names it.",
         )
         .foreign(&[
             ("filename", "pbrt and Mitsuba"),
@@ -398,8 +398,8 @@ const SUN_SKY: TypeSchema = TypeSchema {
     kind: Kind::Sky,
     name: "sun_sky",
     doc: "A clear day: blue sky, haze, the sun with the light that the air leaves it, and level ground below the \
-          horizon, after Hillaire 2020. The sun is a `directional` light. All is as bright as outdoors: a high sun \
-          gives 110 klx, and pictures want an `exposure` of about -5EV.",
+         horizon, after Hillaire 2020. The sun is a `directional` light. All is as bright as outdoors: a high sun \
+         gives 110 klx, and pictures want an `exposure` of about -5EV.",
     example: "sky day: sun_sky { sun.direction = (0.3, 0.8, 0.4), turbidity = 2 }",
     fields: &[
         Field::new(

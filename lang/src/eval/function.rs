@@ -150,8 +150,12 @@ pub(crate) const FUNCTIONS: &[Function] = &[
             Ok(map(a, |x| x.max(low).min(high)))
         },
     ),
-    function("floor", &[("x", PLAIN)], "The next whole number below.", |a| Ok(map(a, f64::floor))),
-    function("ceil", &[("x", PLAIN)], "The next whole number above.", |a| Ok(map(a, f64::ceil))),
+    function("floor", &[("x", PLAIN)], "The greatest whole number that is not above x.", |a| {
+        Ok(map(a, f64::floor))
+    }),
+    function("ceil", &[("x", PLAIN)], "The least whole number that is not below x.", |a| {
+        Ok(map(a, f64::ceil))
+    }),
     function(
         "round",
         &[("x", PLAIN)],
@@ -180,14 +184,14 @@ pub(crate) const FUNCTIONS: &[Function] = &[
     one_or_all(function(
         "checker",
         &[("across", PLAIN), ("up", PLAIN)],
-        "A texture: 0 and 1 in squares, so many along u and along v.",
+        "A texture: squares of 0 and 1, `across` of them along u and `up` along v.",
         checker,
     )),
     function(
         "bricks",
         &[("across", PLAIN), ("up", PLAIN), ("mortar", PLAIN)],
-        "A texture: 1 in bricks, 0 in the mortar between them, whose width is a share of a brick's height. So many \
-         bricks along u, so many rows along v.",
+        "A texture: 1 in bricks, 0 in the mortar between them, whose width is a share of a brick's height. \
+         `across` bricks along u, `up` rows along v.",
         bricks,
     ),
     function(
@@ -199,27 +203,27 @@ pub(crate) const FUNCTIONS: &[Function] = &[
     function(
         "wave",
         &[("count", PLAIN), ("angle", ANGLE)],
-        "A texture: so many smooth waves between 0 and 1 along the direction at this angle from u.",
+        "A texture: `count` smooth waves between 0 and 1 along the direction at this angle from u.",
         |a| pattern(TexturePattern::Wave { count: cells(a, 0)?, angle: num(a, 1) }),
     ),
     one_or_all(function(
         "noise",
         &[("count", PLAIN), ("octaves", PLAIN)],
-        "A texture: random numbers between 0 and 1 with so many bumps along u and v, smooth with one octave, rough with \
-         more (4 if not said).",
+        "A texture: random numbers between 0 and 1 with `count` bumps along u and v, smooth with one octave, rough \
+         with more (4 by default).",
         noise,
     )),
     function(
         "distance",
         &[("a", Want::Vector), ("b", Want::VectorLikeFirst)],
-        "How far two points are apart.",
+        "How far apart two points are.",
         |a| {
             let (p, q) = (vec(a, 0), vec(a, 1));
             let d = [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
             Ok(Value::Number(length(d), dim(a, 0)))
         },
     ),
-    function("length", &[("v", Want::Vector)], "How long a vector is.", |a| {
+    function("length", &[("v", Want::Vector)], "The length of a vector.", |a| {
         Ok(Value::Number(length(vec(a, 0)), dim(a, 0)))
     }),
     function("normalize", &[("v", Want::Vector)], "The same direction with length 1.", |a| {

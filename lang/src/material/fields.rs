@@ -102,7 +102,7 @@ pub(super) const INTERIOR: Field = Field::new(
     "interior",
     FieldType::Name(Kind::Medium),
     Default::Absent("clear"),
-    "What fills the thing: a `homogeneous` medium. The shape must be closed.",
+    "What fills it: a `homogeneous` medium. The shape must be closed.",
 )
 .foreign(&[
     ("inside", "pbrt"),
@@ -115,9 +115,9 @@ pub(super) const PRIORITY: Field = Field::new(
     "priority",
     FieldType::Integer(0, 1_000_000),
     Default::Number(0.0),
-    "Where things overlap, the greatest priority is there and the others are not; of equal ones the \
-     one that light entered last. With media or priorities in the scene, light refracts against what \
-     is really around a thing; otherwise against air.",
+    "Where things overlap, only the one with the greatest priority is there; of equals, the one that light entered \
+     last. With media or priorities in the scene, light refracts against whatever surrounds a thing; otherwise \
+     against air.",
 )
 .typical("water 1 in a glass 2, the two overlapping a little")
 .foreign(&[("nested_priority", "common use")]);
@@ -132,8 +132,8 @@ pub(super) const ALPHA: Field = Field::new(
     "alpha",
     FieldType::ScalarSlot(UNIT),
     Default::Number(1.0),
-    "Coverage: the share of the surface that is there; the rest of the light goes straight on. With `alpha.clip` it is \
-     only compared with that.",
+    "Coverage: the share of the surface that is there; the rest of the light goes straight on. With `alpha.clip` it \
+     is only compared with that.",
 )
 .foreign(&[("opacity", "Mitsuba"), ("d", "OBJ/MTL"), ("map_d", "OBJ/MTL"), ("Alpha", "Blender")]);
 
@@ -190,10 +190,10 @@ pub(super) const EMISSIVE_POWER: Field = Field::new(
     "power",
     FieldType::Number(Bounds::new(Dim::POWER, "W", 0.0, ANY)),
     Default::Absent("`strength` decides"),
-    "What all that is made of this material gives off together, in watts where `color` is white: `strength` then \
+    "What everything made of this material gives off together, in watts where `color` is white; `strength` then \
      follows from its area. Closed shapes shine outwards only.",
 )
-.typical("a bulb of 60W gives off some 5W of light; lights of `mesh` take lumens, too")
+.typical("a 60W bulb gives off about 5W of light; `mesh` lights take lumens, too")
 .foreign(&[("flux", "common use"), ("watts", "common use")]);
 
 pub(super) const EMISSIVE_SIDES: Field = Field::new(
@@ -207,7 +207,7 @@ pub(super) const EMISSIVE_SIDES: Field = Field::new(
 /// Of whatever gives off light.
 pub(crate) const VISIBLE: Field = Field::new(
     "visible",
-    FieldType::Word(&[("on", "it does"), ("off", "it looks past it")]),
+    FieldType::Word(&[("on", "it does"), ("off", "it sees past it")]),
     Default::Word("on"),
     "Whether the camera sees it. Its light, its shadow and its reflections remain.",
 )
@@ -270,5 +270,5 @@ pub(super) const WATER_DEPTH_COLOR: Field = Field::new(
             Default::Color([0.02, 0.06, 0.10]),
             "Radiance of the deep as seen from above the surface, where light leaves the scene under water.",
         )
-        .typical("in the measure of the sky's radiance")
+        .typical("on the scale of the sky's radiance")
         .foreign(&[("deep_color", "common use")]);

@@ -51,7 +51,7 @@ pub(super) const SPECULAR_COLOR: Field = Field::new(
 ]);
 
 pub(super) const ANISOTROPY: Field = Field {
-    doc: "How much wider the highlight is along the direction of brushing than across it: at 1 ten times.",
+    doc: "How much wider the highlight is along the direction of brushing than across it: ten times at 1.",
     ..CONDUCTOR_ANISOTROPY
 };
 
@@ -102,7 +102,8 @@ pub(super) const SHEEN: Field = Field::new(
     "sheen",
     FieldType::ColorSlot(1.0),
     Default::Color([0.0; 3]),
-    "Colour of upright fibres over the surface, which reflect most where light grazes them. Not with a coat or anisotropy.",
+    "Colour of upright fibres over the surface, which reflect most where light grazes them. It goes with neither a \
+     coat nor anisotropy.",
 )
 .typical("white for dust and peach fuzz; the colour of the thread for velvet")
 .foreign(&[
@@ -116,7 +117,7 @@ pub(super) const SHEEN_ROUGHNESS: Field = Field::new(
     "sheen.roughness",
     FieldType::ScalarSlot(UNIT),
     Default::Number(0.3),
-    "Perceptual roughness of the sheen: how far from the rim it reaches. Below 0.15 it is that.",
+    "Perceptual roughness of the sheen: how far from the rim it reaches. Anything below 0.15 counts as 0.15.",
 )
 .typical("velvet 0.3, felt 0.8")
 .foreign(&[
@@ -129,8 +130,8 @@ pub(super) const TRANSMISSION: Field = Field::new(
             "transmission",
             FieldType::ScalarSlot(UNIT),
             Default::Number(0.0),
-            "Share of the light entering that goes on through the surface, a thin sheet that bends nothing; `color` \
-             tints it. Solid glass is `dielectric`.",
+            "Share of the entering light that goes through the surface, a thin sheet that bends nothing; `color` \
+             tints it. For solid glass use `dielectric`.",
         )
         .typical("1 for a window pane, 0.3 for paper")
         .foreign(&[

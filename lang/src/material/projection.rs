@@ -40,8 +40,8 @@ pub(super) const PROJECTION: Field = Field::new(
     "projection",
     FieldType::Word(WORDS),
     Default::Word("uv"),
-    "Where textures lie. Projected ones need no texture coordinates: they lie in the object, a unit to the metre whatever its \
-     `scale`; place and size them with `scale`, `offset` and `rotate` of the texture.",
+    "Where textures lie. Projected textures need no texture coordinates: they lie in object space, a unit to the \
+     metre whatever the object's `scale`; place and size them with `scale`, `offset` and `rotate` of the texture.",
 )
 .foreign(&[
     ("mapping", "LuxCore"),

@@ -18,7 +18,7 @@ pub(super) const CONDUCTOR_COLOR: Field = Field::new(
     "color",
     FieldType::ColorSlot(1.0),
     Default::Required,
-    "Share of the light that is reflected at normal incidence; all is at grazing.",
+    "Share of the light that is reflected at normal incidence; at grazing incidence all of it is.",
 )
 .typical("silver 0.97, 0.96, 0.92; copper 0.95, 0.64, 0.54; iron 0.56, 0.57, 0.58")
 .foreign(COLOR_NAMES);
@@ -27,7 +27,7 @@ pub(super) const CONDUCTOR_ROUGHNESS: Field = Field::new(
             "roughness",
             FieldType::ScalarSlot(UNIT),
             Default::Number(0.2),
-            "Perceptual roughness; the width of the highlight grows with its square. Below 0.0317 a mirror.",
+            "Perceptual roughness; the width of the highlight grows with its square. Below 0.0317 it is a mirror.",
         )
         .typical("polished 0.1, satin 0.3, cast 0.6")
         .foreign(CONDUCTOR_ROUGHNESS_NAMES);
@@ -36,7 +36,7 @@ pub(super) const CONDUCTOR_ANISOTROPY: Field = Field::new(
     "anisotropy",
     FieldType::Number(UNIT),
     Default::Number(0.0),
-    "How much wider the highlight is along u than along v: at 1 ten times.",
+    "How much wider the highlight is along u than along v: ten times at 1.",
 )
 .typical("brushed steel 0.6 to 0.9")
 .foreign(&[
@@ -49,7 +49,7 @@ pub(super) const COMPENSATION: Field = Field::new(
     "compensation",
     FieldType::Word(SWITCH),
     Default::Word("on"),
-    "Light that several reflections at the rough surface give back; without it rough surfaces are too dark.",
+    "Whether light that the rough surface reflects several times counts; without it rough surfaces are too dark.",
 );
 
 pub(super) const DIELECTRIC_ROUGHNESS: Field = Field::new(

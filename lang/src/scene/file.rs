@@ -133,7 +133,7 @@ words! {
         /// The image repeats.
         Repeat = "repeat" "the image repeats",
         /// The edge texel goes on.
-        Clamp = "clamp" "the edge goes on",
+        Clamp = "clamp" "the edge continues",
         /// The image repeats mirrored.
         Mirror = "mirror" "the image repeats mirrored",
     }

@@ -9,7 +9,7 @@ const PATH: Field = Field::new(
     "path",
     FieldType::Path,
     Default::Required,
-    "The file, relative to the `.rts` file that says it. Comes first and needs no name.",
+    "The file, relative to the `.rts` file that names it. Comes first and needs no name.",
 )
 .foreign(&[("filename", "pbrt, Mitsuba"), ("file", "LuxCore"), ("uri", "glTF")]);
 
@@ -28,8 +28,8 @@ const fn up(usual: &'static str) -> Field {
 const OBJ: TypeSchema = TypeSchema {
     kind: Kind::Asset,
     name: "obj",
-    doc: "A Wavefront OBJ file. Its groups, objects and materials become parts: `rock.lid`. \
-          The format does not say how long its unit is or where up is, so the scene must.",
+    doc: "A Wavefront OBJ file. Its groups, objects and materials become parts: `rock.lid`. The format records \
+         neither its unit nor which way is up, so the scene must say.",
     example: "asset rock = obj(\"rock.obj\", unit: cm, up: +z)",
     fields: &[
         PATH,
@@ -42,9 +42,10 @@ const OBJ: TypeSchema = TypeSchema {
 const PLY: TypeSchema = TypeSchema {
     kind: Kind::Asset,
     name: "ply",
-    doc: "A PLY file (Stanford), text or binary: polygons with normals (`nx ny nz`) and texture coordinates \
-          (`u v`, `s t`, `texture_u texture_v`, or `texcoord` of faces) where it has them. Vertex colours \
-          become its material, and are `vertex_color` to materials of the scene. The format says neither unit nor where up is.",
+    doc: "A PLY file (Stanford), text or binary: polygons with normals (`nx ny nz`) and texture coordinates (`u v`, \
+         `s t`, `texture_u texture_v`, or `texcoord` of faces) where it has them. Vertex colours become its \
+         material, and are `vertex_color` to materials of the scene. The format records neither its unit nor which \
+         way is up, so the scene must say.",
     example: "asset bunny = ply(\"bunny.ply\", unit: m)",
     fields: &[
         PATH,
@@ -57,8 +58,9 @@ const PLY: TypeSchema = TypeSchema {
 const STL: TypeSchema = TypeSchema {
     kind: Kind::Asset,
     name: "stl",
-    doc: "An STL file, text or binary: triangles alone, without materials and texture coordinates. The solids of a \
-          text become parts: `gearbox.lid`. Its normals are computed, as of every mesh without them: edges of up to 60 degrees become smooth.",
+    doc: "An STL file, text or binary: only triangles, without materials or texture coordinates. The solids of a \
+         text file become parts: `gearbox.lid`. Its normals are computed, as for every mesh without them: edges of \
+         up to 60 degrees become smooth.",
     example: "asset gear = stl(\"gear.stl\", unit: mm)",
     fields: &[
         PATH,
@@ -71,16 +73,15 @@ const STL: TypeSchema = TypeSchema {
 const GLTF: TypeSchema = TypeSchema {
     kind: Kind::Asset,
     name: "gltf",
-    doc: "A glTF 2.0 file, text (`.gltf`) or binary (`.glb`): metres and +y up, as its \
-          specification says. Nodes and meshes become parts: `shrine.post`. Skins, morph targets and \
-          animations are those of one moment.",
+    doc: "A glTF 2.0 file, text (`.gltf`) or binary (`.glb`): metres and +y up, as its specification says. Nodes \
+         and meshes become parts: `shrine.post`. Skins, morph targets and animations are shown at one moment.",
     example: "asset fox = gltf(\"fox.glb\", animation: \"Run\", time: 350ms)",
     fields: &[
         PATH,
         Field::new(
             "time",
             FieldType::Number(Bounds::new(Dim::TIME, "s", 0.0, f64::INFINITY)),
-            Default::Absent("everything stands as it is stored"),
+            Default::Absent("everything as it is stored"),
             "The moment of its animations that is shown: nodes, skins and morph targets.",
         )
         .foreign(&[("frame", "Blender")]),
@@ -88,13 +89,13 @@ const GLTF: TypeSchema = TypeSchema {
             "animation",
             FieldType::Text,
             Default::Absent("all of them, which must not move the same nodes"),
-            "Which of its animations is played; `time` is 0s unless said.",
+            "Which of its animations is played; `time` is 0s unless given.",
         )
         .foreign(&[("action", "Blender"), ("clip", "common use")]),
         Field::new(
             "variant",
             FieldType::Text,
-            Default::Absent("the materials that the file shows without"),
+            Default::Absent("the materials that the file shows without one"),
             "Which variant of its materials is shown.",
         ),
     ],

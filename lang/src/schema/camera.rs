@@ -37,7 +37,7 @@ const TO: Field = Field::new(
     "to",
     FieldType::Keyed(Dim::LENGTH, "m"),
     Default::Required,
-    "The point in the middle of the image, or keys, as of `from`.",
+    "The point in the middle of the image, or keys, as for `from`.",
 )
 .foreign(&[
     ("target", "LuxCore and Mitsuba"),
@@ -57,9 +57,9 @@ const FIT: Field = Field::new(
     "fit",
     FieldType::Name(Kind::Instance),
     Default::Absent("the camera stays where `from` and `to` say"),
-    "The instance that is to fill the image: the camera is put where it just fits, a mesh with the boxes around \
-     its parts, with 5 % to spare. `from` and `to` then only say which way it looks, `from` alone from where; \
-     without them it looks from the front, the right and above.",
+    "The instance that is to fill the image: the camera moves to where it just fits, with 5 % to spare; of a mesh, \
+     the boxes around its parts are fitted. `from` and `to` then only give the direction of view, or `from` \
+     alone the side that is seen; without them the camera looks from the front, the right and above.",
 )
 .foreign(&[("frame", "common use"), ("frame_selected", "Blender")]);
 
@@ -74,8 +74,8 @@ const SHUTTER: Field = Field::new(
 const PERSPECTIVE: TypeSchema = TypeSchema {
     kind: Kind::Camera,
     name: "perspective",
-    doc: "A camera with a thin lens, or a pinhole when it has no aperture. The field of view comes \
-          from `lens`, `fov.horizontal` or `fov.vertical`: one of them, or the default lens.",
+    doc: "A camera with a thin lens, or a pinhole when it has no aperture. The field of view comes from `lens`, \
+         `fov.horizontal` or `fov.vertical`: one of them, or the default lens.",
     example: "camera hero: perspective { from = (4, 1.5, 10)m, to = (0, 2, 0)m, lens = 50mm, \
               f_stop = 2.0 }",
     fields: &[
@@ -122,7 +122,7 @@ const PERSPECTIVE: TypeSchema = TypeSchema {
         Field::new(
             "f_stop",
             FieldType::Number(Bounds::number(0.1, 1e6)),
-            Default::Absent("what `aperture` says"),
+            Default::Absent("`aperture` decides"),
             "Focal length over aperture; smaller means a shallower depth of field.",
         )
         .typical("1.4 to 22")
@@ -145,8 +145,8 @@ const PERSPECTIVE: TypeSchema = TypeSchema {
             "blades",
             FieldType::Integer(3, 16),
             Default::Absent("a round opening"),
-            "Straight blades of the aperture: what is out of focus shows its opening, a polygon with so many corners and \
-             the area of the round one.",
+            "Number of straight blades of the aperture: what is out of focus takes the shape of the opening, a \
+             polygon with this many corners and the area of the round one.",
         )
         .typical("5 to 9")
         .foreign(&[
@@ -158,7 +158,8 @@ const PERSPECTIVE: TypeSchema = TypeSchema {
             "rotation",
             FieldType::Number(Bounds::new(Dim::ANGLE, "deg", f64::NEG_INFINITY, f64::INFINITY)),
             Default::Number(0.0),
-            "By how much the blades are turned, clockwise as what is behind the focus shows them; at 0deg a corner is at the top.",
+            "How far the blades are turned, clockwise in the image of what is behind the focus; at 0deg a corner \
+             is at the top.",
         )
         .foreign(&[("aperture_rotation", "Blender")]),
         Field::new(
@@ -183,9 +184,9 @@ const SIDE: FieldType = FieldType::Number(Bounds::above(Dim::LENGTH, "m", 0.0));
 const ORTHOGRAPHIC: TypeSchema = TypeSchema {
     kind: Kind::Camera,
     name: "orthographic",
-    doc: "A camera whose rays are parallel: things have the same size at every distance, as in plans and elevations. \
-          `width` or `height` says how much it sees; the other follows from the film. Rays start in the plane through \
-          `from`, so what is behind it is not seen.",
+    doc: "A camera whose rays are parallel: things have the same size at every distance, as in plans and \
+         elevations. `width` or `height` sets how much it sees; the other follows from the film. Rays start in the \
+         plane through `from`, so what is behind it is not seen.",
     example: "camera front: orthographic { from = (0, 1, 10)m, to = (0, 1, 0)m, height = 4m }",
     fields: &[
         FROM,
@@ -214,9 +215,10 @@ const ORTHOGRAPHIC: TypeSchema = TypeSchema {
 const PANORAMIC: TypeSchema = TypeSchema {
     kind: Kind::Camera,
     name: "panoramic",
-    doc: "A camera that sees all around it, on a lat-long (equirectangular) picture: columns are angles around `up`, \
-          rows are angles from it, from straight up to straight down. The direction of `to` is in the middle; the \
-          horizon is level where `to` is as high as `from`. Pixels are square on a film that is twice as wide as high.",
+    doc: "A camera that sees all around it, on a lat-long (equirectangular) picture: columns are angles around \
+         `up`, rows are angles from it, from straight up to straight down. The direction of `to` is in the middle; \
+         the horizon is level when `to` is as high as `from`. Pixels are square on a film that is twice as wide as \
+         high.",
     example: "camera around: panoramic { from = (0, 1.6, 0)m, to = (0, 1.6, -1)m }",
     fields: &[
         FROM,

@@ -12,8 +12,7 @@ pub(crate) const EXPOSURE: Bounds = Bounds::new(Dim::EV, "EV", -64.0, 64.0);
 const FILM: TypeSchema = TypeSchema {
     kind: Kind::Film,
     name: "",
-    doc: "The picture: its size, and how the PNG is developed. The EXR is always linear and \
-          untouched.",
+    doc: "The picture: its size, and how the PNG is developed. The EXR is always linear and untouched.",
     example: "film uhd { size = (3840, 2160)px, exposure = 1.5EV, tone_map = aces }",
     fields: &[
         Field::new("size", FieldType::Pixels, Default::Pixels([960, 540]), "Width and height.")
@@ -28,8 +27,8 @@ const FILM: TypeSchema = TypeSchema {
             "filter",
             FieldType::Word(Filter::WORDS),
             Default::Word("box"),
-            "How the samples of a pixel are spread around it. Each counts for one pixel only, with the weight 1, so that \
-             parts of a picture still merge exactly.",
+            "How the samples of a pixel are spread around it. Each counts for one pixel only, with the weight 1, so \
+             that parts of a picture still merge exactly.",
         )
         .foreign(&[
             ("pixelfilter", "pbrt"),
@@ -66,9 +65,10 @@ const FILM: TypeSchema = TypeSchema {
             "f_number",
             FieldType::Number(Bounds::number(0.1, 1e6)),
             Default::Absent("`exposure` decides"),
-            "Exposure as cameras have it, in place of `exposure`: with `shutter` and `iso` the PNG shows as middle grey, \
-             0.18, what a light meter calls right for them: the luminance 12.5 f_number^2 / (shutter iso) nit (ISO 2720, \
-             with its constant K = 12.5 of most makers). It changes no depth of field, which the camera has.",
+            "Exposure in the terms of cameras, in place of `exposure`: with `shutter` and `iso` the PNG shows as \
+             middle grey, 0.18, the luminance that a light meter calls right for them: 12.5 f_number^2 / (shutter \
+             iso) nit (ISO 2720, with K = 12.5, the constant of most makers). It does not change the depth of \
+             field, which is the camera's.",
         )
         .typical("1.4 to 22")
         .foreign(&[("fstop", "common use"), ("aperture", "common use"), ("f_stop", "LuxCore")]),
@@ -76,7 +76,7 @@ const FILM: TypeSchema = TypeSchema {
             "shutter",
             FieldType::Number(Bounds::above(Dim::TIME, "ms", 0.0)),
             Default::Absent("`exposure` decides"),
-            "Exposure time, beside `f_number`. It blurs nothing, which the `shutter` of the camera does.",
+            "Exposure time, with `f_number`. It blurs nothing; the `shutter` of the camera does.",
         )
         .typical("sun 4ms, a room 30ms, night 1s")
         .foreign(&[("exposure_time", "common use"), ("shutter_time", "common use"), ("exposuretime", "pbrt")]),
@@ -84,7 +84,7 @@ const FILM: TypeSchema = TypeSchema {
             "iso",
             FieldType::Number(Bounds::number(1.0, 1e7)),
             Default::Number(100.0),
-            "Sensitivity of the film, ISO 5800 or ISO 12232, beside `f_number`.",
+            "Sensitivity of the film, ISO 5800 or ISO 12232, with `f_number`.",
         )
         .typical("100 to 6400")
         .foreign(&[("sensitivity", "LuxCore")]),

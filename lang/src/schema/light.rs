@@ -27,9 +27,9 @@ types!(LightType {
 const SPHERE: TypeSchema = TypeSchema {
     kind: Kind::Light,
     name: "sphere",
-    doc: "A glowing ball, seen by the camera too. How bright it is says `strength` (its radiance), `intensity` or \
-          `power` (all it gives off), one of them; where it is say `center` and `radius`, or for a sun \
-          `direction`, `distance` and `angular_radius`. In an imported file only `pub` lights are in the world.",
+    doc: "A glowing ball, which the camera sees too. Give its brightness as one of `strength` (its radiance), \
+         `intensity` or `power` (all it gives off), and its place as `center` and `radius` or, for a sun, as \
+         `direction`, `distance` and `angular_radius`. In an imported file only `pub` lights are in the world.",
     example: "light sun: sphere { center = (30, 40, 10)m, radius = 2m, color = blackbody(4300K), \
               strength = 80 }",
     fields: &[
@@ -118,8 +118,8 @@ const SPHERE: TypeSchema = TypeSchema {
 const POINT: TypeSchema = TypeSchema {
     kind: Kind::Light,
     name: "point",
-    doc: "A bulb: a small sphere, because nothing that shines is a point. It is seen by the camera, and its shadows \
-          are as sharp as `radius` is small. With a `profile` it is a luminaire.",
+    doc: "A bulb: a small sphere, because nothing that shines is a point. The camera sees it, and the smaller its \
+         `radius`, the sharper its shadows. With a `profile` it is a luminaire.",
     example: "light bulb: point { at = (0, 2.1, 0)m, temperature = 2800K, power = 800lm }",
     fields: &[
         AT,
@@ -133,8 +133,8 @@ const POINT: TypeSchema = TypeSchema {
             FieldType::Name(Kind::Texture),
             Default::Absent("the same in all directions"),
             "How much light it gives off in each direction, in place of `intensity` and `power`: a `texture` of a \
-             luminaire file (IES), tagged `linear`. Of another image, whose top row is the middle of the beam, 1 is \
-             1000 candelas.",
+             luminaire file (IES), tagged `linear`. In any other image, whose top row is the middle of the beam, 1 \
+             means 1000 candelas.",
         )
         .foreign(&[("ies", "Blender and LuxCore"), ("iesfile", "LuxCore"), ("goniometric", "pbrt")]),
         Field::new(
@@ -143,7 +143,7 @@ const POINT: TypeSchema = TypeSchema {
             Default::Number(1.0),
             "Factor on the light of `profile`.",
         )
-        .typical("0.5 for a lamp that is dimmed to a half"),
+        .typical("0.5 for a lamp dimmed by half"),
         PROFILE_TO,
         PROFILE_DIRECTION,
         SPIN,
@@ -159,8 +159,8 @@ const POINT: TypeSchema = TypeSchema {
 const SPOT: TypeSchema = TypeSchema {
     kind: Kind::Light,
     name: "spot",
-    doc: "A lamp that shines into a cone: a small sphere that is dark from outside of it. It shines down unless `to` \
-          or `direction` says otherwise.",
+    doc: "A lamp that shines into a cone: a small sphere that looks dark from outside the cone. It shines down \
+         unless `to` or `direction` says otherwise.",
     example: "light stage: spot { at = (0, 4, 3)m, to = (0, 1, 0)m, cone = 25deg, edge = 5deg, power = 800lm }",
     fields: &[
         AT,
@@ -176,7 +176,7 @@ const SPOT: TypeSchema = TypeSchema {
                 max: std::f64::consts::FRAC_PI_2,
             }),
             Default::Number(std::f64::consts::FRAC_PI_4),
-            "Angle between its middle and where it ends: half of what the cone spans.",
+            "Angle between its axis and its edge: half of what the cone spans.",
         )
         .foreign(&[
             ("coneangle", "pbrt"),
@@ -194,7 +194,7 @@ const SPOT: TypeSchema = TypeSchema {
                 max: std::f64::consts::FRAC_PI_2,
             }),
             Default::Number(5.0 * std::f64::consts::PI / 180.0),
-            "Angle over which the light falls off, inside of `cone`; at most as large.",
+            "Angle over which the light falls off, inside `cone`; at most as large as it.",
         )
         .foreign(&[
             ("conedeltaangle", "pbrt"),
@@ -225,15 +225,15 @@ const DIRECTIONAL: TypeSchema = TypeSchema {
     kind: Kind::Light,
     name: "directional",
     doc: "The sun: a disc of even brightness infinitely far away, which shines from the same direction everywhere. \
-          `direction` points towards it. The camera sees the disc too. How bright it is says `illuminance`, what \
-          arrives at a surface that faces it whatever its diameter, or `strength`, its radiance.",
+         `direction` points towards it. The camera sees the disc too. Give its brightness as `illuminance`, what \
+         arrives at a surface that faces it, whatever its diameter, or as `strength`, its radiance.",
     example: "light sun: directional { direction = (0.3, 0.8, 0.4), illuminance = 100klx, temperature = 5800K }",
     fields: &[
         Field::new(
             "direction",
             FieldType::Vector(Dim::NONE, ""),
             Default::Required,
-            "From anywhere towards the light, against the way that its light travels; its length does not matter.",
+            "Towards the light, against the way its light travels; its length does not matter.",
         )
         .foreign(&[
             ("sundir", "LuxCore"),
@@ -296,7 +296,7 @@ const RECTANGLE: TypeSchema = TypeSchema {
     kind: Kind::Light,
     name: "rectangle",
     doc: "A panel or a window: a flat rectangle that shines evenly, seen by the camera too. It faces down unless \
-          `to` or `direction` says otherwise. It is an instance with an `emissive` material.",
+         `to` or `direction` says otherwise. It is an instance with an `emissive` material.",
     example: "light key: rectangle { at = (2, 3, 2)m, to = (0, 1, 0)m, size = (1, 0.5)m, power = 2klm }",
     fields: &[
         AT,
@@ -304,7 +304,7 @@ const RECTANGLE: TypeSchema = TypeSchema {
             "size",
             FieldType::Size(2),
             Default::Required,
-            "Width, which is level, and height.",
+            "Width, along the horizontal, and height.",
         ),
         TO,
         DIRECTION,
@@ -332,7 +332,7 @@ const DISK: TypeSchema = TypeSchema {
     kind: Kind::Light,
     name: "disk",
     doc: "A round panel: a flat disk that shines evenly, seen by the camera too. It faces down unless `to` or \
-          `direction` says otherwise. It is a square with an `emissive` material, cut out to a circle.",
+         `direction` says otherwise. It is a square with an `emissive` material, cut out to a circle.",
     example: "light dish: disk { at = (0, 3, 2)m, to = (0, 1, 0)m, radius = 40cm, power = 1.5klm }",
     fields: &[
         AT,
@@ -356,8 +356,8 @@ const DISK: TypeSchema = TypeSchema {
 const MESH: TypeSchema = TypeSchema {
     kind: Kind::Light,
     name: "mesh",
-    doc: "A thing of any shape that shines evenly: a neon sign, a lamp of a mesh file, a mesh written in the scene. It is \
-          an instance with an `emissive` material, and is placed as instances are.",
+    doc: "A thing of any shape that shines evenly: a neon sign, a lamp of a mesh file, a mesh written in the scene. \
+         It is an instance with an `emissive` material, and is placed as instances are.",
     example: "light sign: mesh { shape = box(size: (2, 0.1, 0.1)m), at = (0, 2, 0)m, strength = 500nit }",
     fields: &[
         Field::new("shape", FieldType::Shape, Default::Required, instance::SHAPE)
@@ -376,8 +376,8 @@ const MESH: TypeSchema = TypeSchema {
             ..STRENGTH
         },
         Field {
-            doc: "All the light it gives off, spread over its area: watts for a white light, or lumens, 683 to the watt of \
-                  luminous power. A closed shape shines outwards only.",
+            doc: "All the light it gives off, spread over its area: watts for a white light, or lumens, 683 to the \
+                 watt of luminous power. A closed shape shines outwards only.",
             typical: "a neon sign of a metre 700lm",
             ..POWER
         },

@@ -7,8 +7,8 @@ pub(super) const TYPES: &[&TypeSchema] = &[&PATH];
 
 const UNLIMITED: &[Word] = &[(
     "unlimited",
-    "paths end by Russian roulette alone, so no light is missing; from bounce 1024 on with a chance of 1 in 1024 at least, \
-     which also ends those that lose nothing",
+    "paths end by Russian roulette alone, so no light is missing; from bounce 1024 on with a chance of 1 in 1024 at \
+     least, which also ends those that lose nothing",
 )];
 
 const PATH: TypeSchema = TypeSchema {
@@ -21,27 +21,27 @@ const PATH: TypeSchema = TypeSchema {
             "camera",
             FieldType::Name(Kind::Camera),
             Default::Absent("the only camera of the file"),
-            "From where it is seen.",
+            "The camera that sees the scene.",
         )
         .foreign(&[("sensor", "Mitsuba")]),
         Field::new(
             "film",
             FieldType::Name(Kind::Film),
             Default::Absent("the only film of the file, or one with every default"),
-            "What the picture is.",
+            "The picture that is made.",
         ),
         Field::new(
             "sky",
             FieldType::Name(Kind::Sky),
             Default::Absent("the only sky of the file, or black; `none` is black"),
-            "What is seen where nothing is.",
+            "What is seen where there is nothing else.",
         )
         .foreign(&[("environment", "common use"), ("world", "Blender"), ("background", "common use")]),
         Field::new(
             "atmosphere",
             FieldType::Name(Kind::Medium),
             Default::Absent("clear air"),
-            "What is between things and outside of them.",
+            "What fills the space around things.",
         )
         .foreign(&[("medium", "Mitsuba"), ("volume_world", "LuxCore"), ("fog", "common use")]),
         Field::new(
@@ -87,7 +87,8 @@ const PATH: TypeSchema = TypeSchema {
             "sampler",
             FieldType::Word(Sampler::WORDS),
             Default::Word("sobol"),
-            "Which random numbers; both converge to the same picture. Powers of two suit `sobol` best as `samples`.",
+            "Which random numbers to draw; both converge to the same picture. `sobol` is best with a power of two \
+             as `samples`.",
         )
         .foreign(&[("sampling_pattern", "Blender")]),
         Field::new(

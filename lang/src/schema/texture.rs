@@ -15,23 +15,23 @@ const OFFSET: Bounds = Bounds::number(-1e6, 1e6);
 const IMAGE: TypeSchema = TypeSchema {
     kind: Kind::Texture,
     name: "image",
-    doc: "An image file (PNG, JPEG, WebP, KTX2, HDR, EXR), or a luminaire file (IES), for the `profile` of a light. Materials read it as `.rgb`, or one channel of it \
-          as `.r`, `.g`, `.b` or `.a`. Alpha is always linear. Vertex colours need no declaration: \
-          they are the texture `vertex_color`, white on whatever has none.",
+    doc: "An image file (PNG, JPEG, WebP, KTX2, HDR, EXR), or a luminaire file (IES), for the `profile` of a light. \
+         Materials read it as `.rgb`, or one channel of it as `.r`, `.g`, `.b` or `.a`. Alpha is always linear. \
+         Vertex colours need no declaration: they are the texture `vertex_color`, white on whatever has none.",
     example: "texture bark = image(\"bark.png\", space: srgb, wrap: mirror)",
     fields: &[
         Field::new(
             "path",
             FieldType::Path,
             Default::Required,
-            "The file, relative to the `.rts` file that says it. Comes first and needs no name.",
+            "The file, relative to the `.rts` file that names it. Comes first and needs no name.",
         )
         .foreign(&[("filename", "pbrt, Mitsuba"), ("file", "LuxCore"), ("uri", "glTF")]),
         Field::new(
             "space",
             FieldType::Word(ColorSpace::WORDS),
             Default::Required,
-            "How the numbers in the file are to be read.",
+            "How to read the numbers in the file.",
         )
         .foreign(&[
             ("encoding", "pbrt"),
@@ -65,8 +65,8 @@ const IMAGE: TypeSchema = TypeSchema {
             "scale",
             FieldType::Number(SCALE),
             Default::Number(1.0),
-            "How often the image fits into a unit of the texture coordinates, along both axes; below zero it is \
-             mirrored. Coordinates are scaled, then turned, then moved.",
+            "How often the image repeats in a unit of the texture coordinates, along both axes; negative values \
+             mirror it. Coordinates are scaled, then turned, then moved.",
         )
         .typical("4")
         .foreign(&[("repeat", "three.js"), ("tiling", "Unity")]),
@@ -74,14 +74,14 @@ const IMAGE: TypeSchema = TypeSchema {
             "scale_u",
             FieldType::Number(SCALE),
             Default::Absent("what `scale` says"),
-            "How often it fits along u.",
+            "How often it repeats along u.",
         )
         .foreign(&[("uscale", "pbrt")]),
         Field::new(
             "scale_v",
             FieldType::Number(SCALE),
             Default::Absent("what `scale` says"),
-            "How often it fits along v.",
+            "How often it repeats along v.",
         )
         .foreign(&[("vscale", "pbrt")]),
         Field::new(

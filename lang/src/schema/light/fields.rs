@@ -85,15 +85,14 @@ pub(super) const POWER: Field = Field::new(
     Default::Absent("`strength` decides"),
     "All the light it gives off: watts for a white light, or lumens, 683 to the watt of luminous power.",
 )
-.typical("a 60W bulb of old gives 800lm, a candle 12lm")
+.typical("an old 60W bulb gives 800lm, a candle 12lm")
 .foreign(&[("flux", "common use"), ("watts", "common use"), ("lumens", "common use")]);
 
 pub(super) const INTENSITY: Field = Field::new(
     "intensity",
     INTENSITIES,
     Default::Absent("`strength` decides"),
-    "How much light it gives off in each direction: candelas, or watts per steradian for \
-     a white light.",
+    "How much light it gives off in each direction: candelas, or watts per steradian for a white light.",
 )
 .typical("a candle 1cd, a car's high beam 40kcd")
 .foreign(&[("candela", "common use")]);
@@ -131,8 +130,8 @@ pub(super) const ONLY: Field = Field::new(
     "only",
     FieldType::Names(Kind::Instance),
     Default::Absent("all"),
-    "Light linking: it lights these instances and nothing else. Everything still casts a shadow, and the camera still sees \
-     the light; a mirror that is not listed does not show it.",
+    "Light linking: it lights these instances and nothing else. Everything still casts a shadow, and the camera \
+     still sees the light; a mirror that is not listed does not show it.",
 )
 .typical("`[vase, plinth]`")
 .foreign(&[("light_linking", "Blender"), ("include", "common use"), ("links", "common use")]);
@@ -172,7 +171,7 @@ pub(super) const SPIN: Field = Field::new(
     "spin",
     FieldType::Number(Bounds::new(Dim::ANGLE, "deg", f64::NEG_INFINITY, ANY)),
     Default::Number(0.0),
-    "Turned about `direction`, counter-clockwise seen by who looks at it.",
+    "Turns it about `direction`, counter-clockwise for someone who looks at it.",
 );
 
 /// Of flat lights.
