@@ -152,7 +152,7 @@ pub(super) struct ErrorArgs {
     /// --spp and --time still apply; whichever is reached first ends the run.
     #[arg(long, value_name = "[p95:]X")]
     pub(super) until_error: Option<Goal>,
-    /// Give parts of the picture whose error is small already fewer samples, decided once after 64 spp. Needs
+    /// Give fewer samples to parts of the picture whose error is already small, as decided once, after 64 spp. Needs
     /// --until-error. The picture is slightly biased; its header says so.
     #[arg(long, requires = "until_error")]
     pub(super) adaptive: bool,
@@ -216,9 +216,9 @@ pub(super) struct CheckArgs {
 const VIEW_EXAMPLES: &str = "\
 Examples:
   rtr view scene.pack                       opens the page; Ctrl-C ends it
-  rtr view scene.rts                        compiles at every change (rtc --watch), and shows what is wrong
+  rtr view scene.rts                        compiles at every change, and shows any errors
   rtr view scene.pack --size 640x360 --spp 256
-  rtr view scene.pack --port 8000           for a tunnel: ssh -L 8000:127.0.0.1:8000 HOST, then the same URL
+  rtr view scene.pack --port 8000           through ssh -L 8000:127.0.0.1:8000 HOST
   rtr view scene.pack --listen 10.0.0.7     for other machines too, without encryption
 
 The page is served on the loopback to whoever has its URL, which holds a secret. Nothing is written.";
@@ -314,12 +314,11 @@ pub(super) struct RenderArgs {
     #[arg(conflicts_with_all = MEASURING)]
     #[expect(clippy::option_option, reason = "what clap calls a flag with an optional value")]
     pub(super) resume: Option<Option<PathBuf>>,
-    /// Leave the pictures alone if they are there already: every EXR holds all samples of this run, of this very pack.
-    /// For tasks that may run twice.
+    /// Do nothing if the pictures are complete: every EXR holds all samples of this run, from this very pack. For
+    /// tasks that may run twice.
     #[arg(long, conflicts_with = "watch", conflicts_with_all = MEASURING)]
     pub(super) skip_complete: bool,
-    /// Render again whenever the pack changes, until Ctrl-C. Unfinished pictures are not continued, broken packs
-    /// reported.
+    /// Render again whenever the pack changes, until Ctrl-C. An unfinished picture is dropped, a broken pack reported.
     #[arg(long, conflicts_with = "resume", conflicts_with_all = MEASURING)]
     pub(super) watch: bool,
     /// Time between checkpoints, such as 60s or 5m, or `never`. They are written beside the first output as
@@ -328,8 +327,9 @@ pub(super) struct RenderArgs {
     #[arg(long, default_value = "60s", value_name = "TIME", value_parser = parse_every)]
     pub(super) checkpoint_every: Every,
     /// Time between two pictures while rendering, such as 2s, or `never` [default: 5s]. The first is coarse, one sample
-    /// for a block of pixels, and comes at once; blocks give way to pixels as these get their samples. Each replaces
-    /// the one before as a whole. With this flag streams get them too, one after the other; without it only the last.
+    /// for a block of pixels, and comes at once; blocks give way to pixels as these get their samples. Each
+    /// replaces the one before in a single step. With this flag streams get every picture, one after the other;
+    /// without it only the last.
     #[arg(long, value_name = "TIME", value_parser = parse_every)]
     pub(super) write_every: Option<Every>,
     /// Show the picture in tev, the image viewer, while it is rendered: every second, or as --write-every says
@@ -368,7 +368,7 @@ pub(super) struct RenderArgs {
     #[arg(long, value_name = "WHAT", num_args = 0..=1, require_equals = true, default_missing_value = "each")]
     #[arg(conflicts_with_all = ["samples", "time", "output", "resume", "watch", "plot", "until_error", "reference", "denoise"])]
     pub(super) ablate: Option<AblateArg>,
-    /// Say what is seen in this pixel instead of rendering: instance, object, material and part of an asset with
+    /// Print what this pixel shows instead of rendering: instance, object, material and part of an asset with
     /// their lines, position, distance and normal. Honours --size.
     #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
     #[arg(conflicts_with_all = ["samples", "time", "output", "resume", "watch", "plot", "until_error", "reference", "ablate", "denoise"])]
