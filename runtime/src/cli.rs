@@ -28,6 +28,7 @@ mod pick;
 mod pictures;
 mod progress;
 mod render;
+mod summary;
 mod timed;
 mod values;
 mod view;
