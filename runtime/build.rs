@@ -1,6 +1,8 @@
 //! Links the full kernel, measures it, and lists every declaration that the linker can emit, so that a kernel in a pack
 //! can be recognised as ours.
 
+#[path = "build/emitted.rs"]
+mod emitted;
 #[path = "build/families.rs"]
 mod families;
 #[path = "build/known.rs"]

@@ -4,8 +4,8 @@
 //! its values. A declaration that always reads the same is known for every scene; one that varies
 //! within a family is known only for scenes with the same features of that group.
 
+use crate::emitted::{Emitted, Group, Texts, declarations_of};
 use crate::families::{self, Family, GEOMETRY, MATERIALS, MEDIA};
-use crate::pieces::{name_of, pieces};
 use pack::abi::MaterialKind;
 use pack::features as bit;
 use shaders::{FeatureSet, Windows};
@@ -16,38 +16,26 @@ use std::fmt::Write as _;
 /// Feature bits are long numbers.
 const GENERATED: &str = "#[allow(clippy::unreadable_literal, reason = \"generated\")]\n";
 
-/// Texts of a declaration, each with the (family, bits) in which it occurs.
-type Texts = BTreeMap<String, BTreeSet<(usize, u64)>>;
-
 /// Rust source of `KNOWN: &[Known]`, sorted by text, and of `SWITCHES: &[Switch]`.
 pub(crate) fn table() -> Result<String, Box<dyn Error>> {
     let families = families::all();
-    let mut declarations: BTreeMap<String, Texts> = BTreeMap::new();
+    let mut emitted = Emitted::default();
     for (f, family) in families.iter().enumerate() {
-        let mut last: Option<(&FeatureSet, Vec<(String, String)>)> = None;
-        for (bits, features) in &family.members {
-            // Members that differ only in bits follow each other.
-            let linked = match last.take().filter(|(known, _)| *known == features) {
-                Some((_, linked)) => linked,
-                None => declarations_of(features)?,
-            };
-            for (name, text) in &linked {
-                let texts = declarations.entry(name.clone()).or_default();
-                texts.entry(text.clone()).or_default().insert((f, *bits));
-            }
-            last = Some((features, linked));
+        // Members that differ only in bits follow each other.
+        for alike in family.members.chunk_by(|a, b| a.1 == b.1) {
+            emitted.add(f, alike)?;
         }
     }
     let mut rows: BTreeSet<(String, String)> = readers()?;
     let mut switching = Vec::new();
-    for (name, texts) in &declarations {
+    for (name, texts) in emitted.by_name() {
         if name.ends_with("_word") {
             continue;
         }
-        rows.extend(rows_of(name, texts, &families)?);
-        let varying = varying(texts, families.len());
+        rows.extend(rows_of(name, &texts, &families)?);
+        let varying = varying(&texts, families.len());
         if varying.first() == Some(&MATERIALS) {
-            switching.push(name.clone());
+            switching.push(name.to_owned());
         }
     }
     let mut source = format!("{GENERATED}static KNOWN: &[Known] = &[\n");
@@ -60,9 +48,9 @@ pub(crate) fn table() -> Result<String, Box<dyn Error>> {
 }
 
 /// The families in which a declaration has several texts.
-fn varying(texts: &Texts, n_families: usize) -> Vec<usize> {
+fn varying(texts: &Texts<'_>, n_families: usize) -> Vec<usize> {
     let varies = |f: &usize| {
-        texts.values().filter(|places| places.iter().any(|place| place.0 == *f)).count() > 1
+        texts.values().filter(|groups| groups.iter().any(|group| group.family == *f)).count() > 1
     };
     (0..n_families).filter(varies).collect()
 }
@@ -70,10 +58,10 @@ fn varying(texts: &Texts, n_families: usize) -> Vec<usize> {
 /// The rows of one declaration.
 fn rows_of(
     name: &str,
-    texts: &Texts,
+    texts: &Texts<'_>,
     families: &[Family],
 ) -> Result<Vec<(String, String)>, Box<dyn Error>> {
-    let any = |text: &String| (text.clone(), "Condition::Any".to_owned());
+    let any = |text: &&str| ((*text).to_owned(), "Condition::Any".to_owned());
     if texts.len() == 1 {
         return Ok(texts.keys().map(any).collect());
     }
@@ -83,20 +71,21 @@ fn rows_of(
         let masks: Vec<u64> = varying.iter().map(|f| families[*f].mask).collect();
         return Err(format!("`{name}` depends on several groups of features: {masks:#x?}").into());
     };
-    let of_family = |places: &BTreeSet<(usize, u64)>| {
-        places.iter().filter(|place| place.0 == family).map(|place| place.1).collect::<Vec<_>>()
+    let of_family = |groups: &Vec<&Group>| {
+        let own = groups.iter().filter(|group| group.family == family);
+        own.flat_map(|group| group.bits.iter().copied()).collect::<Vec<u64>>()
     };
     let whole = families[family].mask;
     // Its members are all combinations that there can be, and far too many to list for each text.
     let mask =
         if family == GEOMETRY { decisive(whole, texts.values().map(of_family)) } else { whole };
     let mut rows = Vec::new();
-    for (text, places) in texts {
-        let all: BTreeSet<u64> = of_family(places).into_iter().map(|bits| bits & mask).collect();
+    for (text, groups) in texts {
+        let all: BTreeSet<u64> = of_family(groups).into_iter().map(|bits| bits & mask).collect();
         let mask = literal(mask);
         rows.extend(all.into_iter().map(|bits| {
             let bits = literal(bits);
-            (text.clone(), format!("Condition::Features {{ mask: {mask}, bits: {bits} }}"))
+            ((*text).to_owned(), format!("Condition::Features {{ mask: {mask}, bits: {bits} }}"))
         }));
     }
     Ok(rows)
@@ -134,20 +123,6 @@ fn literal(bits: u64) -> String {
     let all: Vec<String> =
         Some(head.to_owned()).filter(|head| !head.is_empty()).into_iter().chain(groups).collect();
     format!("0x{}", all.join("_"))
-}
-
-/// Name and text of every declaration of a kernel.
-fn declarations_of(features: &FeatureSet) -> Result<Vec<(String, String)>, Box<dyn Error>> {
-    // Layers are of scenes with geometry.
-    let more: &[_] = if features.geometry() { &[shaders::AOV] } else { &[] };
-    let linked = shaders::link_with(features, more)?;
-    let pieces = pieces(&linked.text).map_err(|line| format!("line {line} is not plain text"))?;
-    pieces
-        .into_iter()
-        .map(|(_, text)| {
-            Ok((name_of(text).ok_or("a declaration without a name")?.to_owned(), text.to_owned()))
-        })
-        .collect()
 }
 
 /// Rust source of `SWITCHES: &[Switch]`: the functions that switch over the kinds of materials. With

@@ -58,6 +58,11 @@ impl Linked {
         self.locate(before.map(str::len).sum::<usize>() + column.saturating_sub(1) as usize)
     }
 
+    /// The declarations, each with the comment above it, in order.
+    pub fn declarations(&self) -> impl Iterator<Item = &str> {
+        self.pieces.iter().map(|piece| &self.text[piece.start..piece.start + piece.length])
+    }
+
     /// Names of the modules that the kernel is made of, in order of first use.
     #[must_use]
     pub fn files(&self) -> Vec<&str> {
