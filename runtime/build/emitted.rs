@@ -1,7 +1,7 @@
 //! Feature sets become the declarations that the linker emits for them.
 //!
-//! There are some thousands of kernels of some hundreds of declarations each, nearly all of them the same: each text is
-//! kept once, and known by its number.
+//! There are more than a thousand kernels of some hundreds of declarations each, nearly all of them the same: each text
+//! is kept once, and known by its number.
 
 use crate::pieces::{name_of, pieces};
 use shaders::{FeatureSet, Linked};
@@ -87,7 +87,8 @@ fn linked(features: &FeatureSet) -> Result<Linked, Box<dyn Error>> {
     Ok(shaders::link_with(features, more)?)
 }
 
-/// Name and text of every declaration in `text`. A kernel is cut where its parts are.
+/// Name and text of every declaration in `text`. A kernel is cut where its declarations are, each cut alone: blank lines
+/// are between them.
 fn cut(text: &str) -> Result<Vec<(String, String)>, Box<dyn Error>> {
     let pieces = pieces(text).map_err(|line| format!("line {line} is not plain text"))?;
     pieces
