@@ -87,8 +87,8 @@ fn linked(features: &FeatureSet) -> Result<Linked, Box<dyn Error>> {
     Ok(shaders::link_with(features, more)?)
 }
 
-/// Name and text of every declaration in `text`. A kernel is cut where its declarations are, each cut alone: blank lines
-/// are between them.
+/// Name and text of every declaration in `text`. Those of a kernel are cut alone as they are together: blank lines are
+/// between them.
 fn cut(text: &str) -> Result<Vec<(String, String)>, Box<dyn Error>> {
     let pieces = pieces(text).map_err(|line| format!("line {line} is not plain text"))?;
     pieces
